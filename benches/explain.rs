@@ -1,7 +1,7 @@
 //! Why a triangle is there: the time of one answer, which must not grow with the mesh.
 //!
-//! Random triangles of the report's diamond: the cause with the replayed chain, and the place in the field that
-//! decides.
+//! Random triangles of the report's diamond: the cause with the replayed chain, and the place in the field
+//! that decides.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -18,7 +18,7 @@ use meshbrush_mesh::mesh::{Cleaning, Limits, Progress, TreeTriangle, TriangleId,
 
 const TRIANGLES: usize = 1_000;
 
-/// The report's diamond refined to a level by the area rule.
+/// Returns the report's diamond refined to a level by the area rule.
 fn built(level: u32, limits: Limits) -> BuiltMesh {
     let domain = Domain::rectangle(Rect::around(DVec2::ZERO, 10.0));
     let target = bisection_edge_length(1.0, level) * (1.0 + 1e-12);

@@ -1,5 +1,6 @@
 //! The diamond of [`crate::diamond`] as the pixels of a raster layer, asked by the area rule.
 
+use std::convert::Infallible;
 use std::sync::Arc;
 
 use meshbrush_core::field::Transfer;
@@ -26,7 +27,7 @@ pub fn graded(target: f64) -> SizeField {
     of_pixels(|distance| target + 0.1 * distance.abs())
 }
 
-/// A raster of h̄ at the distance ‖x‖₁ − 8 from the diamond.
+/// Returns a raster of h̄ at the distance ‖x‖₁ − 8 from the diamond.
 fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
     let bounds = Rect::around(glam::DVec2::ZERO, 10.0);
     let at = |n: u32| (f64::from(n) + 0.5) / f64::from(SIDE) * 20.0 - 10.0;
@@ -44,8 +45,8 @@ fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
     SizeField::new(spec, diamond::coarse().lattice())
 }
 
-/// The area rule.
-pub fn rule(field: &SizeField) -> impl SharedRule {
+/// Returns the area rule.
+pub fn rule(field: &SizeField) -> impl SharedRule<Error = Infallible> {
     || Answers { field, squares: SettledSquares::default() }
 }
 
@@ -55,7 +56,9 @@ struct Answers<'a> {
 }
 
 impl RuleAnswers for Answers<'_> {
-    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
-        self.field.levels_within(&mut self.squares, PaintLayers::blank(), corners, level)
+    type Error = Infallible;
+
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Infallible> {
+        Ok(self.field.levels_within(&mut self.squares, PaintLayers::blank(), corners, level))
     }
 }

@@ -31,15 +31,15 @@ use meshbrush_mesh::mesh::{PatchPieces, TriangleId};
 use meshbrush_render::render::gpu::Offscreen;
 
 const FRAMES: usize = 120;
-/// What a mouse reports in a frame, at 120 a second.
+/// Number of points that a mouse reports in a frame, at 120 points a second.
 const POINTS_PER_FRAME: usize = 2;
 /// How often each stroke is repeated.
 const ROUNDS: usize = 5;
 
 const ERASER: Brush = Brush { medium: Medium::Eraser, strength: 1.0, ..BRUSH };
 
-/// Position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long, slow in the
-/// bends.
+/// Returns the position of the mouse after a share of the stroke: most of a figure eight, 2.4 units long,
+/// slow in the bends.
 fn recorded(share: f64) -> DVec2 {
     let progress = share - 0.05 * (12.0 * share).sin();
     let angle = 0.4 + 5.6 * progress;
@@ -63,7 +63,7 @@ fn square() -> Document {
     Document::new(settings(0.45), None).expect("valid settings")
 }
 
-/// The same field in a lake with an island, with nodes on both outlines.
+/// Returns a document with the field in a lake with an island, with nodes on both outlines.
 fn lake() -> Document {
     const CORNERS: u32 = 100_000;
     let ring = |radius: f64| -> Vec<DVec2> {
@@ -98,7 +98,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// A document whose mesh is up to date and derived, on the screen.
+    /// Creates a document whose mesh is up to date and derived, on the screen.
     fn new(mut document: Document) -> Self {
         let follower = Follower::new(&mut document).expect("it has a mesh");
         let began = Instant::now();
@@ -137,7 +137,7 @@ impl Bench {
         (times, stage)
     }
 
-    /// As `Session::follow` does it.
+    /// Follows the document as `Session::follow` does.
     fn follow(&mut self, deadline: Instant) -> Stage {
         loop {
             let stage = self.follower.advance(&mut self.document, SLICE).expect("the budget is far");

@@ -71,7 +71,7 @@ fn measure(
     });
 }
 
-fn in_blocks(mesh: &mut Mesh, pool: &ThreadPool, rule: &impl SharedRule) {
+fn in_blocks(mesh: &mut Mesh, pool: &ThreadPool, rule: &impl SharedRule<Error: std::fmt::Debug>) {
     pool.install(|| mesh.refine_in_blocks(&Limits::default(), rule)).expect("within the default limits");
 }
 

@@ -1,18 +1,19 @@
 //! Edits of a stack of eight layers on a mesh of two million triangles.
 //!
-//! The stack has a formula, a raster through a curve, a band, the distance to lines, a hundred threats, a floor
-//! within a mask, and paint of both quantities. It is measured without a limit of gradation and with one.
+//! The stack has a formula, a raster through a curve, a band, the distance to lines, a hundred threats, a
+//! floor within a mask, and paint of both quantities. It is measured without a limit of gradation and with
+//! one.
 //!
-//! A dab, a moved threat, a layer that is hidden and the same layer shown: *first* is the time from the edit to
-//! the first slice after which the mesh differs, *rest* the time until it is up to date. Both are medians of
-//! five. *slice* is the longest time that a single slice took in any of them.
+//! A dab, a moved threat, a layer that is hidden and the same layer shown: *first* is the time from the edit
+//! to the first slice after which the mesh differs, *rest* the time until it is up to date. Both are medians
+//! of five. *slice* is the longest time that a single slice took in any of them.
 //!
-//! *hover* is what the window reads at a point under the pointer: h̄, the layer that decides it, and the place
-//! from which gradation carries it.
+//! *hover* is what the window reads at a point under the pointer: h̄, the layer that decides it, and the
+//! place from which gradation carries it.
 //!
-//! A stroke and a dragged threat, one move per frame of 1/60 s: the work of a frame is the edit and the slices
-//! after it, until the mesh is up to date or the window's budget is spent. The times between frames are not
-//! waited for.
+//! A stroke and a dragged threat, one move per frame of 1/60 s: the work of a frame is the edit and the
+//! slices after it, until the mesh is up to date or the window's budget is spent. The times between frames
+//! are not waited for.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -71,7 +72,8 @@ fn hills() -> Raster {
     Raster::from_values(Rect::UNIT, [RASTER_SIDE; 2], values)
 }
 
-/// The first is large and lies above the wave; the others are small and spread over the square.
+/// Returns shapes of which the first is large and lies above the wave; the others are small and spread over
+/// the square.
 fn threats() -> Threats {
     let mut random = fastrand::Rng::with_seed(12);
     let mut threats = vec![moved_threat(0.0)];
@@ -84,18 +86,18 @@ fn threats() -> Threats {
     Threats::new(threats).expect("valid threats")
 }
 
-/// The first threat, after a share of the way along which it is dragged.
+/// Returns the first threat, after a share of the way along which it is dragged.
 fn moved_threat(share: f64) -> Threat {
     Threat { at: dvec2(0.3 + 0.4 * share, 0.75), range: 0.08, peak: 0.75, law: ThreatLaw::Radar }
 }
 
-/// Most of a figure eight, 2.4 units long.
+/// Returns the most of a figure eight, 2.4 units long.
 fn stroke_at(share: f64) -> DVec2 {
     let angle = 0.4 + 5.6 * share;
     dvec2(0.5 + 0.36 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin())
 }
 
-/// What bringing the mesh up to date takes.
+/// The times of bringing the mesh up to date.
 #[derive(Clone, Copy, Default)]
 struct Times {
     first: Duration,
@@ -141,7 +143,8 @@ impl Bench {
         }
     }
 
-    /// The work of one frame: an edit, and slices until the mesh is up to date or the budget is spent.
+    /// Returns the work of one frame: an edit, and slices until the mesh is up to date or the budget is
+    /// spent.
     fn frame(&mut self, edit: impl FnOnce(&mut Document)) -> (Duration, Stage) {
         let began = Instant::now();
         edit(&mut self.document);

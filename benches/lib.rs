@@ -1,4 +1,4 @@
-//! What several benches share.
+//! Code that several benches share.
 
 pub mod diamond;
 pub mod field;

@@ -19,7 +19,7 @@ const ROUNDS: usize = 3;
 /// Pixels along a side of the risk.
 const SIDE: u32 = 1024;
 
-/// A hill and a ridge of risk on the unit square, as the pixels of a raster.
+/// Returns a hill and a ridge of risk on the unit square, as the pixels of a raster.
 fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
     settings.transfer.h_min = h_min;

@@ -34,7 +34,7 @@ fn paint(document: &mut Document, height: f64) {
     document.finish_stroke();
 }
 
-/// The time until the mesh is in step with the document.
+/// Returns the time until the mesh is in step with the document.
 fn settle(document: &mut Document, follower: &mut Follower) -> Duration {
     let start = Instant::now();
     loop {

@@ -42,7 +42,8 @@ struct Scene {
 }
 
 impl Scene {
-    /// The right half asks for `level` below the given row, which determines the size of the mesh.
+    /// Returns a rule by which the right half needs `level` below the given row, which determines the size of
+    /// the mesh.
     fn new(level: u8, rows: u32) -> Self {
         let lattice = Lattice::covering(Rect::UNIT, 1.0 / 16.0, 1_000_000).expect("a square has a grid");
         let coarse =
@@ -111,7 +112,7 @@ impl Scene {
     }
 }
 
-/// The area rule.
+/// Returns the area rule.
 fn rule(field: &SizeField, paint: &PaintLayers) -> impl Fn(&Element) -> Result<bool, InvalidTarget> {
     move |element| Ok(field.exceeds(paint, element))
 }

@@ -13,7 +13,7 @@ use meshbrush_render::scene::{Camera, Style};
 
 const SIZE: [u32; 2] = [1200, 900];
 
-/// A graded mesh of about 100 thousand, 1 million and 4 million triangles.
+/// Returns a graded mesh of about 100 thousand, 1 million and 4 million triangles.
 fn meshes() -> Vec<(&'static str, Mesh)> {
     [("100k", 0.0024), ("1M", 0.0007), ("4M", 0.00033)].map(|(name, least)| (name, graded(least))).into()
 }
@@ -28,7 +28,7 @@ fn graded(least: f64) -> Mesh {
     mesh.refine(&Limits::default(), |element| {
         let off = |x: DVec2| (x.y - 0.5 - 0.3 * (6.0 * x.x).sin()).abs();
         let nearest = element.world_corners().map(off).into_iter().fold(f64::MAX, f64::min);
-        Ok(element.diameter() > (0.1 * (nearest - 0.04)).max(least))
+        element.diameter() > (0.1 * (nearest - 0.04)).max(least)
     })
     .unwrap();
     mesh
@@ -38,7 +38,7 @@ fn style() -> Style {
     Style::dark(std::array::from_fn(|level| [(level * 255 / LEVELS) as u8, 140, 90, 255]))
 }
 
-/// The whole grid, panned a little each time, so that no kept picture can be reused.
+/// Returns the whole grid, panned a little each time, so that no kept picture can be reused.
 fn moved(mesh: &Mesh, frame: &mut u32) -> Camera {
     *frame += 1;
     let camera = Camera::fit(mesh.lattice(), mesh.lattice().bounds(), SIZE, 20.0);

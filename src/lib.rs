@@ -47,9 +47,9 @@ pub use meshbrush_core::raster::{
 pub use meshbrush_mesh::geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{
-    BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, Fingerprint, Forecast, InvalidTarget,
-    LevelsWithin, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, Progress, RefineError, Refiner, RuleAnswers,
-    SharedRule, TargetChange, Updater, Violation, bisection_edge_length,
+    Answer, BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, Fingerprint, Forecast,
+    InvalidTarget, LevelsWithin, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, Progress, RefineError, Refiner,
+    RuleAnswers, SharedRule, TargetChange, Updater, Violation, bisection_edge_length,
 };
 
 // Paint.
@@ -81,12 +81,14 @@ pub use meshbrush_core::path::{
 
 // Query a mesh.
 #[doc(inline)]
-pub use meshbrush_core::explain::{Bisections, Demand, Explanation, LevelFigures, Words};
+pub use meshbrush_core::explain::{Demand, Explanation, Words};
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{
     Adjacency, Cause, Cleaning, KeptParts, Location, Locator, Neighbour, NodeId, Orientation, PatchedLocator,
     Removed, RemovedPart, Topology, TreeTriangle, Triangle, TriangleId, barycentric, interpolate,
 };
+#[doc(inline)]
+pub use meshbrush_study::levels::{Bisections, LevelFigures};
 
 // Read and write files.
 #[doc(inline)]

@@ -386,7 +386,7 @@ impl Display {
         })
     }
 
-    /// The screen once it has not changed for a while and no work is in progress, kept as `name`.png.
+    /// Returns the screen once it has not changed for a while and no work is in progress, kept as `name`.png.
     fn settled_picture(&self, scratch: &Scratch, name: &str) -> Picture {
         sleep(Duration::from_millis(300));
         let mut last = Picture::default();
@@ -464,7 +464,7 @@ impl Rgb {
         r.max(g).max(b) - r.min(g).min(b) > 40
     }
 
-    /// A colour of the upper half of viridis, green to yellow.
+    /// Returns a colour of the upper half of viridis, green to yellow.
     fn is_deep(self) -> bool {
         let [_, g, b] = self.0;
         g > b.saturating_add(20)
@@ -529,8 +529,8 @@ impl Picture {
         area.pixels().filter(|&at| self.pixel(at) != other.pixel(at)).count()
     }
 
-    /// The part of the canvas that the coarse grid covers, by its colour: rows and columns that mostly show
-    /// level 0.
+    /// Returns the part of the canvas that the coarse grid covers, by its colour: rows and columns that
+    /// mostly show level 0.
     fn domain(&self) -> Area {
         let mostly = |line: Area| 3 * self.count(&line, Rgb::is_level_0) > line.size();
         let columns = CANVAS.x.filter(|&x| mostly(Area { x: x..x + 1, y: CANVAS.y }));

@@ -13,7 +13,7 @@ const SLICE: usize = 1 << 16;
 #[derive(Default)]
 pub struct AgeKeeper {
     ages: Ages,
-    /// Of the document, when it was last looked at.
+    /// The version of the document at the last look.
     version: u64,
     was_in_gesture: bool,
     /// Whether the next change of the mesh belongs to another edit than the last one.
@@ -54,7 +54,7 @@ impl AgeKeeper {
         false
     }
 
-    /// The ages as they are, for another thread.
+    /// Returns the ages as they are, for another thread.
     pub fn snapshot(&self) -> AgesNow {
         self.ages.snapshot()
     }

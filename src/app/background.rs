@@ -16,23 +16,23 @@ use meshbrush_io::io::{self, Meter};
 
 /// How often an otherwise idle window shows the progress of work.
 const PACE: Duration = Duration::from_millis(150);
-/// What a piece of work came to. `execute::files` applies it to the window.
+/// The result of a piece of work. `execute::files` applies it to the window.
 pub enum Outcome {
     /// A file was read that becomes a document of its own.
     Opened {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
         /// The document.
         opened: Opened,
     },
     /// A file was read that becomes a part of the document.
     Read {
-        /// Where it is.
+        /// The path of the file.
         path: PathBuf,
-        /// What to do with its content.
+        /// The commands that use the contents of the file.
         commands: Vec<Command>,
     },
-    /// As [`Self::Read`], but it is no recent file. What to do with its content.
+    /// A file was read that is not added to the recent files. The commands use its contents.
     PartRead(Vec<Command>),
     /// A file was not read.
     NotRead(String),
@@ -42,7 +42,7 @@ pub enum Outcome {
     NotWritten(String),
     /// This version of the document was saved.
     Saved {
-        /// Where to.
+        /// The place that was written.
         home: Home,
         /// The version.
         version: u64,
@@ -56,7 +56,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// A file was not read, for this reason.
+    /// Reports that a file was not read, for this reason.
     pub fn not_read(problem: impl std::fmt::Display) -> Self {
         Self::NotRead(problem.to_string())
     }
@@ -93,7 +93,7 @@ pub struct Finished {
     pub document: DocumentId,
     /// The name of its file.
     pub name: String,
-    /// What it came to.
+    /// The result of the work.
     pub outcome: Outcome,
 }
 
@@ -102,7 +102,7 @@ struct Work {
     id: WorkId,
     job: Job<Outcome>,
     aim: Aim,
-    /// Of the file.
+    /// The name of the file.
     name: String,
     meter: Meter,
     busy: Busy,
@@ -129,7 +129,7 @@ pub struct Background {
 }
 
 impl Background {
-    /// Nothing yet, in the window of `ctx`.
+    /// Returns the state without any work, for the window of `ctx`.
     pub fn new(ctx: &Context, jobs: &Jobs) -> Self {
         let (ctx, jobs) = (ctx.clone(), jobs.clone());
         Self { ctx, jobs, works: Vec::new(), started: 0, threads: Threads::most() }
@@ -180,25 +180,25 @@ impl Background {
         Some((aim, name))
     }
 
-    /// Names of files that are being written, without cancelled ones.
+    /// Returns the names of files that are being written, without cancelled ones.
     pub fn being_written(&self) -> impl Iterator<Item = &str> {
         let wanted = |work: &&Work| work.aim != Aim::Read && !work.meter.is_cancelled();
         self.works.iter().filter(wanted).map(|work| work.name.as_str())
     }
 
-    /// Whether the document is being saved, including a cancelled save that has not ended yet.
+    /// Returns whether the document is being saved, including a cancelled save that has not ended yet.
     pub fn saves(&self) -> bool {
         self.works.iter().any(|work| matches!(work.aim, Aim::Save(_)))
     }
 
-    /// Whether this version of the document that is open is being saved.
+    /// Returns whether this version of the document that is open is being saved.
     pub fn saves_version(&self, version: u64) -> bool {
         let saves =
             |work: &Work| work.aim == Aim::Save(version) && work.job.document() == self.jobs.document();
         self.works.iter().any(|work| saves(work) && !work.meter.is_cancelled())
     }
 
-    /// The progress of work that takes longer than a moment, or of all work.
+    /// Returns the progress of work that takes longer than a moment, or of all work.
     pub fn rows(&self, all: bool) -> Vec<Row> {
         let shown = self.works.iter().filter(|work| all || work.busy.is_long());
         let row = |work: &Work| {
@@ -232,7 +232,7 @@ impl Background {
 }
 
 impl Work {
-    /// The outcome of work that panicked.
+    /// Returns the outcome of work that panicked.
     fn failed(&self) -> Outcome {
         let (doing, name) = (self.aim.doing(), &self.name);
         Outcome::NotWritten(format!(
@@ -241,7 +241,7 @@ impl Work {
     }
 }
 
-/// The outcome of an export: `done` is a sentence about the file that was written.
+/// Returns the outcome of an export: `done` is a sentence about the file that was written.
 pub fn exported(
     written: std::io::Result<()>,
     meter: &Meter,
@@ -254,7 +254,7 @@ pub fn exported(
     }
 }
 
-/// The outcome of an export that was cancelled or failed.
+/// Returns the outcome of an export that was cancelled or failed.
 pub fn not_exported(error: &std::io::Error, meter: &Meter, path: &Path) -> Outcome {
     if meter.is_cancelled() {
         return Outcome::Exported(cancelled(Aim::Export, path));
@@ -274,7 +274,7 @@ pub fn cancelled(aim: Aim, path: &Path) -> String {
     format!("{} {} was cancelled. {left}", aim.doing(), name_of(path))
 }
 
-/// A file's name, without its folder.
+/// Returns a file's name, without its folder.
 pub fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

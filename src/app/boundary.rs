@@ -8,16 +8,17 @@ use super::jobs::{Jobs, Slot};
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, Domain, MeshBoundary};
 
-/// What pieces were found for.
+/// The domain, marks and mesh for which pieces were found.
 #[derive(Clone, Debug, PartialEq)]
 struct Key {
     domain: Domain,
     marks: Arc<BoundaryMarks>,
-    /// That of the mesh, for a domain whose boundary is that of its mesh.
+    /// The revision of the mesh, for a domain that is given by a formula, since its boundary is the boundary
+    /// of the mesh.
     revision: Option<u64>,
 }
 
-/// What lost pieces were found for: the pieces, and the mesh as files have it.
+/// The data for which lost pieces were found: the pieces, and the exported mesh.
 type LostKey = (Key, derivation::Key);
 
 /// Finds the pieces of the boundary.
@@ -28,13 +29,13 @@ pub struct BoundaryFinder {
 }
 
 impl BoundaryFinder {
-    /// The pieces of the document; `None` until they are found.
+    /// Returns the pieces of the document; `None` until they are found.
     pub fn pieces(&self, document: &Document) -> Option<&BoundaryPieces> {
         self.pieces.last().filter(|(key, _)| is_current(key, document)).map(|(_, pieces)| pieces)
     }
 
-    /// The numbers of the pieces of which a derived mesh has no edge, in ascending order; `None` until they
-    /// are found.
+    /// Returns the numbers of the pieces of which a derived mesh has no edge, in ascending order; `None`
+    /// until they are found.
     pub fn lost(&self, document: &Document, derived: &Derived) -> Option<&[usize]> {
         let ((key, of), lost) = self.lost.last()?;
         (is_current(key, document) && of == derived.key()).then_some(lost)
@@ -63,7 +64,8 @@ impl BoundaryFinder {
             return false;
         };
         let key = (key.clone(), derived.key().clone());
-        if !self.lost.has(&key) {
+        self.lost.want(&key, jobs);
+        if !self.lost.is_running() && !self.lost.has(&key) {
             let (pieces, extract) = (pieces.clone(), derived.shared_extract());
             self.lost.start(key, move || MeshBoundary::of_pieces(&extract, pieces).lost().collect(), jobs);
         }
@@ -79,7 +81,8 @@ impl BoundaryFinder {
         let settings = document.settings();
         let (domain, marks) = (settings.domain.clone(), settings.boundary_marks.clone());
         let key = Key { domain, marks, revision: is_of_mesh.then(|| follower.revision()) };
-        if !self.pieces.has(&key) {
+        self.pieces.want(&key, jobs);
+        if !self.pieces.is_running() && !self.pieces.has(&key) {
             let Key { domain, marks, revision } = key.clone();
             let mesh = revision.map(|_| follower.shared_mesh());
             let find = move || match mesh {

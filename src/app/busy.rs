@@ -20,7 +20,7 @@ impl Busy {
         self.since = working.then(|| self.since.unwrap_or_else(Instant::now));
     }
 
-    /// Whether the work has taken longer than a moment.
+    /// Returns whether the work has taken longer than a moment.
     pub fn is_long(&self) -> bool {
         self.since.is_some_and(|since| since.elapsed() > MOMENT)
     }

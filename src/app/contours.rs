@@ -31,7 +31,7 @@ struct FieldState {
 pub struct ContourFinder(Slot<FieldState, Vec<PlacedContour>>);
 
 impl ContourFinder {
-    /// The lines of the field, or of its last state until the new ones are computed.
+    /// Returns the lines of the field, or of its last state until the new ones are computed.
     pub fn lines(&self) -> &[PlacedContour] {
         self.0.last().map_or(&[], |(_, lines)| lines)
     }
@@ -43,8 +43,9 @@ impl ContourFinder {
 
     /// Takes the lines that are ready, and computes those of a field at `revision`.
     pub fn advance(&mut self, follower: &Follower, paint: &PaintLayers, revision: u64, jobs: &Jobs) {
-        self.0.take_ready(jobs);
+        self.0.poll(jobs);
         let state = FieldState { revision, bounds: follower.field().lattice().bounds() };
+        self.0.want(&state, jobs);
         // Lines of another domain are of no use.
         self.0.keep_if(|found| found.bounds == state.bounds);
         if self.0.is_running() || self.0.has(&state) {
@@ -61,7 +62,8 @@ impl ContourFinder {
     }
 }
 
-/// Columns and rows of the pixels on which h̄ is sampled: square pixels, 1024 along the longer side.
+/// Returns the columns and rows of the pixels on which h̄ is sampled: square pixels, 1024 along the longer
+/// side.
 pub fn pixels_over(bounds: &Rect) -> [u32; 2] {
     let size = bounds.size();
     [size.x, size.y].map(|side| (1024.0 * side / size.max_element()).round().max(2.0) as u32)

@@ -18,7 +18,7 @@ enum OutlineEdit {
 }
 
 impl OutlineEdit {
-    /// The edited domain; `None` where the edit changes nothing.
+    /// Returns the edited domain; `None` where the edit changes nothing.
     fn apply(&self, domain: &Domain) -> Option<Domain> {
         match self {
             Self::Reshape(cut_shape, adds) => domain.reshaped(cut_shape, *adds),
@@ -35,7 +35,7 @@ impl OutlineEdit {
     }
 }
 
-/// What happens to the domain, in this order.
+/// The changes of the domain, in order.
 #[derive(Debug)]
 enum Step {
     Edit(OutlineEdit),
@@ -59,12 +59,12 @@ pub struct CutQueue {
 }
 
 impl CutQueue {
-    /// Whether all edits have reached the document.
+    /// Returns whether all edits have reached the document.
     pub fn is_idle(&self) -> bool {
         self.waiting.is_empty() && self.running.is_none()
     }
 
-    /// The shapes that are not cut yet.
+    /// Returns the shapes that are not cut yet.
     pub fn shapes(&self) -> impl Iterator<Item = &CutShape> {
         let waiting = self.waiting.iter().filter_map(|step| match step {
             Step::Edit(edit) => Some(edit),
@@ -119,7 +119,7 @@ impl CutQueue {
     /// Hands finished edits to the document and starts those that wait. Returns whether one is left.
     ///
     /// # Errors
-    /// When the document refuses an edit; the others are dropped.
+    /// Fails when the document refuses an edit; the others are dropped.
     pub fn advance(&mut self, document: &mut Document, jobs: &Jobs) -> Result<bool, SettingsError> {
         loop {
             if let Some(running) = &self.running {

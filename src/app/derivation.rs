@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::jobs::{Job, Jobs, Kind, Output, Taken};
-use meshbrush_core::document::{Follower, MeshChange};
+use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
+use meshbrush_core::document::{Document, Follower, MeshChange};
 use meshbrush_core::domain::{DomainOnLattice, FitQuality, Region};
 use meshbrush_core::outline::{DerivedMesh, OutlineFit};
 use meshbrush_mesh::mesh::{
@@ -27,16 +27,16 @@ use meshbrush_mesh::mesh::{
 /// Most triangles of a mesh that is derived while a gesture goes on.
 const MOST_IN_GESTURE: usize = 50_000;
 
-/// What changed on the screen.
+/// The changes on the screen.
 #[derive(Clone, Debug, Default)]
 pub struct ShownChange {
-    /// What became of the follower's mesh.
+    /// The change of the follower's mesh.
     pub mesh: Option<MeshChange>,
-    /// What became of the pieces that are drawn in place of some of its triangles.
+    /// The change of the pieces that are drawn in place of some triangles.
     pub pieces: Option<PiecesChange>,
 }
 
-/// What a derived mesh depends on.
+/// The data that a derived mesh depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Key {
     revision: u64,
@@ -46,7 +46,8 @@ pub struct Key {
 }
 
 impl Key {
-    /// What the derived mesh of the follower depends on; `None` where the mesh itself leaves the program.
+    /// Returns the data that the derived mesh of the follower depends on; `None` if the mesh itself is
+    /// exported.
     fn of(follower: &Follower) -> Option<Self> {
         let settings = follower.settings();
         Some(Self {
@@ -68,7 +69,7 @@ pub struct Derived {
     pub level_counts: Vec<usize>,
     /// Nodes, parts and holes.
     pub topology: Topology,
-    /// What cleaning removed.
+    /// The parts and pinches that cleaning removed.
     pub removed: Removed,
     /// How well the boundary lies on the outline, where nodes are moved there.
     pub outline_fit: Option<OutlineFit>,
@@ -77,17 +78,17 @@ pub struct Derived {
 }
 
 impl Derived {
-    /// What it depends on.
+    /// Returns the data that the derived mesh depends on.
     pub fn key(&self) -> &Key {
         &self.key
     }
 
-    /// Nodes and triangles.
+    /// Returns the nodes and triangles.
     pub fn view(&self) -> MeshView<'_> {
         self.extract.view()
     }
 
-    /// Nodes and triangles, for work on another thread.
+    /// Returns the nodes and triangles, for work on another thread.
     pub fn shared_extract(&self) -> Arc<Extract<'static>> {
         self.extract.clone()
     }
@@ -115,7 +116,8 @@ pub struct Derivation {
     pieces_revision: u64,
     pieces_change: Option<PiecesChange>,
     running: Option<Running>,
-    /// What no mesh could be derived for: it is not tried again.
+    succession: Succession<Key>,
+    /// The data for which no mesh could be derived: it is not tried again.
     failed: Option<Key>,
 }
 
@@ -123,23 +125,23 @@ pub struct Derivation {
 struct Running {
     key: Key,
     job: Job<Outcome>,
-    /// What became of the follower's mesh since.
+    /// The change of the follower's mesh since then.
     since: Option<MeshChange>,
 }
 
-/// What the other thread sends, in this order.
+/// The values that the other thread sends, in this order.
 enum Outcome {
     Derived(Box<Derived>, PatchPieces),
     Quality(FitQuality),
 }
 
 impl Derivation {
-    /// The derived mesh, if it belongs to the follower's mesh as it is.
+    /// Returns the derived mesh, if it belongs to the follower's mesh as it is.
     pub fn current(&self, follower: &Follower) -> Option<&Derived> {
         self.latest.as_ref().filter(|derived| Key::of(follower).as_ref() == Some(&derived.key))
     }
 
-    /// What is drawn in place of triangles of the follower's mesh.
+    /// Returns the pieces that are drawn in place of triangles of the follower's mesh.
     pub fn pieces(&self) -> &PatchPieces {
         &self.pieces
     }
@@ -190,8 +192,15 @@ impl Derivation {
     /// Takes finished meshes, waiting for them as long as the frame may, and starts to derive the next one
     /// where that is due. Returns whether one is being derived.
     pub fn advance(&mut self, follower: &Follower, in_gesture: bool, jobs: &Jobs) -> bool {
+        let is_small = follower.mesh().raw_triangle_count() <= MOST_IN_GESTURE;
+        let may_start = follower.stage().is_settled() && (is_small || !in_gesture);
         loop {
             if let Some(running) = &self.running {
+                if let Some(key) = Key::of(follower).filter(|_| may_start)
+                    && self.succession.gives_way(&running.key, &key, jobs)
+                {
+                    running.job.cancel();
+                }
                 match running.job.take(jobs) {
                     Taken::Working => return true,
                     Taken::Ended => self.end(),
@@ -199,13 +208,8 @@ impl Derivation {
                 }
                 continue;
             }
-            let is_small = follower.mesh().raw_triangle_count() <= MOST_IN_GESTURE;
             match Key::of(follower) {
-                Some(key)
-                    if self.is_new(&key) && follower.stage().is_settled() && (is_small || !in_gesture) =>
-                {
-                    self.start(key, follower, jobs);
-                }
+                Some(key) if self.is_new(&key) && may_start => self.start(key, follower, jobs),
                 Some(_) => return false,
                 None => {
                     self.forget();
@@ -219,10 +223,12 @@ impl Derivation {
         self.latest.as_ref().is_none_or(|derived| derived.key != *key) && self.failed.as_ref() != Some(key)
     }
 
-    /// The thread has ended: with a mesh, or because it failed.
+    /// The thread has ended: with a mesh, because it gave way to the next one, or because it failed.
     fn end(&mut self) {
-        let Some(Running { key, .. }) = self.running.take() else { return };
-        self.failed = Some(key).filter(|key| self.is_new(key));
+        let Some(Running { key, job, .. }) = self.running.take() else { return };
+        let has_derived = !self.is_new(&key);
+        self.succession.ended(has_derived);
+        self.failed = Some(key).filter(|_| !has_derived && !job.is_cancelled());
     }
 
     fn forget(&mut self) {
@@ -262,7 +268,13 @@ impl Derivation {
 /// Derives a mesh and compares it with the outline.
 fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, output: &Output<Outcome>) {
     let derived_mesh = DerivedMesh::new(&mesh, domain, &key.cleaning);
+    if !output.is_wanted() {
+        return;
+    }
     let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
+    if !output.is_wanted() {
+        return;
+    }
     let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
     let region = key.region.clone();
     let derived = Derived {
@@ -278,5 +290,26 @@ fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, output: &Output<O
     if output.send(Outcome::Derived(Box::new(derived), pieces)) {
         let quality = FitQuality::of(&extract, &region);
         output.send(Outcome::Quality(quality));
+    }
+}
+
+/// Which mesh was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeasuredMesh {
+    follower: u64,
+    derived: u64,
+}
+
+impl MeasuredMesh {
+    /// Returns whether the mesh is as the document asks for, and derived where it has to be.
+    pub fn is_settled(document: &Document, follower: &Follower, derivation: &Derivation) -> bool {
+        let is_fitted = follower.settings().domain.region().is_some();
+        let is_derived = !is_fitted || derivation.current(follower).is_some();
+        follower.stage().is_settled() && !document.is_in_gesture() && is_derived
+    }
+
+    /// Returns the mesh as it is.
+    pub fn now(follower: &Follower, derivation: &Derivation) -> Self {
+        Self { follower: follower.revision(), derived: derivation.pieces_revision() }
     }
 }

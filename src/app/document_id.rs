@@ -6,7 +6,7 @@
 pub struct DocumentId(u64);
 
 impl DocumentId {
-    /// The identity of the document that is opened next.
+    /// Returns the identity of the document that is opened next.
     pub(super) fn next(self) -> Self {
         Self(self.0 + 1)
     }

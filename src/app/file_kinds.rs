@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use super::command::{Command, FileCommand};
-use super::dialogs::{FileAct, FileKind};
 use super::features::domain::OPEN_DOMAIN;
 use super::features::layers::OPEN_RISK;
+use crate::app::kit::{FileAct, FileKind};
 use meshbrush_io::io::project::ENDING;
 use meshbrush_io::io::{recipe, recording};
 use meshbrush_render::render::export::ExportFormat;
 
-/// What opening a file means, by its ending: that of the first row that takes it.
+/// The kinds of files to open by ending: the first row that accepts the ending counts.
 pub static OPENED_BY_ENDING: [&FileKind; 4] = [&OPEN_PROJECT, &OPEN_RECIPE, &OPEN_DOMAIN, &OPEN_RISK];
 
 /// Any file that can be opened.
@@ -64,7 +64,7 @@ pub static SAVE_RECIPE: FileKind = FileKind {
     ..FileKind::new(|path| Command::File(FileCommand::SaveRecipeAs(path)))
 };
 
-/// What was done, as a test.
+/// The recorded edits, as a test.
 pub static EXPORT_TEST: FileKind = FileKind {
     title: "Export as test",
     act: FileAct::Export,

@@ -30,7 +30,7 @@ const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
 /// The sea between Greece and Turkey, as a file.
 pub const AEGEAN_SEA: &[u8] = include_bytes!("../../assets/aegean_sea.geojson");
 
-/// The slope of a real terrain as risk.
+/// Returns the slope of a real terrain as risk.
 pub fn terrain_slope() -> Raster {
     let picture = include_bytes!("../../assets/jacksboro_slope.png");
     let bounds = Rect::new(DVec2::ZERO, TERRAIN_KM);
@@ -38,18 +38,18 @@ pub fn terrain_slope() -> Raster {
         .expect("the picture is part of the program: a test opens it")
 }
 
-/// The sea between Greece and Turkey.
+/// Returns the sea between Greece and Turkey.
 fn aegean_sea() -> Vec<NamedPolygon> {
     io::geojson::read_named_from(AEGEAN_SEA, Path::new("aegean_sea.geojson"))
         .expect("the outline is part of the program: a test opens it")
 }
 
-/// An empty document.
+/// Returns an empty document.
 pub fn new_document() -> Document {
     Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
 }
 
-/// A document that comes with the program.
+/// Returns a document that comes with the program.
 pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)
 }
@@ -104,7 +104,7 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
 /// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view.
 ///
 /// # Errors
-/// A sentence, when it is clear at once that nothing can be written there.
+/// Fails with a sentence when it is clear at once that nothing can be written there.
 pub fn export(
     session: &Session,
     view: &View,
@@ -152,7 +152,7 @@ pub fn export(
     Ok(())
 }
 
-/// The document as a recipe at a path, which gets its ending if it has none.
+/// Returns the document as a recipe at a path, which gets its ending if it has none.
 pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
     let has_ending = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING));
     let path = if has_ending {
@@ -169,7 +169,7 @@ pub fn recipe_of(session: &Session, path: &Path) -> RecipeFiles {
 /// after it.
 ///
 /// # Errors
-/// A sentence, when there were more edits than are recorded.
+/// Fails with a sentence when there were more edits than are recorded.
 pub fn export_test(session: &mut Session, background: &mut Background, path: &Path) -> Result<(), String> {
     let document = session.document_mut();
     document.end_stroke();
@@ -209,7 +209,7 @@ pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) 
     });
 }
 
-/// A new document on the polygons of a file.
+/// Returns a new document on the polygons of a file.
 fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
     let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
@@ -220,7 +220,7 @@ fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
     Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Names of files, one after the other; of many only the first and the last one.
+/// Returns the names of files, one after the other; of many only the first and the last one.
 pub fn listed(files: &[PathBuf]) -> String {
     match files {
         [first, .., last] if files.len() > 5 => format!("{} … {}", first.display(), last.display()),

@@ -1,7 +1,8 @@
 //! One frame: first everything changes, then everything is drawn.
 //!
 //! ```text
-//! advance   outcomes of work on files ─┐
+//! advance   what jobs have sent
+//!           outcomes of work on files ─┐
 //!           commands sent before ──────┤
 //!           keys, dropped files ───────┼─→ commands, run one by one ─→ cuts, stroke, mesh, price, journal
 //!           pointer on the canvas ─────┘
@@ -14,90 +15,33 @@
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Context, Event, Frame, Key, Modifiers, Popup, Ui};
-use glam::DVec2;
 
 use super::App;
 use super::catalog::catalog;
 use super::command::{Command, FileCommand};
 use super::dialogs::FileFacts;
-use super::explore::Explore;
-use super::features::pins::Pins;
-use super::features::plots::Plots;
+use super::features::stepping;
 use super::journal::JournalKeeper;
-use super::layer_pictures::LayerPictures;
-use super::paths::PathFinder;
-use super::project::ProjectFile;
 use super::readout::Readout;
-use super::session::Session;
-use super::stepping::{self, Stepping};
-use super::threads::Threads;
-use super::tools::Tools;
-use super::view::View;
-use super::walks::WalkMeter;
 use super::{help, journal, keys, panels, replacing};
-use meshbrush_core::document::ReportFigure;
-use meshbrush_mesh::text::LengthUnit;
+use crate::app::kit::{FrameState, NO_LIMIT};
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
-/// The most for the price while the pointer moves and no GPU draws: frames should be short then. The price is
-/// completed once the pointer rests.
+/// The most time for the price in a frame while the pointer moves and no GPU draws: frames should be short
+/// then. The price is completed once the pointer rests.
 const PRICE_BUDGET_IN_MOTION: Duration = Duration::from_millis(2);
-/// The share of a frame's time, and the most, that goes into the mesh where drawing is slow, as without a
-/// GPU: 7 ms of a frame of 100 ms would leave the mesh far behind.
+/// The share of a frame's time, and the most time, for work on the mesh where drawing is slow, for example
+/// without a GPU. A fixed 7 ms of a frame of 100 ms would leave the mesh far behind.
 const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40));
-/// The same while nothing is drawn with the pointer: the mesh should be complete soon, and nobody waits for
-/// the next frame.
+/// The share and the most time for work on the mesh where drawing is slow and the pointer draws nothing. The
+/// mesh should be complete soon, and nobody waits for the next frame.
 const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
-/// As much time as the work takes, for pictures that must be the same every time.
-pub const NO_LIMIT: Duration = Duration::from_secs(3600);
-
-/// Everything that a frame shows, to read.
-pub struct FrameState<'a> {
-    /// The document and its mesh.
-    pub session: &'a Session,
-    /// The document's file.
-    pub project: &'a ProjectFile,
-    /// The selected tool and its settings.
-    pub tools: &'a Tools,
-    /// What is shown, and how.
-    pub view: &'a View,
-    /// The mode that steps through the refinement, while it is on.
-    pub stepping: Option<&'a Stepping>,
-    /// What each layer asks for, as small pictures.
-    pub layer_pictures: &'a LayerPictures,
-    /// Why the queried triangle is in the mesh.
-    pub explore: &'a Explore,
-    /// How long the walks of point location are.
-    pub walks: &'a WalkMeter,
-    /// The paths of the document.
-    pub paths: &'a PathFinder,
-    /// The values of the pins.
-    pub pins: &'a Pins,
-    /// The chosen plot, and what was measured for plots.
-    pub plots: &'a Plots,
-    /// The figure of the report that is shown.
-    pub report: Option<ReportFigure>,
-    /// The threads on which the window computes.
-    pub threads: &'a Threads,
-    /// Where the pointer is on the canvas, in world units.
-    pub pointer: Option<DVec2>,
-    /// The queried point and the triangle around it.
-    pub readout: Option<&'a Readout>,
-    /// Whether to leave out what differs from run to run.
-    pub reproducible: bool,
-}
-
-impl FrameState<'_> {
-    /// The unit of the document's lengths and coordinates.
-    pub fn unit(&self) -> LengthUnit {
-        self.session.document().settings().unit
-    }
-}
 
 impl App {
     /// The first half of a frame: everything that changes.
     pub(super) fn advance(&mut self, ctx: &Context) {
+        self.jobs.begin_frame(ctx.input(|input| input.time));
         // Commands of the last frame come first: they may open another document. What a file becomes is done
         // before the next file is looked at, for the same reason.
         self.run_commands(ctx);
@@ -141,16 +85,15 @@ impl App {
                 self.commands.push(command);
             }
             let lattice = self.session.mesh().lattice();
-            let tools = self.stepping.as_ref().map_or(&self.tools, Stepping::tools);
-            self.canvas.take_event(event, ctx, &mut self.view, tools, lattice, &mut self.commands);
+            self.canvas.take_event(event, ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
         }
         // Widgets must not act on these keys again.
         for index in used_keys.into_iter().rev() {
             ctx.input_mut(|input| input.events.remove(index));
         }
         self.run_commands(ctx);
-        let tools = self.stepping.as_ref().map_or(&self.tools, Stepping::tools);
-        self.canvas.take_state(ctx, &mut self.view, tools, self.session.mesh().lattice(), &mut self.commands);
+        let lattice = self.session.mesh().lattice();
+        self.canvas.take_state(ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
     }
 
     fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
@@ -184,35 +127,26 @@ impl App {
         let [budget, price_budget] =
             if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
         let jobs = &self.jobs;
-        jobs.begin_frame();
         let start = Instant::now();
         let deadline = start + budget;
         let cuts = self.session.advance_cuts(jobs);
         let follows = self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(jobs);
-        let finds = self.tools.tool.finds_boundary && self.session.find_boundary(jobs);
-        let measures = self.session.take_figures(jobs) | self.walks.take(jobs);
         let route = self.tools.path.route_in(&self.session.document().settings().paths);
         self.paths.advance(&self.session, route, jobs);
-        let plots = self.features.plots.take(jobs).unwrap_or_else(|problem| {
-            self.session.report(problem);
-            false
-        });
+        let (features, mut of_window) = self.features_in_context(ctx);
+        let features_work = features.follow(&mut of_window);
         let bounds = self.session.document().settings().domain.bounds;
-        let steps = self.advance_steps(ctx);
-        let plan = self.canvas.planned_stroke(ctx, self.shown_tools(), bounds);
+        let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds);
         let plan = plan.filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, start + price_budget);
-        if self.tools.tool.explains {
-            self.explore.advance(&self.session);
-        }
         self.canvas.note_work(&self.session);
-        if cuts || follows || derives || finds || measures || plots || prices || steps {
+        if cuts || follows || derives || features_work || prices {
             ctx.request_repaint();
         }
     }
 
-    /// How much time of this frame goes into the mesh.
+    /// Returns how much time of this frame goes into the mesh.
     fn mesh_budget(&self, ctx: &Context) -> Duration {
         let draws = ctx.input(|input| input.pointer.any_down());
         let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
@@ -220,7 +154,7 @@ impl App {
         Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
     }
 
-    /// How much time of this frame goes into the price of a stroke.
+    /// Returns how much time of this frame goes into the price of a stroke.
     fn price_budget(&self, ctx: &Context) -> Duration {
         let is_moving = ctx.input(|input| input.pointer.is_moving());
         if is_moving && self.canvas.draws_in_software() { PRICE_BUDGET_IN_MOTION } else { FRAME_BUDGET }
@@ -234,8 +168,7 @@ impl App {
         }
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
-        self.view.reveals_inspector = false;
-        self.features.plots.reveal(false);
+        self.view.revealed_panel = None;
         egui::CentralPanel::default()
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
@@ -251,7 +184,7 @@ impl App {
         let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
             return;
         };
-        let shows_step = self.stepping.as_ref().is_some_and(|stepping| stepping.player().is_some());
+        let shows_step = self.features.stepping.steps().is_some_and(|steps| steps.player().is_some());
         if !self.starts_with_file && !shows_step {
             self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
         } else {
@@ -291,16 +224,12 @@ impl App {
         FrameState {
             session: &self.session,
             project: &self.project,
-            tools: self.shown_tools(),
+            tools: &self.tools,
             view: &self.view,
-            stepping: self.stepping.as_ref(),
             layer_pictures: &self.layer_pictures,
-            explore: &self.explore,
             paths: &self.paths,
-            pins: &self.features.pins,
-            plots: &self.features.plots,
+            features: &self.features,
             report: self.report.and_then(|shown| shown.figure(&self.session)),
-            walks: &self.walks,
             threads: &self.threads,
             pointer: self.canvas.pointer(),
             readout,
@@ -308,12 +237,7 @@ impl App {
         }
     }
 
-    /// The tools that act on what the canvas shows.
-    fn shown_tools(&self) -> &Tools {
-        self.stepping.as_ref().map_or(&self.tools, Stepping::tools)
-    }
-
-    /// Whether a dialog or a question is open, which takes the keys.
+    /// Returns whether a dialog or a question is open, which takes the keys.
     pub(super) fn asks_something(&self) -> bool {
         let restoring = self.journal.as_ref().is_some_and(|keeper| keeper.is_asking());
         self.dialogs.is_open() || self.project.is_asking() || restoring

@@ -11,16 +11,16 @@ use meshbrush_io::io::{self, Claim, FileStamp, Meter, Stamping};
 /// The file of a document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Home {
-    /// Where it is.
+    /// The path of the file.
     pub path: PathBuf,
-    /// What was in it when the document was read from it or saved to it; `None` if that is not known.
+    /// The stamp of its contents when the document was read from it or saved to it; `None` if it is unknown.
     pub stamp: Option<FileStamp>,
 }
 
 /// Tells other windows which project is open in this one.
 #[derive(Default)]
 pub struct Claims {
-    /// Where the locks are; `None` where nothing is kept from run to run.
+    /// The folder of the locks; `None` if nothing is kept from run to run.
     folder: Option<PathBuf>,
     held: Option<(PathBuf, Claim)>,
     /// The project that this window may save although another one has it open.
@@ -51,7 +51,7 @@ impl Claims {
         }
     }
 
-    /// Whether another window has a project open, and the user was not asked about it yet.
+    /// Returns whether another window has a project open, and the user was not asked about it yet.
     pub fn is_open_elsewhere(&self, project: &Path) -> bool {
         let is_held = self.held.as_ref().is_some_and(|(path, _)| path == project);
         let may_ask = !is_held && self.shared.as_deref() != Some(project);
@@ -65,7 +65,7 @@ impl Claims {
     }
 }
 
-/// What a file must contain to be replaced.
+/// The contents that a file must have to be replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
     /// It is replaced whatever it contains.

@@ -18,7 +18,7 @@ use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::journal::{self, Abandoned, Left};
 use meshbrush_io::io::project::Project;
 
-/// What the thread writes.
+/// An entry that the thread writes.
 enum Entry {
     /// Everything, and the file that it belongs to.
     Whole(Box<Project>, Option<PathBuf>),
@@ -26,7 +26,7 @@ enum Entry {
     Paint(Box<[PaintLayers; 2]>),
     /// Settings as they are after one.
     Settings(Box<Settings>),
-    /// Nothing is unsaved.
+    /// The document has no unsaved changes.
     Clean(Option<PathBuf>),
     /// The work of an earlier run is no longer needed.
     Forget(Box<Abandoned>),
@@ -92,7 +92,7 @@ impl JournalKeeper {
         }
     }
 
-    /// Whether the user is being asked about the work of an earlier run.
+    /// Returns whether the user is being asked about the work of an earlier run.
     pub fn is_asking(&self) -> bool {
         self.offered.is_some()
     }
@@ -144,7 +144,7 @@ impl JournalKeeper {
         self.enter(Entry::Clean(project.path().map(Path::to_owned)));
     }
 
-    /// What went wrong since the last call.
+    /// Returns the problem since the last call, if there was one.
     fn problem(&self) -> Option<String> {
         self.writing.iter().flatten().find_map(|job| match job.take_ready() {
             Taken::Value(problem) => Some(problem),
@@ -158,9 +158,9 @@ impl JournalKeeper {
     }
 
     /// Waits until everything is written; then deletes the journal, or leaves it for the next start.
-    pub fn end(&mut self, remove: bool) {
+    pub fn end(&mut self, remove: bool, jobs: &Jobs) {
         self.enter(Entry::End { remove });
-        self.writing.iter_mut().filter_map(Option::take).for_each(Job::wait_for_end);
+        self.writing.iter_mut().filter_map(Option::take).for_each(|job| jobs.wait_for_end(&job));
     }
 }
 
@@ -196,7 +196,7 @@ fn keep(
     Ok(())
 }
 
-/// What to bring to the disk, and what to delete then.
+/// The files to sync to the disk, and the files to delete afterwards.
 struct ToDisk {
     syncing: Option<journal::Syncing>,
     outdated: Option<Outdated>,
@@ -236,7 +236,7 @@ fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Seconds since 1970.
+/// Returns the seconds since 1970.
 fn now() -> u64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
 }
@@ -298,7 +298,7 @@ pub fn question(ctx: &Context, keeper: &JournalKeeper, project: &ProjectFile, co
     );
 }
 
-/// A time in the past, in words.
+/// Returns a time in the past, in words.
 fn ago(seconds: u64) -> String {
     let units = [(86_400, "day"), (3600, "hour"), (60, "minute")];
     match units.into_iter().find(|&(length, _)| seconds >= length) {

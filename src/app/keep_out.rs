@@ -25,7 +25,7 @@ pub enum KeepOutCommand {
 }
 
 impl KeepOutCommand {
-    /// The mask of the selected layer, unless it is a region already.
+    /// Returns the mask of the selected layer, unless it is a region already.
     pub fn mask_to_add(session: &Session) -> Option<KeepOut> {
         let document = session.document();
         let layer = document.active_layer()?;

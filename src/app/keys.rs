@@ -1,12 +1,12 @@
-//! From keys to commands.
+//! Translates keys to commands.
 
 use eframe::egui::{Context, Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
-use super::catalog::CatalogItem;
 use super::command::{Command, ViewCommand};
+use crate::app::kit::CatalogItem;
 
-/// The command that a pressed key stands for. While the user is `typing`, keys that edit text stay with the
-/// text field.
+/// Returns the command that a pressed key stands for. While the user is `typing`, keys that edit text stay
+/// with the text field.
 pub fn command_of(
     key: Key,
     modifiers: Modifiers,
@@ -28,8 +28,8 @@ pub fn command_of(
     Some(item.command)
 }
 
-/// The key that was pressed. With Shift a digit types another character on most keyboards, and not the same
-/// on all of them: there the place of the key counts.
+/// Returns the key that was pressed. With Shift a digit types another character on most keyboards, and not
+/// the same on all of them: there the place of the key counts.
 pub fn with_digits(key: Key, physical_key: Option<Key>, modifiers: Modifiers) -> Key {
     physical_key.filter(|key| modifiers.shift && ("0"..="9").contains(&key.name())).unwrap_or(key)
 }
@@ -53,7 +53,7 @@ pub fn catch_tab(ctx: &Context, raw_input: &mut RawInput) -> Vec<Command> {
     commands
 }
 
-/// Whether a shortcut belongs to a text field that has the focus.
+/// Returns whether a shortcut belongs to a text field that has the focus.
 fn edits_text(shortcut: &KeyboardShortcut) -> bool {
     !shortcut.modifiers.command || matches!(shortcut.logical_key, Key::Z | Key::C | Key::Backspace)
 }

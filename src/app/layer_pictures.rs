@@ -17,8 +17,8 @@ use meshbrush_render::colormap::{LevelColors, category_color};
 /// Pixels along the longer side of a picture.
 const LONGER_SIDE: f64 = 52.0;
 
-/// The colour of a layer, in the overlay and beside its name. It belongs to the layer as long as the document
-/// is open.
+/// Returns the colour of a layer, in the overlay and beside its name. It belongs to the layer as long as the
+/// document is open.
 pub fn layer_color32(id: LayerId) -> Color32 {
     let [r, g, b] = category_color(id.0);
     Color32::from_rgb(r, g, b)
@@ -51,7 +51,7 @@ pub struct LayerPictures {
 }
 
 impl LayerPictures {
-    /// The last picture of a layer.
+    /// Returns the last picture of a layer.
     pub fn texture(&self, id: LayerId) -> Option<&TextureHandle> {
         self.pictures.get(&id)?.texture.as_ref()
     }
@@ -100,7 +100,9 @@ impl LayerPicture {
         ctx: &Context,
     ) -> bool {
         self.take(layer.id, jobs, ctx);
-        if !self.latest.has(&key)
+        self.latest.want(&key, jobs);
+        if !self.latest.is_running()
+            && !self.latest.has(&key)
             && let Some(draw) = picture_of(layer, document, key.colors.clone())
         {
             self.latest.start(key.clone(), draw, jobs);
@@ -113,8 +115,7 @@ impl LayerPicture {
         if !self.latest.is_running() {
             return;
         }
-        let works = if jobs.waits_for_all() { self.latest.take(jobs) } else { self.latest.take_ready(jobs) };
-        if works {
+        if self.latest.poll(jobs) {
             return;
         }
         let Some((_, image)) = self.latest.last() else { return };
@@ -128,8 +129,8 @@ impl LayerPicture {
     }
 }
 
-/// Work that draws what a layer alone asks for, in the colours of the levels; transparent where it asks for
-/// nothing. `None` while the settings have no mesh.
+/// Returns the work that draws what a layer alone asks for, in the colours of the levels; transparent where
+/// it asks for nothing. `None` while the settings have no mesh.
 fn picture_of(
     layer: &Layer,
     document: &Document,

@@ -13,13 +13,11 @@ mod canvas;
 mod catalog;
 pub mod command;
 mod contours;
-mod ctx;
 mod cuts;
 mod derivation;
 mod dialogs;
 mod document_id;
 mod execute;
-mod explore;
 mod features;
 mod file_kinds;
 mod files;
@@ -27,11 +25,12 @@ mod frame;
 mod frame_log;
 mod help;
 mod home;
-mod inspection;
 mod jobs;
 mod journal;
 mod keep_out;
 mod keys;
+mod kit;
+mod layer_edits;
 mod layer_files;
 mod layer_pictures;
 mod notices;
@@ -48,15 +47,12 @@ mod screenshots;
 pub mod session;
 mod slices;
 mod software_window;
-mod statistics;
-mod stepping;
 #[cfg(test)]
 mod tests;
 pub mod theme;
 mod threads;
 pub mod tools;
 pub mod view;
-mod walks;
 pub mod widgets;
 
 use std::num::NonZeroUsize;
@@ -71,7 +67,6 @@ use background::Background;
 use canvas::{Canvas, CanvasGpu};
 use command::{Command, FileCommand};
 use dialogs::Dialogs;
-use explore::Explore;
 use features::Features;
 use frame_log::FrameLog;
 use help::HelpTopic;
@@ -83,11 +78,9 @@ use project::ProjectFile;
 use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
-use stepping::Stepping;
 use threads::Threads;
 use tools::Tools;
 use view::View;
-use walks::WalkMeter;
 
 use meshbrush_core::document::{Document, Example};
 use meshbrush_render::render::gpu::device_descriptor;
@@ -100,7 +93,7 @@ const APP_ID: &str = "meshbrush";
 const THEME_KEY: &str = "theme";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
-/// What "the report" is, wherever a person meets it.
+/// The title of the report, for texts that a person reads.
 const REPORT: &str = "Mesh Generation via Local Bisection Refinement of Triangulated Grids";
 /// Initial size of the window, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
@@ -114,18 +107,14 @@ pub struct App {
     tools: Tools,
     view: View,
     canvas: Canvas,
-    /// The mode that steps through the refinement, while it is on.
-    stepping: Option<Stepping>,
     layer_pictures: LayerPictures,
-    explore: Explore,
     features: Features,
     paths: PathFinder,
     /// The figure of the report that is shown.
     report: Option<ShownFigure>,
-    walks: WalkMeter,
     threads: Threads,
     dialogs: Dialogs,
-    /// What the help window shows, while it is open.
+    /// The contents of the help window, while it is open.
     help: Option<HelpTopic>,
     jobs: Jobs,
     background: Background,
@@ -143,15 +132,15 @@ pub struct App {
 }
 
 impl App {
-    /// The app on its first example. Without a `render_state` (in tests) the canvas stays empty.
+    /// Returns the app on its first example. Without a `render_state` (in tests) the canvas stays empty.
     ///
     /// # Errors
-    /// When the graphics driver cannot draw a mesh.
+    /// Fails when the graphics driver cannot draw a mesh.
     pub fn new(ctx: &Context, render_state: Option<&egui_wgpu::RenderState>) -> Result<Self, String> {
         Self::with_document(ctx, render_state, files::example(Example::ALL[0]))
     }
 
-    /// The app on a file, which is being read: until then the canvas stays empty.
+    /// Returns the app on a file, which is being read: until then the canvas stays empty.
     fn with_file(
         ctx: &Context,
         render_state: Option<&egui_wgpu::RenderState>,
@@ -183,13 +172,10 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu, &jobs),
-            stepping: None,
             layer_pictures: LayerPictures::default(),
-            explore: Explore::default(),
             features: Features::default(),
             paths: PathFinder::default(),
             report: None,
-            walks: WalkMeter::default(),
             threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,
@@ -271,7 +257,7 @@ impl eframe::App for App {
         // Where the desktop closes the window, the user was not asked.
         let remove = self.project.may_leave(&self.session);
         if let Some(keeper) = &mut self.journal {
-            keeper.end(remove);
+            keeper.end(remove, &self.jobs);
         }
     }
 
@@ -285,7 +271,7 @@ impl eframe::App for App {
 /// Opens the window on a file or on the first example, and returns when it is closed.
 ///
 /// # Errors
-/// A sentence, when there is no display or no usable graphics driver.
+/// Fails with a sentence when there is no display or no usable graphics driver.
 pub fn run(file: Option<PathBuf>) -> Result<(), String> {
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
@@ -324,7 +310,7 @@ fn window_icon() -> egui::IconData {
 const NO_DRIVER: &str = "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
                          mesa-vulkan-drivers, or use the command line: meshbrush mesh --help.";
 
-/// The message when the window did not open.
+/// Returns the message when the window did not open.
 fn failure_to_open(error: eframe::Error) -> String {
     match error {
         eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {

@@ -18,7 +18,7 @@ pub struct Notice {
     failed_edit_of: Option<u64>,
     /// A sentence.
     pub text: String,
-    /// What a button in it does.
+    /// The button of the notice, if it has one.
     pub offer: Option<Offer>,
 }
 
@@ -27,7 +27,7 @@ pub struct Notice {
 pub struct Offer {
     /// The text on the button.
     pub label: &'static str,
-    /// What it does.
+    /// The command that the button sends.
     pub command: Command,
 }
 
@@ -42,12 +42,12 @@ pub struct Notices {
 }
 
 impl Notices {
-    /// The message to show.
+    /// Returns the message to show.
     pub fn shown(&self) -> Option<&Notice> {
         self.latest.as_ref().or(self.standing.as_ref())
     }
 
-    /// Whether the message cannot be dismissed. It disappears once mesh and document agree.
+    /// Returns whether the message cannot be dismissed. It disappears once mesh and document agree.
     pub fn shown_stands(&self) -> bool {
         self.latest.is_none() && self.standing.is_some()
     }
@@ -117,7 +117,7 @@ impl Notices {
     }
 }
 
-/// What would help against an error, as a further sentence.
+/// Returns advice against an error, as a further sentence.
 pub fn advice(error: &BuildError) -> &'static str {
     match error {
         BuildError::Refine(RefineError::TooFine { .. }) => {

@@ -17,8 +17,8 @@ use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 /// Writes the path of the panel: as GeoJSON, as a table, or as a picture over the mesh, as the ending says.
 ///
 /// # Errors
-/// A sentence, when the path is not that of the document as it is, or when it is clear at once that nothing
-/// can be written there.
+/// Fails with a sentence when the path is not that of the document as it is, or when it is clear at once that
+/// nothing can be written there.
 pub fn export(
     session: &Session,
     view: &View,
@@ -59,7 +59,7 @@ pub fn export(
     Ok(())
 }
 
-/// The path of the panel, if it is that of the document as it is.
+/// Returns the path of the panel, if it is that of the document as it is.
 fn current_path<'a>(
     session: &Session,
     paths: &'a PathFinder,

@@ -38,7 +38,7 @@ pub struct ProjectFile {
     given_up: Option<u64>,
     /// Existing files, while the user is asked whether to replace them.
     pub(super) replacing: Option<Replacing>,
-    /// Where to save again after the current save.
+    /// The file to save to again after the current save.
     save_again: Option<PathBuf>,
     /// The window closes once everything is written.
     closing: bool,
@@ -47,7 +47,7 @@ pub struct ProjectFile {
 }
 
 impl ProjectFile {
-    /// No file; `version` of the document was opened.
+    /// Returns the state of a document without a file; `version` of the document was opened.
     pub fn new(version: u64) -> Self {
         Self {
             home: None,
@@ -64,7 +64,7 @@ impl ProjectFile {
         }
     }
 
-    /// The file that the document was opened from or saved to.
+    /// Returns the file that the document was opened from or saved to.
     pub fn path(&self) -> Option<&Path> {
         self.home.as_ref().map(|home| &*home.path)
     }
@@ -79,7 +79,7 @@ impl ProjectFile {
         &self.recent
     }
 
-    /// Whether a question is on the screen.
+    /// Returns whether a question is on the screen.
     pub fn is_asking(&self) -> bool {
         self.leaving.is_some() || self.replacing.is_some()
     }
@@ -124,7 +124,7 @@ impl ProjectFile {
         self.claims.hold(self.home.as_ref().map(|home| &*home.path))
     }
 
-    /// Whether the window or the document closes once something is written.
+    /// Returns whether the window or the document closes once something is written.
     pub fn is_leaving(&self) -> bool {
         self.closing || self.after_saving.is_some()
     }
@@ -147,13 +147,13 @@ impl ProjectFile {
         self.save_again = None;
     }
 
-    /// Whether edits would be lost if the document closed now.
+    /// Returns whether edits would be lost if the document closed now.
     pub fn is_edited(&self, session: &Session) -> bool {
         let document = session.document();
         document.stroke().is_some() || session.is_cutting() || self.saved_version != Some(document.version())
     }
 
-    /// Whether the document may close: it has no unsaved edits, or the user agreed to lose them.
+    /// Returns whether the document may close: it has no unsaved edits, or the user agreed to lose them.
     pub fn may_leave(&self, session: &Session) -> bool {
         !self.is_edited(session) || self.given_up == Some(session.document().version())
     }
@@ -179,7 +179,7 @@ impl ProjectFile {
         None
     }
 
-    /// Name of the document: that of its file, if it has one.
+    /// Returns the name of the document: that of its file, if it has one.
     pub fn document_name(&self, session: &Session) -> String {
         match self.path().and_then(Path::file_stem) {
             Some(stem) => stem.to_string_lossy().into_owned(),
@@ -187,7 +187,7 @@ impl ProjectFile {
         }
     }
 
-    /// The document's name, for the menu bar.
+    /// Returns the document's name, for the menu bar.
     pub fn title(&self, session: &Session) -> String {
         let edited = if self.is_edited(session) { " — edited" } else { "" };
         format!("{}{edited}", self.document_name(session))
@@ -258,7 +258,7 @@ impl ProjectFile {
         (answer == Answer::Confirmed).then_some(replacing.command)
     }
 
-    /// The command that saves to a path that was typed. Asks before it replaces another file.
+    /// Returns the command that saves to a path that was typed. Asks before it replaces another file.
     pub fn save_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = with_ending(path);
         if io::exists(&path) && self.path() != Some(&path) {
@@ -268,13 +268,13 @@ impl ProjectFile {
         Some(Command::File(FileCommand::SaveTo(path)))
     }
 
-    /// The command that exports to a path that was typed. Asks before it replaces other files.
+    /// Returns the command that exports to a path that was typed. Asks before it replaces other files.
     pub fn export_as(&mut self, path: PathBuf) -> Option<Command> {
         let files = ExportFormat::of(&path).map_or(Vec::new(), |format| format.files(&path));
         self.ask_to_replace(files, Command::File(FileCommand::Export(path)))
     }
 
-    /// The command that writes files. Asks before it replaces any.
+    /// Returns the command that writes files. Asks before it replaces any.
     pub fn ask_to_replace(&mut self, files: Vec<PathBuf>, command: Command) -> Option<Command> {
         let existing: Vec<PathBuf> = files.into_iter().filter(|file| io::exists(file)).collect();
         if existing.is_empty() || existing.iter().any(|file| io::obstacle(file).is_some()) {
@@ -284,7 +284,7 @@ impl ProjectFile {
         None
     }
 
-    /// The command that writes a table to a path that was typed. Asks before it replaces a file.
+    /// Returns the command that writes a table to a path that was typed. Asks before it replaces a file.
     pub fn save_table_as(&mut self, path: PathBuf, save: fn(PathBuf) -> Command) -> Option<Command> {
         let path = if path.extension().is_none() { path.with_extension("csv") } else { path };
         if !io::exists(&path) || io::obstacle(&path).is_some() {
@@ -294,7 +294,7 @@ impl ProjectFile {
         None
     }
 
-    /// The command that writes a test to a path that was typed. Asks before it replaces a file.
+    /// Returns the command that writes a test to a path that was typed. Asks before it replaces a file.
     pub fn export_test_as(&mut self, path: PathBuf) -> Option<Command> {
         let path = if path.extension().is_none() { path.with_extension(recording::ENDING) } else { path };
         if !io::exists(&path) || io::obstacle(&path).is_some() {
@@ -304,7 +304,8 @@ impl ProjectFile {
         None
     }
 
-    /// The command that writes a recipe to a path that was typed. Asks before it replaces other files.
+    /// Returns the command that writes a recipe to a path that was typed. Asks before it replaces other
+    /// files.
     pub fn save_recipe_as(&mut self, path: PathBuf, recipe: &RecipeFiles) -> Option<Command> {
         self.ask_to_replace(
             recipe.paths().map(Path::to_owned).collect(),
@@ -369,13 +370,13 @@ impl ProjectFile {
         }
     }
 
-    /// The command that waited until the document is saved.
+    /// Returns the command that waited until the document is saved.
     pub fn take_after_saving(&mut self) -> Option<Command> {
         self.after_saving.take()
     }
 }
 
-/// Whether a command closes the document.
+/// Returns whether a command closes the document.
 fn leaves(command: &Command) -> bool {
     matches!(
         command,
@@ -396,10 +397,10 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
     }
 }
 
-/// What opening a file means, by its ending.
+/// Returns the command that opens a file, by the ending of its name.
 ///
 /// # Errors
-/// A sentence, when files with that ending cannot be opened.
+/// Fails with a sentence when files with that ending cannot be opened.
 pub fn open_command(path: PathBuf) -> Result<Command, String> {
     let name = path.file_name().unwrap_or_default();
     match OPENED_BY_ENDING.iter().find(|kind| kind.takes(name)) {

@@ -16,24 +16,24 @@ pub struct Prover {
     known: Option<Known>,
     /// The requested width of the interval, as a share of the cost.
     pub width: f64,
-    /// What is known of the path that is certified, each better than the one before.
+    /// The job that certifies a path. Each proof that it sends is better than the previous one.
     running: Option<Job<Proof>>,
     /// How many of the paths were certified, or as well as possible.
     done: usize,
 }
 
-/// What the paths were found with.
+/// The data with which the paths were found.
 #[derive(Clone)]
 pub struct Known {
-    /// What they cost.
+    /// The cost density of the paths.
     pub density: Arc<dyn CostDensity>,
     /// The triangles that they go through.
     pub mesh: Arc<PathMesh>,
-    /// Where they do not go.
+    /// The regions that the paths do not enter.
     pub keep_out: Vec<Mask>,
 }
 
-/// What a certificate knows after a step.
+/// The state of a certificate after a step.
 struct Proof {
     solution: Solution,
     end: Option<CertificateEnd>,
@@ -46,7 +46,7 @@ impl Default for Prover {
 }
 
 impl Prover {
-    /// Whether a certificate is in the making.
+    /// Returns whether a certificate is in the making.
     pub fn is_running(&self) -> bool {
         self.running.is_some()
     }

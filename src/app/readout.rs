@@ -1,4 +1,4 @@
-//! What the inspector shows of a point.
+//! The values at a point that the inspector shows.
 
 use glam::DVec2;
 
@@ -23,24 +23,24 @@ pub enum Quantity {
 pub struct Readout {
     /// The point in world units.
     pub point: DVec2,
-    /// Where it lies.
+    /// The location of the point in the mesh.
     pub location: Location,
     /// The triangle around it, if any.
     pub triangle: Option<TriangleReadout>,
-    /// What the layers ask for there.
+    /// The target diameter at the point and the layer that decides it.
     pub decision: Decision,
 }
 
 /// A triangle, and a quantity interpolated in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleReadout {
-    /// Its id.
+    /// The id of the triangle.
     pub id: TriangleId,
-    /// Its level.
+    /// The level of the triangle.
     pub level: u32,
     /// Which way its vertices run.
     pub orientation: Orientation,
-    /// Its longest edge in world units.
+    /// The longest edge of the triangle, in world units.
     pub diameter: f64,
     /// Ids and world coordinates, in the triangle's order.
     pub vertices: [(NodeId, DVec2); 3],
@@ -65,7 +65,7 @@ impl Readout {
         Self { point, location, triangle, decision }
     }
 
-    /// The triangle around a point in world units, without what the layers ask for there.
+    /// Returns the triangle around a point in world units, without what the layers ask for there.
     pub fn triangle_at(point: DVec2, session: &Session, quantity: Quantity) -> Option<TriangleReadout> {
         session.locate(point).triangle().map(|id| triangle_with(id, point, session, quantity))
     }
@@ -100,7 +100,7 @@ fn read_triangle(
     }
 }
 
-/// The quantity at a point in world units; NaN where it is not known.
+/// Returns the quantity at a point in world units; NaN where it is not known.
 pub fn value_at(point: DVec2, document: &Document, follower: &Follower, quantity: Quantity) -> f64 {
     match quantity {
         Quantity::TargetDiameter => {

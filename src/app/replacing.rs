@@ -6,27 +6,27 @@ use eframe::egui::Context;
 
 use super::command::{Command, FileCommand};
 use super::files::listed;
-use super::frame::FrameState;
 use super::widgets::ConfirmDialog;
+use crate::app::kit::FrameState;
 
 /// Files that would be replaced.
 pub struct Replacing {
     /// The files, which exist.
     pub files: Vec<PathBuf>,
-    /// What would be lost.
+    /// The loss if the file is replaced.
     pub loss: Loss,
     /// The command that replaces them.
     pub command: Command,
 }
 
-/// What would be lost with a file.
+/// The loss if a file is replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
-    /// What is in it.
+    /// The contents of the file.
     Contents,
-    /// What somebody else saved to the document's own file since it was read.
+    /// A version that somebody else saved to the document's own file since it was read.
     OtherVersion,
-    /// What another window saves to it.
+    /// The document of another window that has the file open.
     OtherWindow,
 }
 
@@ -51,7 +51,7 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, com
 }
 
 impl Replacing {
-    /// The question, and what would be lost.
+    /// Returns the question, and what would be lost.
     fn question(&self) -> (String, String) {
         let one = match &self.files[..] {
             [file] => file,

@@ -1,11 +1,11 @@
 //! A figure of the report that is shown, and its numbers beside ours.
 
 use super::document_id::DocumentId;
-use super::frame::FrameState;
+use super::features::stepping::Steps;
 use super::session::Session;
-use super::stepping::Stepping;
 use super::widgets::format;
-use meshbrush_core::document::{Comparison, Experiment, ReportFigure};
+use crate::app::kit::FrameState;
+use meshbrush_study::report::{Comparison, Experiment, ReportFigure};
 
 /// One thing to do with the figures of the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,33 +26,33 @@ pub struct ShownFigure {
 }
 
 impl ShownFigure {
-    /// A figure whose document was just opened.
+    /// Creates a figure whose document was just opened.
     pub fn new(figure: ReportFigure, session: &Session) -> Self {
         Self { figure, document: session.document_id() }
     }
 
-    /// The figure, while its document is open.
+    /// Returns the figure, while its document is open.
     pub fn figure(self, session: &Session) -> Option<ReportFigure> {
         (self.document == session.document_id()).then_some(self.figure)
     }
 }
 
-/// The numbers of the report beside those on the screen.
+/// Returns the numbers of the report beside those on the screen.
 pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparison> {
     if figure.is_step() {
-        let player = state.stepping.and_then(Stepping::player);
+        let player = state.features.stepping.steps().and_then(Steps::player);
         return player.map_or_else(Vec::new, |player| figure.compare_step(player));
     }
     if figure.is_about_time() {
-        return of_experiment(figure, state.plots.experiment());
+        return of_experiment(figure, state.features.plots.experiment());
     }
     figure.compare_mesh(state.session.mesh(), state.session.queried())
 }
 
-/// The triangles of each mesh, and the gradient of the line of best fit.
+/// Returns the triangles of each mesh, and the gradient of the line of best fit.
 fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Comparison> {
     let count = |count: usize| format::count(count as u64);
-    let row = |mesh: &meshbrush_core::document::ExperimentMesh| {
+    let row = |mesh: &meshbrush_study::report::ExperimentMesh| {
         let stated = mesh.triangles_in_report.map_or_else(|| "–".into(), count);
         let ours = format!("{} in {}", count(mesh.triangles), format::time(mesh.seconds));
         Comparison::new(format!("Level {}", mesh.level), stated, ours)
@@ -66,7 +66,7 @@ fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Compariso
     rows
 }
 
-/// Name, text and numbers of a figure, to be copied.
+/// Returns the name, text and numbers of a figure, to be copied.
 pub fn as_text(figure: ReportFigure, rows: &[Comparison]) -> String {
     let mut text = format!("{}\n{}\n\twhat the report says\there\n", figure.name(), figure.text());
     for Comparison { what, report, ours } in rows {

@@ -14,7 +14,6 @@ use super::jobs::Jobs;
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
 use super::slices::{SLICE, follow_document};
-use super::statistics::{Measured, Statistician};
 use super::threads::Threads;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Setting, Stage};
@@ -30,20 +29,21 @@ pub struct Session {
     document: Document,
     document_id: DocumentId,
     follower: Follower,
-    /// What reading out points found out; it changes no answer.
+    /// A cache of values at points. It changes no result.
     readings: RefCell<Readings>,
     pricer: Pricer,
     cuts: CutQueue,
     queried: Option<DVec2>,
+    /// The middles of the triangles on the way to the queried one, in world units.
+    trail: Vec<DVec2>,
     notices: Notices,
     /// When the update in progress began.
     update_began: Option<Instant>,
     last_update: Option<Duration>,
     derivation: Derivation,
     boundary: BoundaryFinder,
-    statistician: Statistician,
     ages: AgeKeeper,
-    /// What became of the follower's mesh since the canvas last asked.
+    /// The change of the follower's mesh since the canvas last took it.
     mesh_change: Option<MeshChange>,
 }
 
@@ -51,7 +51,7 @@ impl Session {
     /// Opens a document and builds its mesh in one step.
     ///
     /// # Errors
-    /// When no mesh can be built for it.
+    /// Fails when no mesh can be built for it.
     pub fn new(mut document: Document) -> Result<Self, BuildError> {
         let began = Instant::now();
         document.record();
@@ -64,18 +64,18 @@ impl Session {
             pricer: Pricer::default(),
             cuts: CutQueue::default(),
             queried: None,
+            trail: Vec::new(),
             notices: Notices::default(),
             update_began: None,
             last_update: Some(began.elapsed()),
             derivation: Derivation::default(),
             boundary: BoundaryFinder::default(),
-            statistician: Statistician::default(),
             ages: AgeKeeper::default(),
             mesh_change: None,
         })
     }
 
-    /// The document.
+    /// Returns the document.
     pub fn document(&self) -> &Document {
         &self.document
     }
@@ -85,28 +85,28 @@ impl Session {
         self.document_id
     }
 
-    /// The document, to be edited.
+    /// Returns the document, to be edited.
     pub fn document_mut(&mut self) -> &mut Document {
         &mut self.document
     }
 
-    /// Field and mesh as far as they are up to date.
+    /// Returns field and mesh as far as they are up to date.
     pub fn follower(&self) -> &Follower {
         &self.follower
     }
 
-    /// The mesh of the follower, which the derived mesh differs from along an outline.
+    /// Returns the mesh of the follower, which the derived mesh differs from along an outline.
     pub fn mesh(&self) -> &Mesh {
         self.follower.mesh()
     }
 
-    /// The mesh that is derived along the outline of the domain; `None` without an outline, and until it is
-    /// derived.
+    /// Returns the mesh that is derived along the outline of the domain; `None` without an outline, and until
+    /// it is derived.
     pub fn derived(&self) -> Option<&Derived> {
         self.derivation.current(&self.follower)
     }
 
-    /// The mesh that is shown and queried: the derived one, or else the follower's.
+    /// Returns the mesh that is shown and queried: the derived one, or else the follower's.
     pub fn view(&self) -> MeshView<'_> {
         self.derived().map_or_else(|| self.mesh().view(), Derived::view)
     }
@@ -117,28 +117,28 @@ impl Session {
         self.derived().map_or(in_mesh, |derived| derived.locate(point, in_mesh))
     }
 
-    /// What decides h̄ at a point in world units, as the mesh is shown.
+    /// Returns h̄ at a point in world units and the layer that decides it, for the mesh that is shown.
     pub fn decision_at(&self, point: DVec2) -> Decision {
         self.readings.borrow_mut().decision_at(&self.document, &self.follower, point)
     }
 
-    /// Whether ids of [`Self::view`] are the numbers in files.
+    /// Returns whether ids of [`Self::view`] are the numbers in files.
     pub fn has_file_numbers(&self) -> bool {
         self.derived().is_some() || self.document.settings().domain.region().is_none()
     }
 
-    /// How many triangles the domain has.
+    /// Returns how many triangles the domain has.
     pub fn triangle_count(&self) -> usize {
         let counts = self.derived().map(|derived| derived.level_counts.iter().sum());
         counts.unwrap_or_else(|| self.mesh().triangle_count())
     }
 
-    /// Triangles per level.
+    /// Returns the triangles per level.
     pub fn level_counts(&self) -> Vec<usize> {
         self.derived().map_or_else(|| self.mesh().level_counts(), |derived| derived.level_counts.clone())
     }
 
-    /// What is drawn of the derived mesh.
+    /// Returns the derived mesh that is drawn.
     pub fn derivation(&self) -> &Derivation {
         &self.derivation
     }
@@ -150,12 +150,12 @@ impl Session {
         self.derivation.advance(&self.follower, in_gesture, jobs)
     }
 
-    /// The pieces of the boundary; `None` until [`Self::find_boundary`] has found them.
+    /// Returns the pieces of the boundary; `None` until [`Self::find_boundary`] has found them.
     pub fn boundary_pieces(&self) -> Option<&BoundaryPieces> {
         self.boundary.pieces(&self.document)
     }
 
-    /// The numbers of the pieces of which the mesh has no edge; `None` until they are found.
+    /// Returns the numbers of the pieces of which the mesh has no edge; `None` until they are found.
     pub fn lost_boundary_pieces(&self) -> Option<&[usize]> {
         self.boundary.lost(&self.document, self.derived()?)
     }
@@ -165,27 +165,6 @@ impl Session {
     pub fn find_boundary(&mut self, jobs: &Jobs) -> bool {
         let derived = self.derivation.current(&self.follower);
         self.boundary.advance(&self.document, &self.follower, derived, jobs)
-    }
-
-    /// The figures of the mesh that were computed last, and whether they are those of the mesh as it is.
-    pub fn figures(&self) -> Option<(&Measured, bool)> {
-        self.statistician.figures(&self.follower, &self.derivation)
-    }
-
-    /// Whether [`Self::measure`] would compute figures.
-    pub fn is_measuring_due(&self) -> bool {
-        self.statistician.is_due(&self.document, &self.follower, &self.derivation)
-    }
-
-    /// Computes the figures of the mesh on another thread.
-    pub fn measure(&mut self, jobs: &Jobs) {
-        self.statistician.measure(&self.document, &self.follower, &self.derivation, jobs);
-    }
-
-    /// Takes the figures that are ready, waiting for them as long as the frame may. Returns whether some are
-    /// being computed.
-    pub fn take_figures(&mut self, jobs: &Jobs) -> bool {
-        self.statistician.take(jobs)
     }
 
     /// What a change makes of the names and splits of the boundary.
@@ -204,28 +183,28 @@ impl Session {
         }
     }
 
-    /// Time on the clock of the last complete update, from the edit to the mesh, with the frames drawn
-    /// meanwhile.
+    /// Returns the time on the clock of the last complete update, from the edit to the mesh, with the frames
+    /// drawn meanwhile.
     pub fn last_update(&self) -> Option<Duration> {
         self.last_update
     }
 
-    /// Time on the clock since the update in progress began.
+    /// Returns the time on the clock since the update in progress began.
     pub fn update_so_far(&self) -> Option<Duration> {
         self.update_began.map(|began| began.elapsed())
     }
 
-    /// The present stage of the update.
+    /// Returns the present stage of the update.
     pub fn stage(&self) -> Stage {
         self.follower.stage()
     }
 
-    /// The messages on the canvas.
+    /// Returns the messages on the canvas.
     pub fn notices(&self) -> &Notices {
         &self.notices
     }
 
-    /// The messages on the canvas, to dismiss them.
+    /// Returns the messages on the canvas, to dismiss them.
     pub fn notices_mut(&mut self) -> &mut Notices {
         &mut self.notices
     }
@@ -280,12 +259,12 @@ impl Session {
         self.cuts.end_gesture(&mut self.document);
     }
 
-    /// Whether cuts of the domain have not reached the document yet.
+    /// Returns whether cuts of the domain have not reached the document yet.
     pub fn is_cutting(&self) -> bool {
         !self.cuts.is_idle()
     }
 
-    /// The shapes that are not cut yet.
+    /// Returns the shapes that are not cut yet.
     pub fn pending_cuts(&self) -> impl Iterator<Item = &CutShape> {
         self.cuts.shapes()
     }
@@ -302,7 +281,7 @@ impl Session {
         }
     }
 
-    /// Whether there is a gesture to take back, including one in progress.
+    /// Returns whether there is a gesture to take back, including one in progress.
     pub fn can_undo(&self) -> bool {
         let document = &self.document;
         document.history().undo_title().is_some() || document.stroke().is_some() || self.is_cutting()
@@ -315,7 +294,7 @@ impl Session {
         }
     }
 
-    /// The triangle around the queried point.
+    /// Returns the triangle around the queried point.
     pub fn queried_triangle(&self) -> Option<TriangleId> {
         self.queried.and_then(|point| self.locate(point).triangle())
     }
@@ -340,7 +319,7 @@ impl Session {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
         self.document_id = self.document_id.next();
-        self.queried = None;
+        self.query(None);
         self.notices.dismiss();
     }
 
@@ -355,17 +334,32 @@ impl Session {
         self.notices.stand_cancelled();
     }
 
-    /// Queries a point in world units, or none.
+    /// Queries a point in world units, or none. The trail to the former one ends.
     pub fn query(&mut self, point: Option<DVec2>) {
         self.queried = point;
+        self.trail.clear();
     }
 
-    /// The queried point, in world units.
+    /// Queries the middle of a triangle after that of another one, which the trail keeps.
+    pub fn query_next(&mut self, from: DVec2, to: DVec2) {
+        if self.trail.is_empty() {
+            self.trail.push(from);
+        }
+        self.trail.push(to);
+        self.queried = Some(to);
+    }
+
+    /// The middles of the triangles on the way to the queried one, in world units.
+    pub fn trail(&self) -> &[DVec2] {
+        &self.trail
+    }
+
+    /// Returns the queried point, in world units.
     pub fn queried(&self) -> Option<DVec2> {
         self.queried
     }
 
-    /// The queried point and the triangle around it in the mesh on the screen.
+    /// Returns the queried point and the triangle around it in the mesh on the screen.
     pub fn readout(&self, quantity: Quantity) -> Option<Readout> {
         self.queried.map(|point| Readout::at(point, self, quantity))
     }
@@ -403,7 +397,7 @@ impl Session {
         left | self.ages.advance(self.follower.mesh(), deadline)
     }
 
-    /// How many edits ago each triangle of the follower's mesh came.
+    /// Returns how many edits ago each triangle of the follower's mesh came.
     pub fn ages(&self) -> AgesNow {
         self.ages.snapshot()
     }
@@ -417,12 +411,12 @@ impl Session {
         self.pricer.progress() == Progress::More
     }
 
-    /// The price of the stroke that a click would paint.
+    /// Returns the price of the stroke that a click would paint.
     pub fn pricer(&self) -> &Pricer {
         &self.pricer
     }
 
-    /// What changed on the screen since the last call.
+    /// Returns the changes on the screen since the last call.
     pub fn take_shown_change(&mut self) -> ShownChange {
         ShownChange { mesh: self.mesh_change.take(), pieces: self.derivation.take_pieces_change() }
     }

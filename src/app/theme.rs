@@ -67,7 +67,7 @@ pub struct Tokens {
     pub thumb: Color32,
     /// Edge of a thumb, to set it off from light ground.
     pub thumb_edge: Color32,
-    /// What dims the window behind a dialog.
+    /// The colour that dims the window behind a dialog.
     pub scrim: Color32,
     /// Shadows under popups.
     pub shadow: Color32,
@@ -145,7 +145,7 @@ const fn neighbours(ground: Ground) -> [Color32; 3] {
 }
 
 impl Tokens {
-    /// The set of a theme.
+    /// Returns the set of a theme.
     pub const fn of(theme: Theme) -> &'static Self {
         match theme {
             Theme::Dark => &DARK,
@@ -153,28 +153,28 @@ impl Tokens {
         }
     }
 
-    /// A hair line between areas.
+    /// Returns a hair line between areas.
     pub fn hairline(&self) -> Stroke {
         Stroke::new(1.0, self.line)
     }
 
-    /// The small shadow under tags over the canvas.
+    /// Returns the small shadow under tags over the canvas.
     pub fn tag_shadow(&self) -> Shadow {
         Shadow { offset: [0, 2], blur: 8, spread: 0, color: self.shadow }
     }
 
-    /// The shadow under dialogs and popups.
+    /// Returns the shadow under dialogs and popups.
     pub fn popup_shadow(&self) -> Shadow {
         Shadow { offset: [0, 8], blur: 24, spread: 0, color: self.shadow }
     }
 }
 
-/// The colours shown in `ui`.
+/// Returns the colours shown in `ui`.
 pub fn tokens(ui: &egui::Ui) -> &'static Tokens {
     if ui.visuals().dark_mode { &DARK } else { &LIGHT }
 }
 
-/// The colours shown in `ctx`, for dialogs, which have no `Ui` of their own yet.
+/// Returns the colours shown in `ctx`, for dialogs, which have no `Ui` of their own yet.
 pub fn tokens_of(ctx: &egui::Context) -> &'static Tokens {
     Tokens::of(ctx.theme())
 }
@@ -218,7 +218,7 @@ pub mod font {
     /// Name of the icon family.
     pub const ICONS: &str = "icons";
 
-    /// Text and names of values.
+    /// Returns the text and names of values.
     pub fn body() -> FontId {
         FontId::new(13.0, FontFamily::Proportional)
     }
@@ -234,15 +234,15 @@ pub mod font {
     pub fn caption() -> FontId {
         FontId::new(11.5, FontFamily::Proportional)
     }
-    /// Numbers and formulas.
+    /// Returns the numbers and formulas.
     pub fn value() -> FontId {
         FontId::new(12.0, FontFamily::Monospace)
     }
-    /// Numbers beside bars and in keys.
+    /// Returns the numbers beside bars and in keys.
     pub fn small_value() -> FontId {
         FontId::new(11.0, FontFamily::Monospace)
     }
-    /// Numbers along an axis.
+    /// Returns the numbers along an axis.
     pub fn axis() -> FontId {
         FontId::new(10.0, FontFamily::Monospace)
     }
@@ -364,10 +364,10 @@ fn widget_visuals(tokens: &Tokens) -> Widgets {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::canvas::marks::NUMBER_DISC;
+    use crate::app::kit::marks::NUMBER_DISC;
     use meshbrush_render::colormap::{Colormap, LevelColors};
 
-    /// Relative luminance as WCAG 2 defines it.
+    /// Returns the relative luminance as WCAG 2 defines it.
     fn luminance(color: Color32) -> f64 {
         let linear = |byte: u8| {
             let c = f64::from(byte) / 255.0;

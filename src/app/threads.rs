@@ -30,17 +30,17 @@ impl Threads {
         Self { count, pool: ThreadPoolBuilder::new().num_threads(count.get()).build().ok() }
     }
 
-    /// As many as the command line allows: one for each core without `--threads`.
+    /// Returns the number of threads that the command line allows: one for each core without `--threads`.
     pub fn most() -> NonZeroUsize {
         NonZeroUsize::new(rayon::current_num_threads()).unwrap_or(NonZeroUsize::MIN)
     }
 
-    /// How many there are.
+    /// Returns how many there are.
     pub fn count(&self) -> NonZeroUsize {
         self.count
     }
 
-    /// How many there are, where they are fewer than there may be.
+    /// Returns how many there are, where they are fewer than there may be.
     pub fn limit(&self) -> Option<NonZeroUsize> {
         Some(self.count).filter(|&count| count < Self::most())
     }

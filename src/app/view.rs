@@ -13,7 +13,7 @@ use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::Look;
 use meshbrush_render::scene::{Camera, Style};
 
-/// What is drawn over the mesh.
+/// The field that is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FieldOverlay {
     /// Nothing.
@@ -24,7 +24,7 @@ pub enum FieldOverlay {
     Target,
     /// The layer that decides h̄, in the layer's colour.
     Layer,
-    /// By how much the mesh is finer than h̄ asks for.
+    /// The factor by which the mesh is finer than h̄ requires.
     Slack,
     /// The triangles that only compatibility asked for.
     Forced,
@@ -93,10 +93,10 @@ impl CanvasAids {
     }
 }
 
-/// What the window shows, and how.
+/// The contents of the window and their appearance.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// Where the canvas looks; `None` until its size is known, and after "fit".
+    /// The camera of the canvas; `None` until its size is known, and after "fit".
     pub camera: Option<Camera>,
     /// Whether the view shows the whole domain and was not moved since: it then follows the size of the
     /// window.
@@ -107,7 +107,7 @@ pub struct View {
     pub ground: Ground,
     /// Whether edges are drawn.
     pub edges: bool,
-    /// What is drawn over the mesh.
+    /// The field that is drawn over the mesh.
     pub overlay: FieldOverlay,
     /// The aids to orientation that are shown.
     pub aids: CanvasAids,
@@ -119,10 +119,10 @@ pub struct View {
     pub hidden_levels: u64,
     /// A neighbour of the queried triangle, while the pointer is on it in the inspector.
     pub hovered_neighbour: Option<TriangleId>,
-    /// What the inspector interpolates.
+    /// The quantity that the inspector interpolates.
     pub quantity: Quantity,
-    /// Whether the inspector is opened and scrolled to in this frame.
-    pub reveals_inspector: bool,
+    /// The name of the panel that is opened and scrolled to in this frame.
+    pub revealed_panel: Option<&'static str>,
     /// Dark, light, or as the desktop has it.
     pub theme: ThemePreference,
 }
@@ -142,15 +142,15 @@ impl Default for View {
             hidden_levels: 0,
             hovered_neighbour: None,
             quantity: Quantity::TargetDiameter,
-            reveals_inspector: false,
+            revealed_panel: None,
             theme: ThemePreference::Dark,
         }
     }
 }
 
 impl View {
-    /// The colours of all levels. They span the levels that the settings can ask for, not those of the
-    /// present mesh, so that a level keeps its colour while the user paints.
+    /// Returns the colours of all levels. They span the levels that the settings can ask for, not those of
+    /// the present mesh, so that a level keeps its colour while the user paints.
     pub fn level_colors(&self, settings: &Settings) -> LevelColors {
         LevelColors::new(self.colormap, self.ground, deepest_level(settings))
     }
@@ -256,7 +256,7 @@ impl View {
         });
     }
 
-    /// Whether a camera stays where it is when the canvas gets a size.
+    /// Returns whether a camera stays where it is when the canvas gets a size.
     fn keeps(&self, camera: &Camera, bounds: Rect, size_px: [u32; 2]) -> bool {
         camera.lattice().bounds() == bounds && (!self.is_fitted || camera.size_px() == size_px)
     }
@@ -266,13 +266,14 @@ impl View {
         self.ground = if ctx.theme() == Theme::Dark { Ground::Dark } else { Ground::Light };
     }
 
-    /// A point as a person would type it: with the digits that a pixel can tell apart, without commas.
+    /// Returns a point as a person would type it: with the digits that a pixel can tell apart, without
+    /// commas.
     pub fn typed_point(&self, point: DVec2) -> String {
         let decimals = format::decimals_for(self.world_per_px());
         format!("{:.decimals$}, {:.decimals$}", point.x, point.y)
     }
 
-    /// World units of one pixel.
+    /// Returns world units of one pixel.
     pub fn world_per_px(&self) -> f64 {
         self.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world())
     }
@@ -297,7 +298,7 @@ fn bit_of(level: u32) -> u64 {
     1 << level.min(63)
 }
 
-/// The deepest level that h_min or the diameter at the outline can ask for.
+/// Returns the deepest level that h_min or the diameter at the outline can ask for.
 pub fn deepest_level(settings: &Settings) -> u8 {
     let spacing = settings.lattice().map_or(settings.spacing, |lattice| lattice.spacing());
     let at_outline = settings.domain.region().and_then(|_| settings.boundary.diameter());

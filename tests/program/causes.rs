@@ -35,7 +35,7 @@ impl Case {
         let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation };
         let field = SizeField::new(spec, &lattice);
         let mut mesh = coarse.clone();
-        mesh.refine(&Limits::default(), |element| Ok(field.exceeds(PaintLayers::blank(), element))).unwrap();
+        mesh.refine(&Limits::default(), |element| field.exceeds(PaintLayers::blank(), element)).unwrap();
         Self { coarse, mesh, field }
     }
 
@@ -43,13 +43,13 @@ impl Case {
         self.field.asks_for_more(PaintLayers::blank(), triangle.corners(), triangle.level())
     }
 
-    /// The coarse grid, refined until a triangle and its halves would be there, and no further.
+    /// Returns the coarse grid, refined until a triangle and its halves would be there, and no further.
     fn replayed(&self, required_by: &TreeTriangle) -> Mesh {
         let mut mesh = self.coarse.clone();
         let [a, b, c] = required_by.corners().map(LatticePoint::as_dvec2);
         let inner = 0.5 * a + 0.25 * (b + c);
         mesh.refine(&Limits::default(), |element| {
-            Ok(element.triangle.level() <= required_by.level() && contains(element.corners, inner))
+            element.triangle.level() <= required_by.level() && contains(element.corners, inner)
         })
         .unwrap();
         mesh
@@ -78,14 +78,14 @@ fn threats(random: &mut Rng) -> LayerKind {
     LayerKind::Threats(Threats::new(list).unwrap())
 }
 
-/// Whether a point lies in a triangle, by areas.
+/// Returns whether a point lies in a triangle, by areas.
 fn contains([a, b, c]: [LatticePoint; 3], point: DVec2) -> bool {
     let [a, b, c] = [a, b, c].map(LatticePoint::as_dvec2);
     let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp_dot(point - from));
     sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
 }
 
-/// The corners, in no order.
+/// Returns the corners, in no order.
 fn sorted(corners: [LatticePoint; 3]) -> [[u32; 2]; 3] {
     let mut corners = corners.map(|c| [c.x, c.y]);
     corners.sort_unstable();

@@ -122,7 +122,7 @@ fn a_picture_shows_the_levels() {
     assert_eq!(run("--size 300x200").0, [300, 200]);
 }
 
-/// An image of grey bytes, the top row first.
+/// Returns an image of grey bytes, the top row first.
 fn png(size: [u32; 2], grey: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, size[0], size[1]);
@@ -667,7 +667,7 @@ fn bad_files_are_named_with_the_rule_they_break() {
     }
 }
 
-/// A small file that announces an image of ten thousand million pixels.
+/// Returns a small file that announces an image of ten thousand million pixels.
 fn bomb() -> Vec<u8> {
     let header = b"IHDR\x00\x01\x86\xa0\x00\x01\x86\xa0\x10\x06\x00\x00\x00";
     let crc = !header.iter().fold(!0u32, |crc, &byte| {

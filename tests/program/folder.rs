@@ -43,7 +43,7 @@ impl Folder {
         names
     }
 
-    /// The bytes of every file, by name. The files are removed.
+    /// Returns the bytes of every file, by name. The files are removed.
     pub fn take_files(&self) -> BTreeMap<String, Vec<u8>> {
         let take = |name: String| {
             let path = self.0.join(&name);

@@ -19,7 +19,7 @@ use meshbrush_io::io::project::{Project, from_bytes, read, write};
 use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_mesh::geometry::Rect;
 
-/// The fingerprint of a mesh and the number of its triangles.
+/// Returns the fingerprint of a mesh and the number of its triangles.
 fn fingerprint(folder: &Folder, arguments: &[&str]) -> String {
     let summary = folder.json("mesh", arguments);
     format!("{} {}", summary["hash"].as_str().unwrap(), summary["triangles"])
@@ -62,7 +62,7 @@ fn corridor(line: Vec<DVec2>, range: f64) -> LayerKind {
     LayerKind::Distance { to, at_zero: 0.04, slope: 0.5, range }
 }
 
-/// Every kind of layer, with data that a recipe holds itself and data that it needs files for.
+/// Returns every kind of layer, with data that a recipe holds itself and data that it needs files for.
 fn kinds() -> Vec<LayerKind> {
     let random = &mut fastrand::Rng::with_seed(12);
     let (shared, other) = (raster(random), raster(random));

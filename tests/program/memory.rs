@@ -18,7 +18,8 @@ fn mesh(folder: &Folder, options: &str) -> Command {
     command
 }
 
-/// The exit status, the most memory that the program had at a time in bytes, and the number of triangles.
+/// Returns the exit status, the most memory that the program had at a time in bytes, and the number of
+/// triangles.
 fn peak_of(folder: &Folder, options: &str) -> (i32, usize, usize) {
     let mut child = mesh(folder, options).spawn().unwrap();
     let mut peak = 0;
@@ -32,8 +33,8 @@ fn peak_of(folder: &Folder, options: &str) -> (i32, usize, usize) {
     (output.status.code().expect("no signal ends it"), peak, triangles as usize)
 }
 
-/// The most memory that the program has had so far, in bytes; 0 once it has ended, and while the new process
-/// is still a copy of the one that runs the tests.
+/// Returns the most memory that the program has had so far, in bytes; 0 once it has ended, and while the new
+/// process is still a copy of the one that runs the tests.
 fn memory(child: &Child) -> usize {
     let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
     if !status.starts_with("Name:\tmeshbrush\n") {
@@ -43,7 +44,7 @@ fn memory(child: &Child) -> usize {
     most.map_or(0, |most| 1024 * most.trim().trim_end_matches(" kB").parse::<usize>().unwrap())
 }
 
-/// Diameters that differ from pixel to pixel.
+/// Returns diameters that differ from pixel to pixel.
 fn noise() -> String {
     let mut random = fastrand::Rng::with_seed(1);
     let rows = (0..300).map(|_| {

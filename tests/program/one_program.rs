@@ -59,12 +59,12 @@ fn every_file_is_the_same_for_any_number_of_threads() {
     }
 }
 
-/// A random number in a range.
+/// Returns a random number in a range.
 fn between(random: &mut fastrand::Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.f64()
 }
 
-/// A random point near the domain.
+/// Returns a random point near the domain.
 fn point(random: &mut fastrand::Rng) -> DVec2 {
     4.2 * dvec2(random.f64(), random.f64()) - dvec2(0.1, 0.1)
 }
@@ -112,7 +112,7 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
     Shapes::new(list, true).unwrap()
 }
 
-/// A layer of any kind. The distance to the outline needs a domain that has one.
+/// Returns a layer of any kind. The distance to the outline needs a domain that has one.
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
@@ -238,7 +238,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
     settings.checked().unwrap()
 }
 
-/// A document with random settings and a stroke on each paint layer.
+/// Returns a document with random settings and a stroke on each paint layer.
 fn document(random: &mut fastrand::Rng) -> Document {
     let mut document = Document::new(settings(random), None).unwrap();
     let painted = document.settings().layers.iter().filter_map(|layer| Some((layer.id, layer.paints()?)));
@@ -256,7 +256,7 @@ fn document(random: &mut fastrand::Rng) -> Document {
     document
 }
 
-/// The mesh as the window shows it: its fingerprint, and the triangles that it exports.
+/// Returns the fingerprint of the mesh in the window and the number of triangles that it exports.
 fn in_window(document: &mut Document) -> String {
     let follower = Follower::new(document).unwrap();
     let cleaning = document.settings().derived_cleaning();
@@ -265,7 +265,7 @@ fn in_window(document: &mut Document) -> String {
     format!("{} {triangles}", follower.mesh().fingerprint())
 }
 
-/// The same of the command line.
+/// Returns the fingerprint and the number of triangles that the command line prints for the mesh.
 fn by_command(folder: &Folder, arguments: &[&str]) -> String {
     let Ran { status, out, err } = folder.run([&["mesh", "--json"], arguments].concat());
     assert_eq!(status, 0, "{arguments:?}: {err}");
@@ -374,7 +374,8 @@ fn options_have_the_mesh_of_a_document_with_their_settings() {
     }
 }
 
-/// Options override the settings of a project and the values of a recipe alike, as the same edit in the window.
+/// Options override the settings of a project and the values of a recipe alike, as the same edit in the
+/// window.
 #[test]
 fn options_override_projects_and_recipes() {
     let folder = Folder::new("override");

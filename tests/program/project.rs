@@ -54,7 +54,7 @@ fn scribble(document: &mut Document, random: &mut fastrand::Rng) {
     }
 }
 
-/// Some paths with any places, and a cost by weights or by a formula.
+/// Returns some paths with any places, and a cost by weights or by a formula.
 fn paths(random: &mut fastrand::Rng) -> PathPlan {
     let mut place = || dvec2(random.f64(), -random.f64());
     let routes = (2..5).map(|count| (0..count).map(|_| place()).collect()).take(2).collect();
@@ -82,7 +82,7 @@ fn polygons(random: &mut fastrand::Rng) -> Domain {
     Domain::of_polygons(&polygons).unwrap()
 }
 
-/// A name for every piece of the boundary, and a split of the first.
+/// Returns a name for every piece of the boundary, and a split of the first.
 fn marks(domain: &Domain) -> BoundaryMarks {
     let pieces = BoundaryPieces::of_domain(domain, &BoundaryMarks::default()).unwrap();
     let name = |piece: &BoundaryPiece| (piece.middle(), format!("{} 'Ä' /\u{1f30a}", piece.name));
@@ -92,7 +92,7 @@ fn marks(domain: &Domain) -> BoundaryMarks {
     }
 }
 
-/// Layers of every kind, hidden and locked, combined in every way, with several to paint on.
+/// Returns layers of every kind, hidden and locked, combined in every way, with several to paint on.
 fn stack(bottom: LayerKind) -> Vec<Layer> {
     let gap = Raster::from_values(Rect::UNIT, [3, 1], vec![0.1, f32::NAN, 0.3]);
     let holes = Raster::from_values(Rect::UNIT, [1, 3], vec![f32::INFINITY, f32::NAN, 0.02]);
@@ -311,7 +311,8 @@ fn settings_are_readable_text_and_unzip_unpacks_them() {
     assert_eq!(said.trim(), expected, "{}", String::from_utf8_lossy(&python.stderr));
 }
 
-/// A small document that has every part. Tests try each of its bits, so its paint is a dab of either kind.
+/// Returns a small document that has every part. Tests try each of its bits, so its paint is a dab of either
+/// kind.
 fn small() -> Project {
     let square = vec![vec![dvec2(0.0, 0.0), dvec2(1.0, 0.1), dvec2(0.3, 1.0)]];
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
@@ -376,7 +377,7 @@ fn garbage_is_refused() {
     }
 }
 
-/// The small project with the text of its settings changed, in an archive with valid checksums.
+/// Returns the small project with the text of its settings changed, in an archive with valid checksums.
 fn rewritten(change: impl Fn(&str) -> String) -> Vec<u8> {
     let bytes = bytes_of(&small());
     let parts = unpacked(&bytes);
@@ -386,7 +387,7 @@ fn rewritten(change: impl Fn(&str) -> String) -> Vec<u8> {
     }))
 }
 
-/// The parts of an archive that the program wrote, read by the local headers alone.
+/// Returns the parts of an archive that the program wrote, read by the local headers alone.
 fn unpacked(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut parts = Vec::new();
     while bytes.starts_with(b"PK\x03\x04") {
@@ -401,7 +402,7 @@ fn unpacked(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     parts
 }
 
-/// An archive of stored parts.
+/// Returns an archive of stored parts.
 fn packed(parts: impl IntoIterator<Item = (String, Vec<u8>)>) -> Vec<u8> {
     let (mut out, mut directory, mut count) = (Vec::new(), Vec::new(), 0u16);
     for (name, content) in parts {
@@ -720,7 +721,7 @@ fn projects_of_version_1_with_an_impossible_resolution_are_refused() {
     }
 }
 
-/// The parts of an archive of stored parts.
+/// Returns the parts of an archive of stored parts.
 fn unpacked_plain(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut parts = Vec::new();
     while bytes.starts_with(b"PK\x03\x04") {

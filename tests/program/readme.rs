@@ -12,7 +12,7 @@ use meshbrush_mesh::mesh::MemoryLimit;
 const README: &str = include_str!("../../README.md");
 const PROGRAM: &str = env!("CARGO_BIN_EXE_meshbrush");
 
-/// The contents of the blocks of code in a language.
+/// Returns the contents of the blocks of code in a language.
 fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
     let opening = format!("```{language}\n");
     README.split("```\n").filter_map(move |part| part.split_once(&opening).map(|(_, block)| block))
@@ -68,7 +68,7 @@ fn printed(arguments: &[&str]) -> String {
     String::from_utf8(ran.stdout).unwrap()
 }
 
-/// The commands of the program, as its help lists them.
+/// Returns the commands of the program, as its help lists them.
 fn commands() -> Vec<String> {
     let help = printed(&["help"]);
     let list =

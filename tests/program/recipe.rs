@@ -10,7 +10,9 @@ use meshbrush::{
     BoundaryMarks, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect, Settings,
     write_geojson, write_project,
 };
-use meshbrush_io::io::recipe::{SavedRecipe, parse, read, to_text};
+use meshbrush_io::io::layers::SavedLayer;
+use meshbrush_io::io::recipe::{parse, read, to_text};
+use meshbrush_io::io::settings::SavedSettings;
 
 /// A grid of 4 × 4 values over [0, 4]², the lower left one 0, the others 1, and one pixel without a value.
 const GRID: &str = "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n\
@@ -60,8 +62,9 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
     let example = REFERENCE.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let find = |name: &str| Ok(name.into());
     let recipe = parse(Path::new("strait.toml"), example.into(), &find).unwrap();
-    assert_eq!((recipe.mesh.layers.len(), recipe.outputs.len()), (4, 2));
-    assert_eq!((recipe.mesh.paths.routes.len(), recipe.mesh.paths.keep_out.len()), (1, 1));
+    let settings = &recipe.settings;
+    assert_eq!((settings.layer.len(), settings.output.len()), (4, 2));
+    assert_eq!((settings.paths.routes.len(), settings.keep_out.len()), (1, 1));
     // The message about a key that does not exist lists those that do.
     for table in [
         "[{}]",
@@ -89,8 +92,7 @@ fn the_reference_has_an_example_that_is_valid_and_every_key() {
 fn the_example_is_valid_and_uses_five_kinds() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/jacksboro.toml");
     let recipe = read(&path).unwrap();
-    let kinds: BTreeSet<&str> =
-        recipe.mesh.layers.iter().map(|layer| layer.kind.saved_kind().word()).collect();
+    let kinds: BTreeSet<&str> = recipe.settings.layer.iter().map(|layer| layer.kind.word()).collect();
     assert_eq!(kinds.len(), 5, "{kinds:?}");
 }
 
@@ -287,8 +289,8 @@ fn the_recipe_of_a_document_gives_its_mesh() {
             ..Settings::for_domain("Rock".into(), domain)
         };
         let base = "{ \"kind\": \"formula\", \"quantity\": \"diameter\", \"formula\": \"0.3\" }";
-        let layers = vec![serde_json::from_str(base).unwrap()];
-        let recipe = to_text(&SavedRecipe::of_settings(&settings, "rock.geojson", layers, Vec::new()));
+        let layers: Vec<SavedLayer> = vec![serde_json::from_str(base).unwrap()];
+        let recipe = to_text(&SavedSettings::of(&settings, "rock.geojson", layers, Vec::new()));
         folder.file("rock.toml", &recipe);
         if let Some(region) = settings.domain.region() {
             let mut text = Vec::new();

@@ -9,9 +9,10 @@ use std::fs;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 20] = [
-    "text", "geometry", "mesh", "plot", "raster", "field", "domain", "layers", "outline", "paint", "build",
-    "path", "explain", "document", "io", "colormap", "scene", "render", "cli", "app",
+const MODULES: [&str; 24] = [
+    "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build", "path",
+    "explain", "document", "plot", "steps", "levels", "pixels", "report", "io", "colormap", "scene",
+    "render", "cli", "app",
 ];
 
 /// What `src/lib.rs` declares besides: documentation.
@@ -46,13 +47,13 @@ fn rank(module: &str) -> Option<usize> {
     MODULES.iter().position(|known| *known == module)
 }
 
-/// The files of the modules, without `lib.rs`, `main.rs` and [`OTHER_MODULES`].
+/// Returns the files of the modules, without `lib.rs`, `main.rs` and [`OTHER_MODULES`].
 fn files() -> Vec<SourceFile> {
     let ours = |file: &SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
     read_src().into_iter().filter(ours).collect()
 }
 
-/// The files of the modules before the given one.
+/// Returns the files of the modules before the given one.
 fn files_before(module: &str) -> impl Iterator<Item = SourceFile> {
     let end = rank(module).unwrap();
     files().into_iter().filter(move |file| rank(file.top_module()).is_some_and(|rank| rank < end))
@@ -63,7 +64,7 @@ fn assert_none(found: Vec<String>, rule: &str) {
     assert!(found.is_empty(), "{rule}\n  {}", found.join("\n  "));
 }
 
-/// Places where code names a path that begins with one of `beginnings` (segments joined by `::`).
+/// Returns the places where code names a path that begins with one of `beginnings` (segments joined by `::`).
 fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a str]) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -77,7 +78,7 @@ fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a s
     found
 }
 
-/// Places where the code contains a word.
+/// Returns the places where the code contains a word.
 fn with_word(files: impl IntoIterator<Item = SourceFile>, word: &str) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
@@ -152,7 +153,7 @@ fn the_mesh_knows_only_geometry() {
 
 #[test]
 fn the_parts_of_the_mesh_import_downwards() {
-    let parts = ["kernel", "extract", "query", "steps"];
+    let parts = ["kernel", "extract", "query"];
     let mut found = Vec::new();
     for file in files().into_iter().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
         let own = parts.iter().position(|part| *part == file.module[1]);
@@ -225,8 +226,8 @@ fn code_that_decides_a_mesh_rounds_the_same_on_every_machine() {
 
 #[test]
 fn egui_and_wgpu_meet_in_listed_files_only() {
-    // The second shows a window that is drawn in software. The third draws the whole window without a display,
-    // as eframe does with one. The fourth configures eframe.
+    // The second shows a window that is drawn in software. The third draws the whole window without a
+    // display, as eframe does with one. The fourth configures eframe.
     let joins = [
         "src/app/canvas/gpu.rs",
         "src/app/software_window/gpu.rs",
@@ -278,32 +279,44 @@ fn only_jobs_start_threads_wait_and_catch_panics() {
     assert_needed(&listed, &met, "WAITS");
 }
 
-/// Files of the window that may name a tool: the file, and why. All others read the table of tools.
-const NAMES_A_TOOL: [(&str, &str); 11] = [
+/// Where the tools are: the module and the name.
+const TOOLS: [(&str, &str); 8] = [
+    ("tools", "BRUSH"),
+    ("tools", "ERASER"),
+    ("features::inspection", "QUERY"),
+    ("features::threats", "THREATS"),
+    ("tools", "PATH"),
+    ("tools", "DOMAIN"),
+    ("features::boundary", "BOUNDARY"),
+    ("tools", "PAN"),
+];
+
+/// Files of the window that may name a tool of another module: the file, and why. All others read the table of
+/// tools.
+const NAMES_A_TOOL: [(&str, &str); 9] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog/tool.rs", "the modes of the tools for domain and boundary are commands"),
-    ("src/app/execute/domain.rs", "commands of the tools for domain and boundary select them"),
-    ("src/app/execute/layers.rs", "a layer of threats is edited with the tool for threats"),
-    ("src/app/execute/query.rs", "a query counts as a use of the query tool"),
+    ("src/app/catalog/tool.rs", "the modes of the tool for the domain are commands"),
+    ("src/app/execute/domain.rs", "commands of the tool for the domain select it"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
-    ("src/app/execute/threats.rs", "counts uses of the tool for threats"),
     ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
+    ("src/app/tools/mod.rs", "the table of tools"),
 ];
 
 #[test]
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
     let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
-    let window = window.filter(|file| !file.path.starts_with("src/app/tools/"));
-    let tools = ["BRUSH", "ERASER", "QUERY", "THREATS", "DOMAIN", "BOUNDARY", "PAN"]
-        .map(|tool| format!("crate::app::tools::{tool}"));
-    let tools: Vec<&str> = tools.iter().map(String::as_str).collect();
+    let tools = TOOLS.map(|(module, tool)| (format!("crate::app::{module}"), tool));
     let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
     for file in window {
-        let (path, names) = (file.path.clone(), named([file], &tools));
+        let own = format!("crate::{}::", file.module.join("::"));
+        let others = tools.iter().filter(|(module, _)| !own.starts_with(&format!("{module}::")));
+        let paths: Vec<String> = others.map(|(module, tool)| format!("{module}::{tool}")).collect();
+        let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+        let (path, names) = (file.path.clone(), named([file], &paths));
         if listed.contains(&path) && !names.is_empty() {
             met.push(path);
         } else {
@@ -314,16 +327,141 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
     assert_needed(&listed, &met, "NAMES_A_TOOL");
 }
 
+/// The parts of the window, lowest first: each imports only from itself and from parts before it. Whatever is
+/// in no list is of the shell: frame, menus, panels, canvas, dialogs, and what is in no folder of a feature yet.
+const WINDOW: [(&str, &[&str]); 3] = [
+    ("widgets", &["theme", "widgets"]),
+    (
+        "shared",
+        &[
+            "ages",
+            "background",
+            "boundary",
+            "busy",
+            "command",
+            "cuts",
+            "derivation",
+            "document_id",
+            "home",
+            "jobs",
+            "kit",
+            "layer_edits",
+            "notices",
+            "project",
+            "readout",
+            "session",
+            "slices",
+            "threads",
+            "tools",
+            "view",
+        ],
+    ),
+    ("features", &["features"]),
+];
+
+/// Files of the window that import from a later part: the file, the module, and why.
+const AHEAD: [(&str, &str, &str); 15] = [
+    ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
+    ("src/app/command/shell.rs", "help", "a topic of the help is data"),
+    ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
+    ("src/app/kit/frame_state.rs", "layer_pictures", "of a feature without a folder"),
+    ("src/app/kit/frame_state.rs", "paths", "of a feature without a folder"),
+    ("src/app/features/stepping/export.rs", "files", "lists the files written in the words of an export"),
+    ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),
+    ("src/app/project.rs", "replacing", "which files a question is about"),
+    ("src/app/project.rs", "report", "opening a figure loses edits too"),
+    ("src/app/tools/brush.rs", "panels", "of a feature without a folder"),
+    ("src/app/tools/domain.rs", "panels", "of a feature without a folder"),
+    ("src/app/tools/eraser.rs", "panels", "of a feature without a folder"),
+    ("src/app/tools/mod.rs", "features", "the table of tools"),
+    ("src/app/tools/path.rs", "panels", "of a feature without a folder"),
+    ("src/app/tools/path.rs", "paths", "of a feature without a folder"),
+];
+
+fn part_of_window(module: &str) -> usize {
+    WINDOW.iter().position(|(_, modules)| modules.contains(&module)).unwrap_or(WINDOW.len())
+}
+
+#[test]
+fn the_parts_of_the_window_import_downwards() {
+    let listed: Vec<String> = AHEAD.iter().map(|(file, module, _)| format!("{file} {module}")).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    let in_folder = |file: &SourceFile| file.top_module() == "app" && file.module.len() > 1;
+    for file in files().into_iter().filter(in_folder) {
+        // The table of features is what the shell reads: it knows them and the window.
+        if file.module == ["app", "features"] {
+            continue;
+        }
+        let own = part_of_window(&file.module[1]);
+        for path in file.paths() {
+            let [first, second, module, ..] = &path.segments[..] else { continue };
+            if first != "crate" || second != "app" || part_of_window(module) <= own {
+                continue;
+            }
+            let place = format!("{} {module}", file.path);
+            if listed.contains(&place) {
+                met.push(place);
+            } else {
+                found.push(format!("{}:{} imports from {module}", file.path, path.line));
+            }
+        }
+    }
+    assert_none(found, "in the window the order is widgets, what all share, features, shell:");
+    assert_needed(&listed, &met, "AHEAD");
+}
+
+#[test]
+fn widgets_know_no_mesh() {
+    let known = ["text", "colormap", "plot"];
+    let mut found = Vec::new();
+    let widgets = |file: &SourceFile| file.module.len() > 1 && part_of_window(&file.module[1]) == 0;
+    for file in files().into_iter().filter(|file| file.top_module() == "app").filter(widgets) {
+        for path in file.paths().into_iter().filter(|path| path.segments[0] == "crate") {
+            let module = path.segments[1].as_str();
+            if module != "app" && !known.contains(&module) {
+                found.push(format!("{}:{} imports from {module}", file.path, path.line));
+            }
+        }
+    }
+    assert_none(found, "widgets and theme show texts, colours and plots:");
+}
+
+/// Features that import from another one: the file, the other feature, and why.
+const IMPORTS_A_FEATURE: [(&str, &str, &str); 0] = [];
+
 #[test]
 fn features_see_a_context_and_not_each_other() {
-    let features = files().into_iter().filter(|file| file.path.starts_with("src/app/features/"));
-    let code: Vec<SourceFile> = features
-        .filter(|file| file.path.matches('/').count() == 4 && !file.path.ends_with("/tests.rs"))
-        .collect();
+    let is_inside = |file: &SourceFile| file.path.starts_with("src/app/features/") && file.module.len() > 2;
+    let code: Vec<SourceFile> = files().into_iter().filter(is_inside).collect();
     assert!(code.iter().any(|file| file.path.ends_with("/execute.rs")), "there are features");
     assert_none(with_word(code.clone(), "App"), "a feature sees the window through `Ctx`:");
-    assert_none(with_word(code, "features"), "no feature imports another:");
+    let listed: Vec<String> =
+        IMPORTS_A_FEATURE.iter().map(|(file, other, _)| format!("{file} {other}")).collect();
+    let (mut found, mut met) = (Vec::new(), Vec::new());
+    for file in code {
+        let own = file.module[2].as_str();
+        // `state.features.pins` in the folder `pins` is its own state.
+        let states =
+            file.tokens.windows(3).filter(|three| three[0].text == "features" && three[1].text == ".");
+        let states = states.map(|three| (three[0].line, three[2].text.clone()));
+        let paths =
+            file.paths().into_iter().filter(|path| path.segments.starts_with(&FEATURES.map(String::from)));
+        let paths = paths.filter_map(|path| Some((path.line, path.segments.get(3)?.clone())));
+        for (line, other) in states.chain(paths).filter(|(_, other)| other != own) {
+            let place = format!("{} {other}", file.path);
+            if listed.contains(&place) {
+                met.push(place);
+            } else {
+                found.push(format!("{}:{line} names the feature {other}", file.path));
+            }
+        }
+    }
+    assert_none(found, "no feature imports another or reads its state:");
+    assert_needed(&listed, &met, "IMPORTS_A_FEATURE");
 }
+
+/// The path of the features.
+const FEATURES: [&str; 3] = ["crate", "app", "features"];
 
 #[test]
 fn every_command_has_an_arm() {
@@ -351,7 +489,7 @@ fn files_are_short() {
     assert_needed(&listed, &long.into_iter().map(|file| file.path).collect::<Vec<_>>(), "LONG_FILES");
 }
 
-/// A row of a table or a line of a drawing, which cannot be wrapped.
+/// Returns a row of a table or a line of a drawing, which cannot be wrapped.
 fn is_table_or_drawing(comment: &str) -> bool {
     let text = comment.trim_start().trim_start_matches(['/', '!']);
     text.starts_with(" |") || text.starts_with("     ")
@@ -374,7 +512,7 @@ fn comments_fit_the_width_of_the_code() {
     );
 }
 
-/// Keys of the form `[Name1995]`, and `[Report]`.
+/// Returns keys of the form `[Name1995]`, and `[Report]`.
 fn keys(text: &str) -> BTreeSet<String> {
     let bracketed = text.split('[').skip(1).filter_map(|rest| rest.split(']').next());
     let is_key = |word: &&str| {

@@ -13,12 +13,12 @@ use std::sync::LazyLock;
 
 use crate::source::SOURCES;
 use quote::ToTokens;
-use syn::{Attribute, Fields, ImplItem, Item, ItemImpl, Type, UseTree, Visibility};
+use syn::{Attribute, Fields, ImplItem, Item, ItemImpl, TraitItem, Type, UseTree, Visibility};
 
 const RECORD: &str = "docs/public-api.txt";
 
-/// A name at the root of the crate and the path that it re-exports, without the package: no two of ours have a
-/// module of the same name.
+/// A name at the root of the crate and the path that it re-exports, without the package: no two of ours have
+/// a module of the same name.
 struct Export {
     name: String,
     path: Vec<String>,
@@ -86,7 +86,7 @@ fn everything_in_a_public_signature_has_a_public_name() {
     assert!(unnamed.is_empty(), "no public name for\n{}", unnamed.join("\n"));
 }
 
-/// The name of a public type or trait.
+/// Returns the name of a public type or trait.
 fn public_type(item: &Item) -> Option<String> {
     let (ident, visibility) = match item {
         Item::Struct(item) => (&item.ident, &item.vis),
@@ -98,8 +98,8 @@ fn public_type(item: &Item) -> Option<String> {
     is_public(visibility).then(|| ident.to_string())
 }
 
-/// The words of a line that can be names of types: those in capitals outside of attributes and texts, without
-/// the variant of an enum that the line may begin with.
+/// Returns the words of a line that can be names of types: those in capitals outside of attributes and texts,
+/// without the variant of an enum that the line may begin with.
 fn words_of_types(line: &str) -> impl Iterator<Item = &str> {
     let member = line.strip_prefix("    ");
     let is_variant = |rest: &str| rest.starts_with(|c: char| c.is_ascii_uppercase());
@@ -179,7 +179,7 @@ fn is_public(visibility: &Visibility) -> bool {
     matches!(visibility, Visibility::Public(_))
 }
 
-/// The lines that describe an export: the item, and below it fields, variants, methods and traits.
+/// Returns the lines that describe an export: the item, and below it fields, variants, methods and traits.
 fn description(export: &Export, modules: &[Module]) -> Vec<String> {
     let (name, outer) = export.path.split_last().unwrap();
     let inside = |module: &&Module| module.path.starts_with(outer);
@@ -247,8 +247,26 @@ fn described_item(item: &Item) -> Vec<String> {
             let (ident, ty) = (&item.ident, &item.ty);
             vec![plain(quote::quote!(const #ident: #ty))]
         }
+        Item::Trait(item) => vec![described_trait(item.clone())],
         other => vec![plain(other.to_token_stream())],
     }
+}
+
+/// A trait without documentation and without the bodies of its functions.
+fn described_trait(mut item: syn::ItemTrait) -> String {
+    item.attrs.clear();
+    for member in &mut item.items {
+        match member {
+            TraitItem::Fn(function) => {
+                function.attrs.clear();
+                function.default = None;
+            }
+            TraitItem::Type(ty) => ty.attrs.clear(),
+            TraitItem::Const(constant) => constant.attrs.clear(),
+            _ => {}
+        }
+    }
+    plain(item.to_token_stream())
 }
 
 fn without_attributes(fields: &mut Fields) {

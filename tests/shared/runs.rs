@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-/// The seeds of so many cases, or of a multiple of them in a long run.
+/// Returns the seeds of so many cases, or of a multiple of them in a long run.
 pub fn seeds(usual: u64) -> Range<u64> {
     let first = number("MESHBRUSH_SEED").unwrap_or(0);
     first..first + runs(usual)
@@ -21,7 +21,7 @@ fn number(variable: &str) -> Option<u64> {
     Some(text.parse().unwrap_or_else(|_| panic!("{variable} is a whole number, and not {text:?}")))
 }
 
-/// Whether a test prints its figures.
+/// Returns whether a test prints its figures.
 pub fn prints_table() -> bool {
     std::env::var_os("MESHBRUSH_TABLE").is_some()
 }

@@ -3,7 +3,6 @@
 
 use meshbrush_mesh::{geometry, mesh, text};
 
-pub mod plot;
 pub mod raster;
 pub mod field;
 pub mod domain;

@@ -2,10 +2,10 @@
 
 use eframe::egui::{Color32, Stroke};
 
-use super::marks::{paint_line, paint_line_preview};
-use crate::app::frame::FrameState;
+use crate::app::kit::marks::{paint_line, paint_line_preview};
+use crate::app::kit::{FrameState, OverMesh};
 use crate::app::paths::FoundPath;
-use crate::app::tools::{ALTERNATIVE_COLOR, OverMesh, PATH_COLOR, POINTED_COLOR, PathPlace, paint_place};
+use crate::app::tools::{ALTERNATIVE_COLOR, PATH_COLOR, POINTED_COLOR, PathPlace, paint_place};
 use meshbrush_core::path::Solution;
 
 /// Width of a path, in points.

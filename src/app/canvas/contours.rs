@@ -2,7 +2,8 @@
 
 use eframe::egui::{Painter, Rect};
 
-use super::{Canvas, marks};
+use super::Canvas;
+use crate::app::kit::marks;
 use crate::app::session::Session;
 use crate::app::view::View;
 use meshbrush_render::scene::Camera;

@@ -22,7 +22,7 @@ const BAR_MARGIN: Vec2 = vec2(10.0, 7.0);
 /// Kilometres of one degree of latitude, on the sphere with the area of the Earth.
 const KM_PER_DEGREE: f64 = 111.195;
 
-/// The largest of 1, 2 and 5 times a power of ten that is at most `limit`, which is positive.
+/// Returns the largest of 1, 2 and 5 times a power of ten that is at most `limit`, which is positive.
 fn round_length(limit: f64) -> f64 {
     let decade = 10_f64.powf(limit.log10().floor());
     // The logarithm may be rounded up to the next decade.
@@ -31,8 +31,8 @@ fn round_length(limit: f64) -> f64 {
     factor.unwrap_or(1.0) * decade
 }
 
-/// The smallest of 1, 2 and 5 times a power of ten that is at least `limit`, and into how many parts smaller
-/// ticks divide it.
+/// Returns the smallest of 1, 2 and 5 times a power of ten that is at least `limit`, and into how many parts
+/// smaller ticks divide it.
 fn tick_step(limit: f64) -> (f64, u32) {
     let below = round_length(limit);
     let leading = below / 10_f64.powf(below.log10().floor());
@@ -107,7 +107,7 @@ fn paint_side(ui: &Ui, rect: Rect, side: Side, [from, to]: [f64; 2], ticks: Tick
     }
 }
 
-/// A coordinate with the digits that tell labels apart.
+/// Returns a coordinate with the digits that tell labels apart.
 fn label(value: f64, step: f64, unit: LengthUnit) -> String {
     unit.after(&format::fixed(value, format::decimals_for(step)))
 }
@@ -153,7 +153,7 @@ pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, unit: LengthUnit) {
     }
 }
 
-/// A length, and for degrees about how many kilometres it is along a parallel at a latitude.
+/// Returns a length, and for degrees about how many kilometres it is along a parallel at a latitude.
 fn bar_text(length: f64, unit: LengthUnit, latitude: f64) -> String {
     let text = format::length(length, unit);
     if unit != LengthUnit::Degree || latitude.abs() > 89.0 {

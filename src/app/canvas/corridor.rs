@@ -2,9 +2,8 @@
 
 use eframe::egui::{Color32, Mesh, Pos2, Rect, Shape, pos2};
 
-use super::marks::paint_line;
-use crate::app::frame::FrameState;
-use crate::app::tools::OverMesh;
+use crate::app::kit::marks::paint_line;
+use crate::app::kit::{FrameState, OverMesh};
 
 /// The colours of the corridor and of its outline.
 pub const FILL: Color32 = Color32::from_rgba_premultiplied(0x44, 0x3b, 0x10, 0x44);
@@ -30,8 +29,8 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     }
 }
 
-/// What is within an odd number of closed lines, in rows of a height of `row` points. The lines hide the
-/// steps at their ends.
+/// Fills the points within an odd number of closed lines, in rows of a height of `row` points. The lines hide
+/// the steps at their ends.
 fn filled(lines: &[Vec<Pos2>], view: Rect, row: f32, color: Color32) -> Mesh {
     let count = (view.height() / row).ceil() as usize;
     let middle = |number: usize| view.top() + (number as f32 + 0.5) * row;

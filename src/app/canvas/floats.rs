@@ -8,7 +8,7 @@ use super::{Canvas, coordinates, legend, menu, way_back};
 use crate::app::background::Row;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::picture::show_corners;
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use meshbrush_core::document::Stage;
@@ -80,7 +80,7 @@ impl Canvas {
     }
 }
 
-/// A ground over the canvas for a row of widgets.
+/// Shows a ground over the canvas for a row of widgets.
 fn card(ui: &mut Ui, place: Rect) -> Ui {
     paint_floating(ui, place);
     let row = place.with_min_x(place.left() + 12.0).with_max_x(place.right() - 4.0).shrink2(vec2(0.0, 4.0));
@@ -118,7 +118,7 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     Some(child.min_rect())
 }
 
-/// Whether news has been shown long enough. Under the pointer it stays. The window sleeps meanwhile.
+/// Returns whether news has been shown long enough. Under the pointer it stays. The window sleeps meanwhile.
 fn has_faded(ui: &Ui, number: u64) -> bool {
     let id = Id::unique("end of the news");
     let now = ui.input(|input| input.time);
@@ -134,7 +134,7 @@ fn has_faded(ui: &Ui, number: u64) -> bool {
     now >= end
 }
 
-/// What is being done to update the mesh, and its progress.
+/// Returns the present work on the mesh in words, and its progress.
 pub fn work_on_mesh(session: &Session) -> Option<(&'static str, String)> {
     match session.stage() {
         _ if session.is_cutting() => Some(("Cutting the outline", String::new())),

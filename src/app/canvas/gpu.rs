@@ -21,7 +21,7 @@ const BYTES_PER_FRAME: usize = 16 << 20;
 /// The canvas's share of egui's GPU resources.
 struct CanvasResources {
     renderer: GpuRenderer,
-    /// What went wrong while a frame was prepared, to be reported in the next.
+    /// The error while a frame was prepared, to be reported in the next frame.
     failed: Option<GpuError>,
 }
 
@@ -39,7 +39,7 @@ pub struct CanvasGpu {
     sending: Sending,
 }
 
-/// What of the follower's mesh the GPU still lacks.
+/// The part of the follower's mesh that the GPU still lacks.
 struct Sending {
     /// The follower has another mesh than the one on the screen: all of it must be sent.
     behind: bool,
@@ -51,7 +51,7 @@ impl CanvasGpu {
     /// Readies the GPU behind a window.
     ///
     /// # Errors
-    /// When it cannot draw a mesh at all.
+    /// Fails when it cannot draw a mesh at all.
     pub fn new(state: &RenderState) -> Result<Self, GpuError> {
         let renderer = GpuRenderer::new(&state.device, &state.queue, state.target_format)?;
         state.renderer.write().callback_resources.insert(CanvasResources { renderer, failed: None });
@@ -69,7 +69,7 @@ impl CanvasGpu {
         self.in_software = true;
     }
 
-    /// Whether no GPU draws the mesh.
+    /// Returns whether no GPU draws the mesh.
     pub fn draws_in_software(&self) -> bool {
         self.in_software
     }
@@ -84,7 +84,7 @@ impl CanvasGpu {
     /// complete.
     ///
     /// # Errors
-    /// When the GPU cannot hold the mesh, or could not draw the last frame.
+    /// Fails when the GPU cannot hold the mesh, or could not draw the last frame.
     pub fn sync(
         &mut self,
         session: &Session,
@@ -128,15 +128,15 @@ impl CanvasGpu {
         sent
     }
 
-    /// The shape that draws the mesh on the canvas.
+    /// Returns the shape that draws the mesh on the canvas.
     pub fn shape(&self, rect: egui::Rect, camera: Camera, style: Style) -> egui::Shape {
         let callback = CanvasCallback { camera, style: Arc::new(style), in_software: self.in_software };
         egui_wgpu::Callback::new_paint_callback(rect, callback).into()
     }
 }
 
-/// The picture of the mesh for a window that is drawn in software; `None` while the driver must draw an
-/// overlay over it.
+/// Returns the picture of the mesh for a window that is drawn in software; `None` while the driver must draw
+/// an overlay over it.
 pub fn canvas_image(resources: &mut CallbackResources) -> Option<CanvasImage<'_>> {
     let canvas: &mut CanvasResources = resources.get_mut()?;
     let (image, changed, is_opaque) = canvas.renderer.take_image()?;

@@ -2,9 +2,7 @@
 
 use eframe::egui::{Color32, Pos2, Rect, Shape, Stroke, pos2};
 
-use super::marks;
-use crate::app::frame::FrameState;
-use crate::app::tools::OverMesh;
+use crate::app::kit::{FrameState, OverMesh, marks};
 use meshbrush_core::layers::Mask;
 
 /// The colour of hatching and outline.
@@ -38,8 +36,8 @@ fn paint_region(over: &OverMesh<'_>, mask: &Mask) {
     }
 }
 
-/// The parts inside rings of the diagonals x + y = n · [`SPACING`] that cross a view. A point is inside where
-/// a line to it crosses an odd number of edges.
+/// Returns the parts inside rings of the diagonals x + y = n · [`SPACING`] that cross a view. A point is
+/// inside where a line to it crosses an odd number of edges.
 fn hatching(rings: &[Vec<Pos2>], view: Rect) -> Vec<[Pos2; 2]> {
     let height = |p: Pos2| (p.x + p.y) / SPACING;
     let (first, last) = (height(view.min).ceil(), height(view.max).floor());
@@ -75,7 +73,7 @@ mod tests {
 
     use super::*;
 
-    /// Whether a point is inside rings, by the edges that a horizontal ray crosses.
+    /// Returns whether a point is inside rings, by the edges that a horizontal ray crosses.
     fn is_inside(rings: &[Vec<Pos2>], p: Pos2) -> bool {
         let edges =
             rings.iter().flat_map(|ring| (0..ring.len()).map(|n| (ring[n], ring[(n + 1) % ring.len()])));

@@ -1,11 +1,10 @@
-//! Where the selected layer counts, and the shapes that it measures the distance to.
+//! Marks of the area in which the selected layer counts, and of the shapes that it measures the distance to.
 
 use eframe::egui::{Color32, Pos2, Stroke};
 use glam::DVec2;
 
-use super::marks;
-use crate::app::frame::FrameState;
-use crate::app::tools::OverMesh;
+use crate::app::kit::{FrameState, OverMesh, marks};
+use crate::app::theme::tokens;
 use meshbrush_core::layers::{LayerKind, ShapeList};
 
 /// Width of the outline of a mask and of shapes, in points.
@@ -17,7 +16,7 @@ const MOST_POINTS: usize = 2_000;
 
 /// Draws the mask of the selected layer in the accent colour, and the shapes of a layer of distances in
 /// white. A hidden layer has neither.
-pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>, accent: Color32) {
+pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let Some(layer) = state.session.document().active_layer().filter(|layer| layer.visible) else { return };
     if let LayerKind::Distance { to, .. } = &layer.kind
         && let Some(shapes) = to.shapes()
@@ -26,7 +25,7 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>, accent: Color32) {
     }
     if let Some(mask) = &layer.mask {
         for ring in mask.polygons().iter().flatten() {
-            marks::paint_rimmed_line(over.painter, closed(over, ring), accent, WIDTH);
+            marks::paint_rimmed_line(over.painter, closed(over, ring), tokens(over.ui).accent, WIDTH);
         }
     }
 }
@@ -46,7 +45,7 @@ fn paint_shapes(over: &OverMesh<'_>, ShapeList { points, lines, polygons }: &Sha
     }
 }
 
-/// The corners of a ring in points, with the first one again at the end.
+/// Returns the corners of a ring in points, with the first one again at the end.
 fn closed(over: &OverMesh<'_>, ring: &[DVec2]) -> impl Iterator<Item = Pos2> {
     ring.iter().chain(ring.first()).map(|&corner| (over.screen_from_world)(corner))
 }

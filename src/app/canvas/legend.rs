@@ -4,7 +4,7 @@ use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, Wi
 
 use super::corridor;
 use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
 use crate::app::tools::ALTERNATIVE_COLOR;
@@ -50,7 +50,7 @@ fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
     within.with_min_y(within.top() + TITLE)
 }
 
-/// Risk from 0 to 1 in the colours over level 0.
+/// Returns risk from 0 to 1 in the colours over level 0.
 fn risk_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Risk", "Legend: risk 0 to 1");
     let t = tokens(ui);
@@ -79,7 +79,7 @@ fn risk_legend(ui: &Ui, inner: Rect) -> Rect {
     place
 }
 
-/// How often the mesh could be halved less, in the colours over level 0.
+/// Returns how often the mesh could be halved less, in the colours over level 0.
 fn slack_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
     let steps = 16u16;
@@ -88,7 +88,7 @@ fn slack_legend(ui: &Ui, inner: Rect) -> Rect {
     place
 }
 
-/// From the last edit to old triangles, a cell for each edit.
+/// Shows the legend of ages, from the last edit to old triangles, with a cell for each edit.
 fn age_legend(ui: &Ui, inner: Rect) -> Rect {
     let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
     let colors = (0..OLD_AGE + 1).map(|age| age_color(Some(age)));
@@ -117,7 +117,7 @@ fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = [u8; 4]>, t
     }
 }
 
-/// The colour of triangles that only compatibility asked for.
+/// Returns the colour of triangles that only compatibility asked for.
 fn forced_legend(ui: &Ui, inner: Rect) -> Rect {
     let spoken = "Legend: triangles that only compatibility asked for";
     let place = boxed(ui, inner, LAYER_ROW, "Cause", spoken);
@@ -129,7 +129,7 @@ fn forced_legend(ui: &Ui, inner: Rect) -> Rect {
     place
 }
 
-/// The visible layers in their colours, from the top.
+/// Returns the visible layers in their colours, from the top.
 fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     let layers = &state.session.follower().settings().layers;
     let visible: Vec<_> = layers.iter().rev().filter(|layer| layer.visible).collect();
@@ -149,7 +149,7 @@ fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     place
 }
 
-/// The levels that h̄ can ask for, with the diameters of their triangles.
+/// Returns the levels that h̄ can ask for, with the diameters of their triangles.
 fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     let settings = state.session.follower().settings();
     let levels = u32::from(deepest_level(settings)) + 1;
@@ -182,7 +182,7 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     place
 }
 
-/// What is drawn beside the paths themselves.
+/// Shows the legend of the lines that are drawn beside the paths.
 fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     let paths = state.paths;
     let mut rows = Vec::new();

@@ -3,9 +3,9 @@
 use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
 use glam::DVec2;
 
-use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
-use crate::app::frame::FrameState;
+use crate::app::features::ROWS;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 use crate::app::panels::menu_item;
 
 /// Identifies the menu, and where it was opened in egui's memory.
@@ -32,10 +32,11 @@ pub fn show(ui: &Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
 }
 
-/// What can be done at a point, in world units: the entries of the tool first.
+/// Returns the menu entries for a point in world units: the entries of the tool come first.
 fn items(state: &FrameState<'_>, world: DVec2) -> Vec<CatalogItem> {
     let item = |title: &str, command| CatalogItem::new(Menu::View, title, command);
-    let of_tool = (state.tools.tool.menu)(state, world);
+    let mut of_tool = (state.tools.tool.menu)(state, world);
+    of_tool.extend(ROWS.iter().flat_map(|row| (row.entries_at)(state, world)));
     let is_first = of_tool.is_empty();
     let mut items: Vec<_> = of_tool.into_iter().map(|(title, command)| item(title, command)).collect();
     let query = item("Query here", Command::Inspect(InspectCommand::Query(world)));
@@ -44,7 +45,7 @@ fn items(state: &FrameState<'_>, world: DVec2) -> Vec<CatalogItem> {
         item("Pick the value for the brush", Command::Brush(BrushCommand::Pick(world))),
         item("Copy the coordinates", Command::Shell(ShellCommand::Copy(state.view.typed_point(world))))
             .group(),
-        item("Go to… from here", Command::Inspect(InspectCommand::AskPlaceNear(world))),
+        item("Go to… from here", Command::Shell(ShellCommand::AskPlaceNear(world))),
         item("Centre here", Command::View(ViewCommand::LookAt(world))),
         item("Fit domain", Command::View(ViewCommand::Fit)),
     ]);

@@ -1,6 +1,5 @@
 //! The canvas: the mesh, what is drawn over it, and gestures of the pointer on it.
 
-mod cause_marks;
 mod contours;
 mod coordinates;
 mod corridor;
@@ -10,9 +9,7 @@ mod keep_out;
 mod layer_marks;
 mod legend;
 mod menu;
-pub mod marks;
 mod overlay;
-mod paths;
 mod best_paths;
 mod price;
 mod way_back;
@@ -28,15 +25,15 @@ use overlay::OverlayColors;
 use super::busy::Busy;
 use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
+use super::features::ROWS;
 use super::features::picture::BackgroundTexture;
-use super::features::pins::show_marks as show_pins;
-use super::frame::FrameState;
 use super::jobs::Jobs;
 use super::session::Session;
 use super::software_window::SoftwareWindow;
 use super::theme::tokens;
-use super::tools::{Gesture, OverMesh, PAN, Panning, Pointer, Press, Tools, picks};
+use super::tools::{PAN, Panning, Tools, picks};
 use super::view::View;
+use crate::app::kit::{FrameState, Gesture, OverMesh, Pointer, Press, marks};
 use meshbrush_core::paint::StrokePlan;
 use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
 use meshbrush_mesh::mesh::Progress;
@@ -51,7 +48,7 @@ const ZOOM_PER_POINT: f64 = 0.004;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
-/// What the canvas keeps from frame to frame.
+/// The state that the canvas keeps from frame to frame.
 pub struct Canvas {
     gpu: Option<CanvasGpu>,
     jobs: Jobs,
@@ -60,7 +57,7 @@ pub struct Canvas {
     contours: ContourFinder,
     /// The widget of the last frame, and where it was.
     shown: Option<(Id, Rect)>,
-    /// What floated over it in the last frame and takes clicks.
+    /// The rectangles of the floating widgets in the last frame that take clicks.
     floats: Vec<Rect>,
     gesture: Option<Box<dyn Gesture>>,
     pointer: Option<DVec2>,
@@ -68,7 +65,7 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// A canvas. Without `gpu` it stays empty.
+    /// Creates a canvas. Without `gpu` it stays empty.
     pub fn new(gpu: Option<CanvasGpu>, jobs: &Jobs) -> Self {
         Self {
             gpu,
@@ -91,7 +88,7 @@ impl Canvas {
         }
     }
 
-    /// Whether no GPU draws the mesh, so that drawing and everything else share the cores.
+    /// Returns whether no GPU draws the mesh, so that drawing and everything else share the cores.
     pub fn draws_in_software(&self) -> bool {
         self.gpu.as_ref().is_some_and(CanvasGpu::draws_in_software)
     }
@@ -101,12 +98,12 @@ impl Canvas {
         self.gpu.as_mut()?.leave_to_software_window().map(SoftwareWindow::new)
     }
 
-    /// Where the pointer is, in world units, while it is on the canvas or in a gesture.
+    /// Returns the position of the pointer, in world units, while it is on the canvas or in a gesture.
     pub fn pointer(&self) -> Option<DVec2> {
         self.pointer
     }
 
-    /// Where the canvas was in the last frame, in points.
+    /// Returns where the canvas was in the last frame, in points.
     pub fn rect(&self) -> Option<Rect> {
         self.shown.map(|(_, rect)| rect)
     }
@@ -199,8 +196,8 @@ impl Canvas {
         Some(Pointer { rect, camera: view.camera?, tools, px_per_point })
     }
 
-    /// Whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this only for
-    /// the place where the pointer is at the end of the frame.
+    /// Returns whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this
+    /// only for the place where the pointer is at the end of the frame.
     fn is_free_at(&self, ctx: &Context, pos: egui::Pos2) -> bool {
         let Some((id, rect)) = self.shown else { return false };
         let handle = ctx.global_style().interaction.resize_grab_radius_side;
@@ -217,8 +214,8 @@ impl Canvas {
         }
     }
 
-    /// The stroke that a click would paint at the pointer: a dab, or with Shift a line from the last painted
-    /// point. None where a click does something else.
+    /// Returns the stroke that a click would paint at the pointer: a dab, or with Shift a line from the last
+    /// painted point. None where a click does something else.
     pub fn planned_stroke(&self, ctx: &Context, tools: &Tools, bounds: WorldRect) -> Option<StrokePlan> {
         let (brush, to) = tools.brush().zip(self.pointer)?;
         let (id, _) = self.shown?;
@@ -233,7 +230,7 @@ impl Canvas {
     }
 }
 
-/// The pressure of a pen, 0 to 1, or `None` when it is lifted.
+/// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted.
 fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
     match phase {
         TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
@@ -362,15 +359,16 @@ impl Canvas {
             marks::paint_point(&painter, screen_from_world(readout.point));
         }
         let pointer = response.hover_pos();
-        let over = OverMesh { painter: &painter, screen_from_world: &screen_from_world, pointer };
-        layer_marks::paint(state, &over, tokens(ui).accent);
-        cause_marks::paint(state, &over, tokens(ui).accent);
-        paths::paint(state, &over);
+        let over =
+            OverMesh { ui, canvas: rect, painter: &painter, screen_from_world: &screen_from_world, pointer };
+        layer_marks::paint(state, &over);
         corridor::paint(state, &over);
         keep_out::paint(state, &over);
         best_paths::paint(state, &over);
         (state.tools.tool.paint)(state, &over);
-        show_pins(ui, rect, state, &over);
+        for row in ROWS {
+            (row.marks)(state, &over);
+        }
         if let Some(gesture) = &self.gesture {
             gesture.paint(&painter);
         }
@@ -388,7 +386,7 @@ impl Canvas {
         let mesh = state.session.view();
         let selected = state.readout.and_then(|readout| readout.location.triangle());
         let mut highlights = selected.map_or(Highlights::default(), |id| Highlights::around(mesh, id));
-        let hovering = state.tools.tool.highlights_hovered && self.gesture.is_none();
+        let hovering = state.tools.tool.queries && self.gesture.is_none();
         let hovered =
             state.pointer.filter(|_| hovering).and_then(|point| state.session.locate(point).triangle());
         highlights.hovered = hovered.or(state.view.hovered_neighbour);
@@ -428,7 +426,7 @@ impl Canvas {
         marks::paint_brush_ring(over.painter, pointer, tools, radius);
     }
 
-    /// Whether a click would pick a value for the brush.
+    /// Returns whether a click would pick a value for the brush.
     fn is_picking(&self, ctx: &Context, tools: &Tools) -> bool {
         tools.paints() && self.gesture.is_none() && ctx.input(|input| picks(input.modifiers))
     }

@@ -7,19 +7,19 @@ use super::super::layer_pictures::layer_color32;
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::explain::PixelTriangles;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_render::colormap::LevelColors;
 use meshbrush_render::scene::Overlay;
+use meshbrush_study::pixels::PixelTriangles;
 
 /// How strongly h̄ covers the mesh, 0 to 1.
 const TARGET_OPACITY: f32 = 0.75;
 /// How strongly the colours of layers do: the mesh stays readable.
 const LAYER_OPACITY: f32 = 0.55;
 
-/// What colours are made from.
+/// The data from which colours are made.
 #[derive(Clone, Debug, PartialEq)]
 struct OverlayState {
     kind: FieldOverlay,
@@ -45,7 +45,7 @@ pub struct OverlayColors {
 }
 
 impl OverlayColors {
-    /// The overlay to draw, if any: the last one that was computed.
+    /// Returns the overlay to draw, if any: the last one that was computed.
     pub fn overlay<'a>(
         &'a mut self,
         kind: FieldOverlay,
@@ -62,9 +62,10 @@ impl OverlayColors {
         let (document_state, mesh) = (document.revision(), follower.revision());
         let state = OverlayState { kind, document: document_state, mesh, bounds, colors };
         self.take_ready(jobs);
+        self.latest.want(&state, jobs);
         // Those of another domain or another kind are of no use.
         self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
-        if !self.latest.has(&state) {
+        if !self.latest.is_running() && !self.latest.has(&state) {
             let compute = colors_of(state.clone(), session);
             self.latest.start_wanted(state, compute, jobs);
             let has_ended = self.latest.is_running() && !self.latest.take(jobs);
@@ -108,11 +109,12 @@ fn colors_of(
         let size = pixels_over(&state.bounds);
         let goes_on = &|| wanted.goes_on();
         let rgba = match state.kind {
-            FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size),
+            FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size, goes_on)?,
             FieldOverlay::Layer => layer_colors(&field.sampled_while(&paint, state.bounds, size, goes_on)?.1),
             FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
                 let mesh = mesh.expect("the mesh is shared for these overlays");
                 let pixels = PixelTriangles::new(&mesh, state.bounds, size);
+                wanted.goes_on().then_some(())?;
                 if let Some(ages) = ages {
                     pixels.ages(&ages).into_iter().map(age_color).collect()
                 } else if state.kind == FieldOverlay::Slack {
@@ -131,7 +133,14 @@ fn colors_of(
     }
 }
 
-fn risk_colors(layers: &[Layer], paint: &PaintLayers, bounds: Rect, size: [u32; 2]) -> Vec<[u8; 4]> {
+/// `None` where `goes_on` says at the beginning of a row that nobody wants the colours any more.
+fn risk_colors(
+    layers: &[Layer],
+    paint: &PaintLayers,
+    bounds: Rect,
+    size: [u32; 2],
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
     let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
     let grid = Raster::filled(bounds, size, 0u8);
     let centers = grid.pixel_centers();
@@ -139,10 +148,11 @@ fn risk_colors(layers: &[Layer], paint: &PaintLayers, bounds: Rect, size: [u32; 
         let visible = layers.iter().filter(|layer| layer.visible);
         visible.filter_map(|layer| layer.risk_at(paint, point)).fold(0.0, f64::max)
     };
-    grid.all().pixels().map(|(x, y)| table[(risk(centers(x, y)) * 255.0) as u8 as usize]).collect()
+    let color = |(x, y)| table[(risk(centers(x, y)) * 255.0) as u8 as usize];
+    grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| color((x, y)))).collect()
 }
 
-/// The colours of the layers that decide h̄; transparent where none asks for anything.
+/// Returns the colours of the layers that decide h̄; transparent where none asks for anything.
 fn layer_colors(decisions: &[Option<LayerId>]) -> Vec<[u8; 4]> {
     let color = |layer: &Option<LayerId>| layer.map_or([0; 4], |id| layer_color32(id).to_array());
     decisions.iter().map(color).collect()
@@ -159,7 +169,8 @@ pub const FORCED: [u8; 4] = [0xff, 0x8a, 0x1e, 0xff];
 /// Halvings from which on slack has its strongest colour.
 pub const MOST_SLACK: f32 = 4.0;
 
-/// From nothing to white, with the halvings by which the mesh is finer than h̄ asks for.
+/// Returns a colour from transparent to white, by the number of halvings by which the mesh is finer than h̄
+/// requires.
 pub fn slack_color(halvings: f32) -> [u8; 4] {
     let share = (halvings / MOST_SLACK).clamp(0.0, 1.0);
     [0xff, 0xff, 0xff, if halvings.is_nan() { 0 } else { (share * 255.0) as u8 }]
@@ -168,13 +179,39 @@ pub fn slack_color(halvings: f32) -> [u8; 4] {
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
-/// From white for the last edit to nothing for what is old, or was there before the first edit.
+/// Returns a colour from white for the last edit to transparent for old triangles, and for those from before
+/// the first edit.
 pub fn age_color(edits_ago: Option<u32>) -> [u8; 4] {
     let age = edits_ago.map_or(OLD_AGE, |age| age.min(OLD_AGE));
     [0xff, 0xff, 0xff, (255 * (OLD_AGE - age) / OLD_AGE) as u8]
 }
 
-/// From nothing to a warm red; alpha carries the risk.
+/// Returns a colour from transparent to a warm red; alpha carries the risk.
 pub fn risk_color(risk: u8) -> [u8; 4] {
     [0xff, 0x5a - risk / 6, 0x3c, (f32::from(risk) * 0.8) as u8]
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::Context;
+    use meshbrush_core::document::Example;
+
+    use super::*;
+    use crate::app::files::example;
+    use crate::app::jobs::Kind;
+    use crate::app::view::View;
+
+    #[test]
+    fn an_overlay_that_is_shown_and_hidden_many_times_is_computed_once_at_a_time() {
+        let jobs = Jobs::new(&Context::default());
+        jobs.hold();
+        let session = Session::new(example(Example::ALL[0])).expect("the example has a mesh");
+        let colors = View::default().level_colors(session.document().settings());
+        let mut shown = OverlayColors::default();
+        for kind in [FieldOverlay::Target, FieldOverlay::None].repeat(50) {
+            assert!(shown.overlay(kind, &session, colors.clone(), &jobs).is_none());
+            assert!(jobs.threads(Kind::Compute) <= 1);
+        }
+        assert_eq!(jobs.started(), 1, "the first one has not ended for the window");
+    }
 }

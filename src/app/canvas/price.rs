@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
 use crate::app::tools::{PaintKind, picks};
@@ -30,7 +30,7 @@ pub fn show(ui: &Ui, state: &FrameState<'_>, canvas: Rect, pointer: Pos2, radius
     floating_tag(ui, anchor, align, bounds, &text, color);
 }
 
-/// What a click would pick.
+/// Returns the tag with the risk or diameter that a click would pick at the pointer, and its colour.
 fn picked_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
     let (session, point) = (state.session, state.pointer?);
     let value = |quantity| value_at(point, session.document(), session.follower(), quantity);
@@ -71,7 +71,7 @@ fn price_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
     }
 }
 
-/// Why a stroke changes no triangle.
+/// Returns why a stroke changes no triangle.
 fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
     let lowers = matches!(medium, Medium::Eraser | Medium::Diameter(_, DiameterChange::Coarser))
         || medium == Medium::Risk(0.0);
@@ -92,7 +92,7 @@ fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
     }
 }
 
-/// What the tag says of a price, on a mesh of `count` triangles.
+/// Returns the text of the tag for a price, on a mesh of `count` triangles.
 fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, Color32) {
     let text = match price {
         Price::Change(0) => return ("as many triangles as before".into(), t.label),
@@ -113,8 +113,8 @@ fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, 
     (text, t.value)
 }
 
-/// Where a tag of the given size goes: right of the ring, else left, else below, else above; never over its
-/// middle.
+/// Returns the place of a tag of the given size: right of the ring, else left, else below, else above; never
+/// over its middle.
 fn place(bounds: Rect, pointer: Pos2, radius: f32, size: Vec2) -> (Pos2, Align2) {
     let reach = radius.min(FARTHEST) + GAP;
     if pointer.x + reach + size.x <= bounds.right() {

@@ -4,7 +4,7 @@ use eframe::egui::{CursorIcon, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, Widge
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, ViewCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::session::Session;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::paint_floating;
@@ -16,7 +16,7 @@ const PROBES: u32 = 7;
 /// Radius of the button, in points.
 const RADIUS: f32 = 20.0;
 
-/// An arrow towards the mesh while none of it is in view; a click shows all of it. Returns its place.
+/// Returns an arrow towards the mesh while none of it is in view; a click shows all of it. Returns its place.
 pub fn show(
     ui: &Ui,
     inner: Rect,
@@ -53,7 +53,8 @@ fn paint_arrow(ui: &Ui, place: Rect, direction: Vec2, color: eframe::egui::Color
     ui.painter().add(Shape::convex_polygon(head, color, Stroke::NONE));
 }
 
-/// From the middle of the view towards the mesh, in world units; `None` if some of it is in view.
+/// Returns the vector from the middle of the view towards the mesh, in world units; `None` if some of the
+/// mesh is in view.
 fn direction_to_mesh(session: &Session, camera: &Camera) -> Option<DVec2> {
     let visible = camera.visible_world();
     let on_mesh = |place: DVec2| session.locate(place).triangle().is_some();

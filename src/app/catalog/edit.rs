@@ -2,9 +2,8 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{CatalogItem, Menu};
 use crate::app::command::{Command, DomainCommand, EditCommand, InspectCommand, ShellCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// History and paint.
 pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -1,6 +1,6 @@
-//! What is done with the pointer. The list of keys shows all of it, the menu Tool what a person would miss.
+//! Gestures of the pointer. The list of keys shows all of them, the menu Tool those that are hard to find.
 
-/// Where a gesture is made.
+/// The tool or control with which a gesture is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// With the brush or the eraser.
@@ -16,7 +16,7 @@ pub enum Place {
 }
 
 impl Place {
-    /// The heading in the list of keys.
+    /// Returns the heading in the list of keys.
     pub fn name(self) -> &'static str {
         match self {
             Self::Painting => "Painting with the pointer",
@@ -31,13 +31,13 @@ impl Place {
 /// Something done with the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GestureHelp {
-    /// What it does.
+    /// The effect of the gesture.
     pub title: &'static str,
     /// The keys and the movement.
     pub keys: &'static str,
     /// Where.
     pub place: Place,
-    /// What its entry in the menu Tool says; empty for those that are in no menu.
+    /// The text that its entry in the menu Tool shows; empty for a gesture without an entry.
     pub advice: &'static str,
 }
 

@@ -2,11 +2,12 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::help::HelpTopic;
+use crate::app::kit::{CatalogItem, Menu};
 use crate::app::report::FigureCommand;
-use meshbrush_core::document::{Example, ReportFigure};
+use meshbrush_core::document::Example;
+use meshbrush_study::report::ReportFigure;
 
 /// Documents that come with the program, and those of the figures of the report.
 pub fn examples() -> Vec<CatalogItem> {
@@ -22,7 +23,7 @@ pub fn examples() -> Vec<CatalogItem> {
     Example::ALL.map(item).into_iter().chain(figures).collect()
 }
 
-/// The manual, keys and gestures, and what the program is.
+/// Returns the manual, keys and gestures, and what the program is.
 pub fn help() -> Vec<CatalogItem> {
     let topic = |title: &str, topic| {
         CatalogItem::new(Menu::Help, title, Command::Shell(ShellCommand::ShowHelp(topic)))

@@ -2,13 +2,12 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{CatalogItem, Menu};
 use crate::app::command::{Command, LayerCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 use crate::app::panels::{LAYER_KINDS, combine_name};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 
-/// The stack of layers, and the selected one.
+/// Returns the stack of layers, and the selected one.
 pub fn layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let mut items = additions(state);
     items.extend(selected_layer(state));
@@ -22,7 +21,7 @@ fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
     CatalogItem::new(Menu::Layer, title, Command::Layer(command))
 }
 
-/// What adds a layer of each kind.
+/// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let additions = LAYER_KINDS.iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
@@ -33,7 +32,7 @@ fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items.collect()
 }
 
-/// What is done with the selected layer.
+/// Returns the commands for the selected layer.
 fn selected_layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let layer = state.session.document().active_layer();
     let is = |test: fn(&Layer) -> bool| layer.is_some_and(test);

@@ -2,33 +2,13 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{CatalogItem, GESTURES, GestureHelp, Menu};
-use crate::app::command::{
-    BrushCommand, Command, DomainCommand, ExploreCommand, FileCommand, InspectCommand, ShellCommand,
-    ThreatsCommand,
-};
-use crate::app::explore::TreeStep;
-use crate::app::features::{boundary, pins};
-use crate::app::frame::FrameState;
+use super::{GESTURES, GestureHelp};
+use crate::app::command::{BrushCommand, Command, DomainCommand, FileCommand, ShellCommand};
 use crate::app::keep_out::KeepOutCommand;
+use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
 use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
-use crate::app::tools::{
-    BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, QUERY, THREATS, TOOLS, Tools,
-};
-
-const DIGITS: [Key; 10] = [
-    Key::Num1,
-    Key::Num2,
-    Key::Num3,
-    Key::Num4,
-    Key::Num5,
-    Key::Num6,
-    Key::Num7,
-    Key::Num8,
-    Key::Num9,
-    Key::Num0,
-];
+use crate::app::tools::{BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, TOOLS, Tools};
 
 /// Tools and their settings.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -74,76 +54,21 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ]);
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
     items.extend(domain_tool(state));
-    items.extend(threats_tool(state));
     items.extend(path_tool(state));
-    items.extend(neighbours(state));
-    items.extend(trail(state));
-    items.extend(pins::entries(state));
     items.extend(amounts(tools));
-    items.extend(tree_steps(state));
     items
 }
 
-/// An entry that names a gesture. Chosen, it says how the gesture is made.
+/// Returns an entry that names a gesture. Chosen, it says how the gesture is made.
 fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
     let command = Command::Shell(ShellCommand::Tell(gesture.advice.to_owned()));
     CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
 }
 
-/// The neighbours of the queried triangle. With the query tool they have the numbers on the canvas as keys.
-fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
-    let titles = ["Go to the bisection neighbour", "Go to the second neighbour", "Go to the third neighbour"];
-    let has_keys = state.tools.tool == &QUERY;
-    let is_queried = state.session.queried_triangle().is_some();
-    titles.into_iter().enumerate().map(move |(place, title)| {
-        let item =
-            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::QueryNeighbour(place)))
-                .enabled(is_queried);
-        let item = if has_keys { item.key(DIGITS[place]) } else { item };
-        if place == 0 { item.group() } else { item }
-    })
-}
-
-/// The same, with the triangles on the way kept in sight.
-fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
-    let names = ["bisection", "second", "third"];
-    let has_keys = state.tools.tool == &QUERY;
-    let is_queried = state.session.queried_triangle().is_some();
-    names.into_iter().enumerate().map(move |(place, name)| {
-        let title = format!("Follow the {name} neighbour and keep the trail");
-        let item =
-            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::FollowNeighbour(place)))
-                .enabled(is_queried);
-        if has_keys { item.keys(Modifiers::SHIFT, DIGITS[place]) } else { item }
-    })
-}
-
-/// Steps in the bisection tree from the queried triangle. They have keys with the tool that explains it.
-fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
-    let steps = [
-        ("Go to the parent triangle", TreeStep::Parent, Modifiers::NONE, Key::PageUp),
-        ("Go to the sibling", TreeStep::Sibling, Modifiers::SHIFT, Key::PageUp),
-        ("Go to the first half", TreeStep::Child(0), Modifiers::NONE, Key::PageDown),
-        ("Go to the second half", TreeStep::Child(1), Modifiers::SHIFT, Key::PageDown),
-        ("Go to the coarse triangle", TreeStep::Coarse, Modifiers::COMMAND, Key::PageUp),
-        ("Go back to the queried triangle", TreeStep::Queried, Modifiers::COMMAND, Key::PageDown),
-        ("Go towards the triangle that required it", TreeStep::PreviousLink, Modifiers::NONE, Key::Comma),
-        ("Go back along the chain", TreeStep::NextLink, Modifiers::NONE, Key::Period),
-    ];
-    let has_keys = state.tools.tool.explains;
-    let leads = steps.map(|(_, step, ..)| state.explore.target(step, state.session.mesh()).is_some());
-    steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
-        let command = Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step)));
-        let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
-        let item = if has_keys { item.keys(modifiers, key) } else { item };
-        if place == 0 { item.group() } else { item }
-    })
-}
-
 /// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do
 /// nothing. With the query tool they belong to the neighbours.
 fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
-    let has_keys = tools.tool != &QUERY;
+    let has_keys = !tools.tool.queries;
     let paints = tools.tool != &ERASER;
     let sets_risk = paints && tools.kind == PaintKind::Risk && tools.mode == BrushMode::Set;
     let is_share = !paints || tools.kind == PaintKind::Risk;
@@ -175,14 +100,13 @@ fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         mode("Draw the frame of the domain", DomainToolMode::Frame),
         item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
     ];
-    items.extend(boundary::entries(state));
     if !tools.domain.corners.is_empty() {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
     }
     items
 }
 
-/// The key deletes a place of a path only while the tool is selected.
+/// Returns the key deletes a place of a path only while the tool is selected.
 fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Path(command));
     let plan = &state.session.document().settings().paths;
@@ -216,12 +140,4 @@ fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         front("Take the next shorter path", FrontCommand::Shorter).enabled(paths.front.is_on),
         front("Take the next safer path", FrontCommand::Safer).enabled(paths.front.is_on),
     ]
-}
-
-/// The key deletes a threat only while the tool is selected.
-fn threats_tool(state: &FrameState<'_>) -> Option<CatalogItem> {
-    let is_selected = state.tools.threats.selected_in(state.session.document()).is_some();
-    let delete = Command::Threats(ThreatsCommand::Delete);
-    let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete).key(Key::Delete).group();
-    (state.tools.tool == &THREATS).then(|| item.enabled(is_selected))
 }

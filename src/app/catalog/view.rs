@@ -2,13 +2,12 @@
 
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
-use super::{CatalogItem, Menu};
-use crate::app::command::{Command, InspectCommand, ShellCommand, ViewCommand};
-use crate::app::frame::FrameState;
+use crate::app::command::{Command, ShellCommand, ViewCommand};
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_render::colormap::Colormap;
 
-/// What is shown.
+/// Returns the commands that change the view.
 pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::View;
     let view = state.view;
@@ -25,7 +24,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Fit domain", ViewCommand::Fit).key(Key::Home),
         item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus),
         item("Zoom out", ViewCommand::Zoom(1.0 / 1.5)).key(Key::Minus),
-        CatalogItem::new(View, "Go to…", Command::Inspect(InspectCommand::AskPlace)).ctrl(Key::G),
+        CatalogItem::new(View, "Go to…", Command::Shell(ShellCommand::AskPlace)).ctrl(Key::G),
         item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::app::background::WorkId;
-use crate::app::dialogs::FileRequest;
 use crate::app::home::Home;
+use crate::app::kit::FileRequest;
 use crate::app::widgets::Answer;
 use meshbrush_core::document::{Document, Example};
 
@@ -26,6 +26,8 @@ pub enum FileCommand {
     OpenRecipe(PathBuf),
     /// Opens a document that was read.
     Show(Opened),
+    /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
+    Fail(String),
     /// Saves the document to its file, or asks where.
     Save,
     /// Saves it to a file, and asks before another one is replaced.
@@ -63,7 +65,7 @@ pub enum FileCommand {
 /// A document that was read and not shown yet.
 #[derive(Clone, Debug)]
 pub struct Opened {
-    /// What was read.
+    /// The document that was read.
     pub document: Arc<Document>,
     /// The project file that it belongs to, if it is from one.
     pub home: Option<Home>,

@@ -2,8 +2,10 @@
 
 use std::num::NonZeroUsize;
 
+use glam::DVec2;
+
 use crate::app::help::HelpTopic;
-use crate::app::tools::Tool;
+use crate::app::kit::Tool;
 
 /// One thing to do with tools, dialogs, help and messages.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +18,10 @@ pub enum ShellCommand {
     Palette,
     /// Shows what the program is.
     About,
+    /// Opens the question for a place to go to.
+    AskPlace,
+    /// Opens it with a point typed in.
+    AskPlaceNear(DVec2),
     /// Closes the open dialog.
     CloseDialog,
     /// Shows a topic of the help.

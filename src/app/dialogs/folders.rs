@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::FileRequest;
+use crate::app::kit::FileRequest;
 use meshbrush_io::io;
 
 /// Name under which the window's own storage keeps the folders.
@@ -14,7 +14,8 @@ const KEY: &str = "folders";
 pub struct LastFolders(BTreeMap<String, PathBuf>);
 
 impl LastFolders {
-    /// Where to look first: in the last folder for such files, else beside a known file, else at home.
+    /// Returns the folder to show first: the last folder for such files, else the folder of a known file,
+    /// else the home folder.
     pub fn of(&self, request: FileRequest, file: Option<&Path>) -> PathBuf {
         let last = self.0.get(request.folder).map(PathBuf::as_path);
         let beside = file.and_then(Path::parent);

@@ -4,7 +4,7 @@ use eframe::egui::{Align, Context, Id, Key, Layout, RichText, Ui};
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, InspectCommand, ShellCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{
     ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format, typed,
@@ -12,7 +12,7 @@ use crate::app::widgets::{
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_mesh::text::LengthUnit;
 
-/// What was typed.
+/// The target that was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Place {
     Point(DVec2),
@@ -40,7 +40,7 @@ impl Place {
         split.map(|(x, y)| Self::Point(dvec2(x, y)))
     }
 
-    /// What goes there, or a sentence that says why it is impossible.
+    /// Returns the command that goes to the target, or a sentence that says why it is impossible.
     fn command(self, state: &FrameState<'_>) -> Result<Command, String> {
         match self {
             Self::Point(point) => {
@@ -70,7 +70,7 @@ impl Place {
         }
     }
 
-    /// What was understood.
+    /// Returns the target in words, as it was understood.
     fn name(self, unit: LengthUnit) -> String {
         match self {
             Self::Point(point) => {
@@ -82,7 +82,7 @@ impl Place {
     }
 }
 
-/// Whether a text is one whole number, with or without commas at every third digit.
+/// Returns whether a text is one whole number, with or without commas at every third digit.
 fn is_grouped(text: &str) -> bool {
     let groups: Vec<&str> = text.split(',').collect();
     let digits = |group: &&str| !group.is_empty() && group.bytes().all(|byte| byte.is_ascii_digit());
@@ -91,7 +91,7 @@ fn is_grouped(text: &str) -> bool {
     groups.iter().all(digits) && grouped
 }
 
-/// The text typed so far, in egui's memory.
+/// Returns the text typed so far, in egui's memory.
 fn typed_text() -> Id {
     Id::unique("place typed so far")
 }

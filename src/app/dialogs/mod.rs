@@ -3,7 +3,6 @@
 mod file;
 mod folders;
 mod go_to;
-mod request;
 mod system;
 
 use std::path::Path;
@@ -11,17 +10,17 @@ use std::path::Path;
 use eframe::egui::Context;
 
 use super::REPORT;
-use super::catalog::{CatalogItem, catalog};
+use super::catalog::catalog;
 use super::command::{Command, FileCommand, ShellCommand};
 use super::document_id::DocumentId;
-use super::frame::FrameState;
 use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
+use crate::app::kit::{CatalogItem, FileAct, FileRequest, FrameState};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
-pub use request::{FileAct, FileKind, FileRequest};
+
 use system::{Answer, Question, SystemDialog};
 
 /// Chooses the file dialog: `window` for the one in the window, `system` for the desktop's own.
@@ -32,7 +31,7 @@ const DIALOG_VARIABLE: &str = "MESHBRUSH_FILE_DIALOG";
 pub enum Dialog {
     /// The list of all commands.
     Palette,
-    /// What the program is.
+    /// The dialog about the program and its licences.
     About,
     /// The question for a place on the canvas.
     GoTo,
@@ -60,12 +59,12 @@ impl Dialogs {
         (self.open, self.file) = (None, None);
     }
 
-    /// Whether a dialog is open.
+    /// Returns whether a dialog is open.
     pub fn is_open(&self) -> bool {
         self.open.is_some() || self.file.as_ref().is_some_and(FileDialog::is_shown)
     }
 
-    /// Whether a file is being asked for.
+    /// Returns whether a file is being asked for.
     pub fn asks_for_file(&self) -> bool {
         self.file.is_some() || self.system.is_asking()
     }
@@ -112,7 +111,7 @@ impl Dialogs {
     /// dialog, the one in the window opens, now and from then on.
     ///
     /// # Errors
-    /// The title of the dialog, if it was about another document than the one that is open.
+    /// Fails with the title of the dialog if it was about another document than the one that is open.
     pub fn take_answer(
         &mut self,
         document: DocumentId,

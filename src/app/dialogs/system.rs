@@ -3,20 +3,21 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use super::{DocumentId, FileRequest};
+use super::DocumentId;
 use crate::app::jobs::{Job, Jobs, Kind, Taken};
+use crate::app::kit::FileRequest;
 
 /// A dialog that is answered faster than this has not opened.
 const FASTEST_CANCEL: Duration = Duration::from_millis(150);
 
-/// What was asked for.
+/// A request that is shown in a dialog of the system.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// What the file is for.
+    /// The purpose of the file.
     pub request: FileRequest,
     /// The document that was open then.
     pub document: DocumentId,
-    /// Where the dialog begins.
+    /// The folder that the dialog shows first.
     pub folder: PathBuf,
     /// The proposed name, with its ending.
     pub name: String,
@@ -25,9 +26,9 @@ pub struct Question {
 /// How a [`Question`] was answered.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// With a path.
+    /// A path was chosen.
     Chosen(PathBuf),
-    /// Not at all.
+    /// The dialog was closed without a choice.
     Cancelled,
     /// The desktop has no such dialog.
     NoDialog,
@@ -38,7 +39,7 @@ pub enum Answer {
 pub struct SystemDialog(Option<Job<(Question, Answer)>>);
 
 impl SystemDialog {
-    /// Whether a question has not been answered yet.
+    /// Returns whether a question has not been answered yet.
     pub fn is_asking(&self) -> bool {
         self.0.is_some()
     }
@@ -54,7 +55,7 @@ impl SystemDialog {
         }));
     }
 
-    /// The answer, once it is there.
+    /// Returns the answer, once it is there.
     pub fn take(&mut self) -> Option<(Question, Answer)> {
         let taken = self.0.as_ref()?.take_ready();
         if matches!(taken, Taken::Working) {
@@ -91,7 +92,8 @@ fn is_there() -> bool {
     true
 }
 
-/// Whether the desktop has a file dialog. `rfd` answers a missing dialog and a cancelled one in the same way.
+/// Returns whether the desktop has a file dialog. `rfd` answers a missing dialog and a cancelled one in the
+/// same way.
 #[cfg(not(any(windows, target_vendor = "apple")))]
 fn is_there() -> bool {
     let folders = std::env::var_os("PATH").unwrap_or_default();

@@ -30,7 +30,7 @@ impl App {
         }
     }
 
-    /// The paths of the document as lines. Says why there are none yet.
+    /// Returns the paths of the document as lines. Says why there are none yet.
     fn current_paths(&mut self) -> Option<Shapes> {
         let plan = &self.session.document().settings().paths;
         if plan.routes.is_empty() {

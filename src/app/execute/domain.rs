@@ -1,5 +1,7 @@
 //! Commands about the domain.
 
+use eframe::egui::Context;
+
 use crate::app::App;
 use crate::app::command::{DomainCommand, OutlineChange};
 use crate::app::files;
@@ -7,7 +9,7 @@ use crate::app::tools::DOMAIN;
 use meshbrush_core::domain::CutShape;
 
 impl App {
-    pub(super) fn execute_on_domain(&mut self, command: DomainCommand) {
+    pub(in crate::app) fn execute_on_domain(&mut self, command: DomainCommand, _: &Context) {
         let tool = &mut self.tools.domain;
         match command {
             DomainCommand::Reshape(cut_shape, adds) => self.reshape(cut_shape, adds),

@@ -8,15 +8,15 @@ use eframe::egui::{Context, ViewportCommand};
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, Opened};
-use crate::app::dialogs::FileRequest;
 use crate::app::file_kinds::SAVE_PROJECT;
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
+use crate::app::kit::FileRequest;
 use crate::app::{files, journal, project};
 use meshbrush_core::document::Document;
 
 impl App {
-    pub(super) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
+    pub(in crate::app) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
         match command {
             FileCommand::New => self.open(files::new_document()),
             FileCommand::OpenExample(example) => self.open(files::example(example)),
@@ -28,6 +28,7 @@ impl App {
             FileCommand::OpenProject(path) => home::open(&mut self.background, &path),
             FileCommand::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
             FileCommand::Show(opened) => self.show_opened(opened),
+            FileCommand::Fail(problem) => self.fail(problem),
             FileCommand::Save => match self.project.path() {
                 Some(path) => self.send(Command::File(FileCommand::SaveTo(path.to_owned()))),
                 None => self.ask_for_file(&SAVE_PROJECT),

@@ -7,13 +7,13 @@ use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_BAND;
 use crate::app::layer_files;
 use crate::app::notices::Offer;
-use crate::app::panels::ask_layer_name;
-use crate::app::tools::{PaintKind, THREATS};
+use crate::app::panels::{LAYER_KINDS, ask_layer_name, kind_of};
+use crate::app::tools::PaintKind;
 use meshbrush_core::document::{NoPaintLayer, Setting, Settings};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 
 impl App {
-    pub(super) fn execute_on_layers(&mut self, command: LayerCommand, ctx: &Context) {
+    pub(in crate::app) fn execute_on_layers(&mut self, command: LayerCommand, ctx: &Context) {
         let (session, background) = (&self.session, &mut self.background);
         match command {
             LayerCommand::OpenImage(path) => layer_files::load_image(session, background, &path),
@@ -30,12 +30,14 @@ impl App {
             LayerCommand::TakePaths(id) => self.take_paths(id),
             LayerCommand::Duplicate(id) => self.duplicate_layer(id),
             LayerCommand::Delete(id) => self.delete_layer(id),
-            LayerCommand::Move(id, place) => self.edit_layers_once(|layers| move_layer(layers, id, place)),
+            LayerCommand::Move(id, place) => {
+                self.session.edit_layers_once(|layers| move_layer(layers, id, place))
+            }
             LayerCommand::Rename(id, name) => self.edit_layer_once(id, |layer| layer.name = name),
             LayerCommand::Show(id, visible) => self.edit_layer_once(id, |layer| layer.visible = visible),
             LayerCommand::Lock(id, locked) => self.edit_layer_once(id, |layer| layer.locked = locked),
             LayerCommand::Combine(id, combine) => self.edit_layer_once(id, |layer| layer.combine = combine),
-            LayerCommand::SetKind(id, kind) => self.set_kind(id, *kind),
+            LayerCommand::SetKind(id, kind) => self.session.set_layer_kind(id, *kind),
             LayerCommand::MeasureTo(id, to) => self.edit_layer_once(id, |layer| measure_to(layer, to)),
             LayerCommand::Mask(id, mask) => self.edit_layer_once(id, |layer| layer.mask = mask),
             LayerCommand::Clear(id) => self.session.document_mut().clear_layer(id),
@@ -46,11 +48,6 @@ impl App {
                 self.session.end_gesture();
             }
         }
-    }
-
-    /// Changes what a layer asks for. Further changes join the gesture.
-    pub(super) fn set_kind(&mut self, id: LayerId, kind: LayerKind) {
-        self.edit_layers(|layers| edit_layer(layers, id, |layer| layer.kind = kind));
     }
 
     /// Selects a layer. Where it can be painted on, the brush paints its quantity from now on. A tool that
@@ -64,10 +61,12 @@ impl App {
             None => {}
         }
         let layer = document.settings().layer(id);
-        let (paints, has_threats) = (self.tools.paints(), self.tools.tool == &THREATS);
-        match layer.map(|layer| &layer.kind) {
-            Some(LayerKind::Threats(_)) if paints => self.tools.select(&THREATS),
-            Some(LayerKind::Paint(_)) if has_threats => self.tools.select_brush(),
+        let Some(kind) = layer.map(|layer| &layer.kind) else { return };
+        let chosen = self.tools.chosen();
+        let edits_a_kind = LAYER_KINDS.iter().any(|kind| kind.tool == Some(chosen));
+        match kind_of(kind).tool {
+            Some(tool) if chosen.brush.is_some() => self.tools.select(tool),
+            None if edits_a_kind && matches!(kind, LayerKind::Paint(_)) => self.tools.select_brush(),
             _ => {}
         }
     }
@@ -108,10 +107,10 @@ impl App {
         let id = document.unused_layer_id();
         let name = unused_name(&document.settings().layers, &kind.name());
         let place = self.place_above_selected();
-        if matches!(kind, LayerKind::Threats(_)) {
-            self.tools.select(&THREATS);
+        if let Some(tool) = kind_of(&kind).tool {
+            self.tools.select(tool);
         }
-        self.edit_layers_once(|layers| layers.insert(place, Layer::new(id, name, kind)));
+        self.session.edit_layers_once(|layers| layers.insert(place, Layer::new(id, name, kind)));
         self.select_layer(id);
     }
 
@@ -145,7 +144,7 @@ impl App {
         let name = unused_name(layers, &layers[place].name);
         let copy = Layer { id: copy_id, name, ..layers[place].clone() };
         self.session.document_mut().copy_paint(id, copy_id);
-        self.edit_layers_once(|layers| layers.insert(place + 1, copy));
+        self.session.edit_layers_once(|layers| layers.insert(place + 1, copy));
         self.select_layer(copy_id);
     }
 
@@ -157,7 +156,7 @@ impl App {
         let next = place.checked_sub(1).or(Some(place + 1)).and_then(|next| layers.get(next));
         let next = next.map(|layer| layer.id);
         let was_selected = self.session.document().active_layer().is_some_and(|layer| layer.id == id);
-        self.edit_layers_once(|layers| layers.retain(|layer| layer.id != id));
+        self.session.edit_layers_once(|layers| layers.retain(|layer| layer.id != id));
         if let Some(next) = next.filter(|_| was_selected) {
             self.session.document_mut().activate_layer(next);
         }
@@ -171,7 +170,7 @@ impl App {
         }
     }
 
-    /// The place above the selected layer; the top without one.
+    /// Returns the place above the selected layer; the top without one.
     fn place_above_selected(&self) -> usize {
         let document = self.session.document();
         let selected = document.active_layer().map(|layer| layer.id);
@@ -180,20 +179,7 @@ impl App {
     }
 
     fn edit_layer_once(&mut self, id: LayerId, edit: impl FnOnce(&mut Layer)) {
-        self.edit_layers_once(|layers| edit_layer(layers, id, edit));
-    }
-
-    /// Edits the layers as a gesture of its own.
-    fn edit_layers_once(&mut self, edit: impl FnOnce(&mut Vec<Layer>)) {
-        self.session.end_gesture();
-        self.edit_layers(edit);
-        self.session.end_gesture();
-    }
-
-    fn edit_layers(&mut self, edit: impl FnOnce(&mut Vec<Layer>)) {
-        let mut layers = self.session.document().settings().layers.clone();
-        edit(&mut layers);
-        self.session.set(Setting::Layers(layers));
+        self.session.edit_layers_once(|layers| edit_layer(layers, id, edit));
     }
 }
 
@@ -225,7 +211,7 @@ fn move_layer(layers: &mut Vec<Layer>, id: LayerId, place: usize) {
     }
 }
 
-/// The name, or with a number where a layer has that name.
+/// Returns the name, or with a number where a layer has that name.
 fn unused_name(layers: &[Layer], name: &str) -> String {
     let is_used = |name: &str| layers.iter().any(|layer| layer.name == name);
     let numbered = (2..).map(|n| format!("{name} {n}"));

@@ -1,5 +1,5 @@
-//! What each command does. A match arm is one call into the module that owns the data; no `match` has a
-//! wildcard, so that a command without an arm does not compile.
+//! Runs the commands. A match arm is one call into the module that owns the data; no `match` has a wildcard,
+//! so that a command without an arm does not compile.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -9,20 +9,16 @@ mod files;
 mod keep_out;
 mod layers;
 mod painting;
-mod steps;
 mod paths;
-mod query;
 mod report;
-mod threats;
 
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{Command, EditCommand, ShellCommand, StatisticsCommand};
-use super::ctx::Feature;
-use super::dialogs::Dialog;
+use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
+use super::dialogs::{Dialog, fill_in_place};
 use super::features::Features;
-use super::tools::Tool;
+use crate::app::kit::{Ctx, Tool};
 
 impl App {
     /// Runs one command.
@@ -31,34 +27,30 @@ impl App {
         else {
             return;
         };
-        match command {
-            Command::File(command) => self.execute_on_files(command, ctx),
-            Command::Edit(command) => self.execute_on_document(command),
-            Command::Brush(command) => self.execute_on_brush(command),
-            Command::Layer(command) => self.execute_on_layers(command, ctx),
-            Command::Threats(command) => self.execute_on_threats(command),
-            Command::Domain(command) => self.execute_on_domain(command),
-            Command::Boundary(command) => self.run(|features| &mut features.boundary, command, ctx),
-            Command::Picture(command) => self.run(|features| &mut features.picture, command, ctx),
-            Command::Path(command) => self.execute_on_paths(command),
-            Command::Pins(command) => self.run(|features| &mut features.pins, command, ctx),
-            Command::Inspect(command) => self.execute_on_query(command, ctx),
-            Command::Statistics(StatisticsCommand::Measure) => self.session.measure(&self.jobs),
-            Command::Plots(command) => self.run(|features| &mut features.plots, command, ctx),
-            Command::Figure(command) => self.execute_on_report(command, ctx),
-            Command::Steps(command) => self.execute_on_steps(command, ctx),
-            Command::View(command) => self.view.execute(command, ctx),
-            Command::Shell(command) => self.execute_on_shell(command, ctx),
-        }
+        self.run(command, ctx);
     }
 
-    /// Runs a command of a feature.
-    fn run<F: Feature>(&mut self, feature: fn(&mut Features) -> &mut F, command: F::Command, ctx: &Context) {
-        let (features, mut ctx) = self.features(ctx);
-        feature(features).execute(command, &mut ctx);
+    /// Returns the features, and what they see.
+    pub(super) fn features_in_context<'a>(&'a mut self, egui: &'a Context) -> (&'a mut Features, Ctx<'a>) {
+        let ctx = Ctx {
+            session: &mut self.session,
+            view: &mut self.view,
+            tools: &mut self.tools,
+            project: &mut self.project,
+            background: &mut self.background,
+            jobs: &self.jobs,
+            commands: &mut self.commands,
+            egui,
+            reproducible: self.reproducible,
+        };
+        (&mut self.features, ctx)
     }
 
-    fn execute_on_document(&mut self, command: EditCommand) {
+    pub(super) fn execute_on_view(&mut self, command: ViewCommand, ctx: &Context) {
+        self.view.execute(command, ctx);
+    }
+
+    pub(super) fn execute_on_document(&mut self, command: EditCommand, _: &Context) {
         match command {
             EditCommand::Undo => self.keep_brush_share(|app| app.session.undo()),
             EditCommand::Redo => self.keep_brush_share(|app| app.session.redo()),
@@ -69,12 +61,17 @@ impl App {
         }
     }
 
-    fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
+    pub(super) fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
         match command {
             ShellCommand::Use(tool) => self.use_tool(tool),
             ShellCommand::Escape => self.escape(),
             ShellCommand::Palette => self.dialogs.open(Dialog::Palette),
             ShellCommand::About => self.dialogs.open(Dialog::About),
+            ShellCommand::AskPlace => self.dialogs.open(Dialog::GoTo),
+            ShellCommand::AskPlaceNear(point) => {
+                fill_in_place(ctx, self.view.typed_point(point));
+                self.dialogs.open(Dialog::GoTo);
+            }
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => self.help = Some(topic),
             ShellCommand::CloseHelp => self.help = None,
@@ -89,7 +86,7 @@ impl App {
     /// Ends the steps. Else cancels what is in progress: the stroke, the cut, or the rectangle or polygon.
     /// Else closes the help, or clears query and message.
     fn escape(&mut self) {
-        if self.help.is_none() && self.stepping.take().is_some() {
+        if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
             return;
         }
         if self.session.document().stroke().is_some() {
@@ -104,14 +101,14 @@ impl App {
             self.tools.domain.corners.clear();
             self.tools.path.pending = None;
         } else if self.help.take().is_none() {
-            self.ask(None);
+            self.session.query(None);
             self.session.notices_mut().dismiss();
         }
     }
 
     /// Selects a tool, for the mesh of the document.
     fn use_tool(&mut self, tool: Tool) {
-        self.stepping = None;
+        self.features.stepping.leave(&mut self.tools);
         self.tools.select(tool);
     }
 

@@ -1,5 +1,6 @@
 //! Commands about strokes and the brush.
 
+use eframe::egui::Context;
 use glam::DVec2;
 
 use crate::app::App;
@@ -8,7 +9,7 @@ use crate::app::readout::{Quantity, value_at};
 use crate::app::tools::{BrushMode, PaintKind};
 
 impl App {
-    pub(super) fn execute_on_brush(&mut self, command: BrushCommand) {
+    pub(in crate::app) fn execute_on_brush(&mut self, command: BrushCommand, _: &Context) {
         let tools = &mut self.tools;
         match command {
             BrushCommand::BeginStroke(point) => self.begin_stroke(point),

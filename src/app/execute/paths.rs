@@ -3,20 +3,21 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use eframe::egui::Context;
 use glam::DVec2;
 
 use crate::app::App;
 use crate::app::command::Command;
+use crate::app::kit::nearest_within;
 use crate::app::path_export;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, FrontFinder, PathCommand};
-use crate::app::tools::nearest_within;
 use meshbrush_core::document::{PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;
 use meshbrush_render::render::path_export::PathFormat;
 
 impl App {
-    pub(super) fn execute_on_paths(&mut self, command: PathCommand) {
+    pub(in crate::app) fn execute_on_paths(&mut self, command: PathCommand, _: &Context) {
         match command {
             PathCommand::Press { at, reach, is_between } => self.press_path(at, reach, is_between),
             PathCommand::DragTo(to) => self.drag_place(to),
@@ -197,7 +198,7 @@ impl App {
     }
 }
 
-/// The formula that is equal to weights.
+/// Returns the formula that is equal to weights.
 fn formula_of(Weights { length, risk }: Weights) -> CostFormula {
     CostFormula::parse(&format!("{length} + {risk}*risk"))
         .expect("a sum of numbers and the risk is a formula")

@@ -3,14 +3,14 @@
 use eframe::egui::Context;
 
 use crate::app::App;
+use crate::app::command::{Command, StepCommand};
+use crate::app::features::inspection::QUERY;
 use crate::app::features::plots::PlotKind;
 use crate::app::report::{FigureCommand, ShownFigure};
-use crate::app::stepping::Stepping;
-use crate::app::tools::QUERY;
-use meshbrush_core::document::ReportFigure;
+use meshbrush_study::report::ReportFigure;
 
 impl App {
-    pub(super) fn execute_on_report(&mut self, command: FigureCommand, ctx: &Context) {
+    pub(in crate::app) fn execute_on_report(&mut self, command: FigureCommand, ctx: &Context) {
         match command {
             FigureCommand::Open(figure) => self.open_figure(figure),
             FigureCommand::Close => self.report = None,
@@ -23,17 +23,17 @@ impl App {
 
     /// Opens the document of a figure, and shows of it what the figure shows.
     fn open_figure(&mut self, figure: ReportFigure) {
-        self.stepping = None;
+        self.features.stepping.leave(&mut self.tools);
         self.open(figure.document());
         self.report = Some(ShownFigure::new(figure, &self.session));
         self.view.panels = true;
         if figure.is_step() {
-            self.stepping = Some(Stepping::at_figure(&self.session, &self.tools, figure));
+            self.send(Command::Steps(StepCommand::Begin(Some(figure))));
         }
         if let Some(point) = figure.query() {
             self.use_tool(&QUERY);
             self.view.aids.walk = true;
-            self.ask(Some(point));
+            self.session.query(Some(point));
         }
         if figure.is_about_time() {
             self.features.plots.choose(PlotKind::Figure5);

@@ -1,8 +1,8 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
-//! [`Ctx`](super::ctx::Ctx), and never another feature.
+//! [`Ctx`], and never another feature: it sends the command of another one instead.
 //!
-//! Boundary, picture, pins and plots have everything in their folders. Of the others, only commands and kinds
-//! of files are here.
+//! Boundary, picture, pins, plots and stepping have everything in their folders. Of the others, only
+//! commands and kinds of files are here.
 
 pub mod boundary;
 pub mod domain;
@@ -13,34 +13,117 @@ pub mod picture;
 pub mod pins;
 pub mod plots;
 pub mod statistics;
+pub mod stepping;
 pub mod threats;
 
-use super::ctx::Feature as _;
+use eframe::egui::Context;
+
+use super::App;
+use super::command::{
+    BrushCommand, DomainCommand, EditCommand, FileCommand, LayerCommand, ShellCommand, ViewCommand,
+};
+use super::kit::{Ctx, Feature, Row};
+use super::paths::PathCommand;
+use super::report::FigureCommand;
 use boundary::Boundary;
+use inspection::Inspector;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
+use statistics::Statistics;
+use stepping::Stepping;
+use threats::ThreatEditor;
 
-/// The state of all features.
-#[derive(Default)]
-pub struct Features {
-    /// The pieces of the boundary.
-    pub boundary: Boundary,
-    /// The picture behind the mesh.
-    pub picture: BackgroundPicture,
-    /// Points whose triangles and values are followed.
-    pub pins: Pins,
-    /// Plots of the mesh, and of the time that meshes take.
-    pub plots: Plots,
+/// Writes from one list what knows all features: their state, the commands with what runs them, and the
+/// rows. What the window does itself has its commands and the methods that run them in the second list.
+macro_rules! features {
+    (
+        features { $( $(#[$doc:meta])* $field:ident: $Feature:ty as $Command:ident, )* }
+        window { $( $(#[$window_doc:meta])* $Window:ident($command:ty) => $run:ident, )* }
+    ) => {
+        /// The state of all features.
+        #[derive(Default)]
+        pub struct Features {
+            $( $(#[$doc])* pub $field: $Feature, )*
+        }
+
+        /// The parts of each feature that the window shows.
+        pub static ROWS: &[Row] = &[ $( <$Feature as Feature>::ROW, )* ];
+
+        /// One thing to do. Lengths and points are in world units.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Command {
+            $( $(#[$doc])* $Command(<$Feature as Feature>::Command), )*
+            $( $(#[$window_doc])* $Window($command), )*
+        }
+
+        impl Features {
+            /// Takes and starts work that takes longer than a frame. Returns whether some is left.
+            pub fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
+                let mut left = false;
+                $( left |= self.$field.follow(ctx); )*
+                left
+            }
+
+            /// Forgets what belongs to the document: another one was opened.
+            pub fn forget_document(&mut self) {
+                $( self.$field.forget_document(); )*
+            }
+        }
+
+        impl App {
+            /// Runs one command.
+            pub(super) fn run(&mut self, command: Command, egui: &Context) {
+                match command {
+                    $( Command::$Command(command) => {
+                        let (features, mut ctx) = self.features_in_context(egui);
+                        features.$field.execute(command, &mut ctx);
+                    } )*
+                    $( Command::$Window(command) => self.$run(command, egui), )*
+                }
+            }
+        }
+    };
 }
 
-impl Features {
-    /// Forgets what belongs to the document: another one was opened.
-    pub fn forget_document(&mut self) {
-        let Self { boundary, picture, pins, plots } = self;
-        boundary.forget_document();
-        picture.forget_document();
-        pins.forget_document();
-        plots.forget_document();
+// Menus, side panel, tool strip and canvas show the features in this order.
+features! {
+    features {
+        /// The queried point and its triangle.
+        inspection: Inspector as Inspect,
+        /// The steps of the refinement.
+        stepping: Stepping as Steps,
+        /// The threats of the selected layer.
+        threats: ThreatEditor as Threats,
+        /// The pieces of the boundary.
+        boundary: Boundary as Boundary,
+        /// The picture behind the mesh.
+        picture: BackgroundPicture as Picture,
+        /// Points whose triangles and values are followed.
+        pins: Pins as Pins,
+        /// The figures of the mesh.
+        statistics: Statistics as Statistics,
+        /// Plots of the mesh, and of the time that meshes take.
+        plots: Plots as Plots,
+    }
+    window {
+        /// Documents and their files.
+        File(FileCommand) => execute_on_files,
+        /// History, paint and settings of the document.
+        Edit(EditCommand) => execute_on_document,
+        /// Strokes and the brush.
+        Brush(BrushCommand) => execute_on_brush,
+        /// The layers of the size field.
+        Layer(LayerCommand) => execute_on_layers,
+        /// The domain.
+        Domain(DomainCommand) => execute_on_domain,
+        /// The paths of the document.
+        Path(PathCommand) => execute_on_paths,
+        /// The figures of the report.
+        Figure(FigureCommand) => execute_on_report,
+        /// Commands about the view.
+        View(ViewCommand) => execute_on_view,
+        /// Tools, dialogs, help and messages.
+        Shell(ShellCommand) => execute_on_shell,
     }
 }

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Id, Role, Sense, Ui, WidgetInfo, vec2};
 
-use crate::app::catalog::{CatalogItem, GESTURES, Menu};
+use crate::app::catalog::GESTURES;
+use crate::app::kit::{CatalogItem, Menu};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{SearchField, key_row, matches};
 
@@ -34,7 +35,7 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
     ui.data_mut(|data| data.insert_temp(id, query));
 }
 
-/// The list as a page of the documentation.
+/// Returns the list as a page of the documentation.
 #[cfg(test)]
 pub fn page(catalog: &[CatalogItem]) -> String {
     let mut page = "# Keys and gestures\n\nThe list of Shift+`F1` in the window. On a Mac, Ctrl is Cmd. \

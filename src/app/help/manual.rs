@@ -5,9 +5,9 @@
 pub struct Page {
     /// Name in the list of pages.
     pub title: &'static str,
-    /// Its file in `docs/manual`.
+    /// The name of the page's file in `docs/manual`.
     pub file: &'static str,
-    /// Its Markdown.
+    /// The text of the page, as Markdown.
     pub text: &'static str,
 }
 
@@ -52,12 +52,12 @@ static PICTURES: [(&str, &[u8]); 5] = [
     picture!("triangle.png"),
 ];
 
-/// The page of a file.
+/// Returns the page of a file.
 pub fn page_of(file: &str) -> Option<&'static Page> {
     PAGES.iter().find(|page| page.file == file)
 }
 
-/// The PNG file of a picture.
+/// Returns the PNG file of a picture.
 pub fn picture(name: &str) -> Option<&'static [u8]> {
     PICTURES.iter().find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
 }

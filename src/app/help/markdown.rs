@@ -11,7 +11,7 @@ pub struct Span {
     pub strong: bool,
     /// Monospaced.
     pub code: bool,
-    /// Where it leads, as written in the file.
+    /// The target of the link, as written in the file.
     pub link: Option<String>,
 }
 
@@ -32,7 +32,7 @@ pub enum Block {
     Picture(String, String),
 }
 
-/// The blocks of a page.
+/// Returns the blocks of a page.
 pub fn blocks(text: &str) -> Vec<Block> {
     let mut reader = Reader::default();
     for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
@@ -141,7 +141,7 @@ impl Reader {
     }
 }
 
-/// The text without its styles.
+/// Returns the text without its styles.
 pub fn plain(spans: &[Span]) -> String {
     spans.iter().map(|span| span.text.as_str()).collect()
 }

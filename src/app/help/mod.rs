@@ -10,11 +10,11 @@ pub use keys::page as keys_page;
 
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
-use super::catalog::CatalogItem;
 use super::command::{Command, ShellCommand};
 use super::theme::tokens_of;
+use crate::app::kit::CatalogItem;
 
-/// What the help window shows.
+/// The contents of the help window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HelpTopic {
     /// Keys and gestures.
@@ -26,7 +26,7 @@ pub enum HelpTopic {
 impl HelpTopic {
     /// The first page.
     pub const MANUAL: Self = Self::Page("first-steps.md");
-    /// From risk to mesh, in one picture.
+    /// The page that explains the steps from risk to mesh in one picture.
     pub const HOW_IT_WORKS: Self = Self::Page("how-it-works.md");
     /// The words of the field and of the program.
     pub const GLOSSARY: Self = Self::Page("glossary.md");

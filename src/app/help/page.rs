@@ -87,7 +87,7 @@ fn text(ui: &mut Ui, spans: &[Span], commands: &mut Vec<Command>) {
     });
 }
 
-/// The spans as one text with their styles.
+/// Returns the spans as one text with their styles.
 fn job(ui: &Ui, spans: &[Span]) -> LayoutJob {
     let t = tokens(ui);
     let mut job = LayoutJob::default();
@@ -166,7 +166,7 @@ fn show_picture(ui: &mut Ui, file: &str, description: &str) {
     ui.label(egui::RichText::new(description).font(font::caption()).color(tokens(ui).label));
 }
 
-/// The texture of a picture, decoded when it is shown for the first time.
+/// Returns the texture of a picture, decoded when it is shown for the first time.
 fn texture(ui: &Ui, file: &str) -> Option<TextureHandle> {
     let id = Id::unique(file).with("texture");
     if let Some(texture) = ui.data(|data| data.get_temp::<TextureHandle>(id)) {

@@ -6,10 +6,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Longest part of a panic's message that is shown, in bytes.
 const LONGEST: usize = 200;
 
-/// What work gives.
+/// Runs work and catches a panic.
 ///
 /// # Errors
-/// A sentence about its panic. Work owns what it changes, so that nothing half changed is left.
+/// Fails with a sentence about the panic. The work owns all data that it changes, so no data are left half
+/// changed.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| sentence(&message(&*panic)))
 }
@@ -21,7 +22,7 @@ fn sentence(problem: &str) -> String {
     )
 }
 
-/// The beginning of what a panic says.
+/// Returns the beginning of what a panic says.
 fn message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("no message");

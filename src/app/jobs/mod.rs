@@ -2,61 +2,84 @@
 //! catches their panics.
 //!
 //! ```text
-//!   Jobs::start ─→ queue ─→ thread ─→ values ─→ Job::take, in a frame     newer values, and the end
-//!                              └───── panic ──→ Jobs::take_problems       one message
+//!   Jobs::start ─→ queue ─→ thread ─→ one channel ─→ Jobs::begin_frame ─→ Job::take_ready    values, the end
+//!                              │           └───────→ Job::take, at most 3 ms a frame in total
+//!                              └─ panic ─→ Jobs::take_problems     one message, and no second attempt
 //! ```
 //!
 //! A [`Job`] belongs to the document that was open when it began, and to whoever holds it: dropped, it ends
-//! the work. A [`Slot`] keeps the last value of jobs for a key that changes.
+//! the work. So a window that is closed ends all work but the files that are being written.
+//!
+//! A [`Slot`] keeps the last value of jobs for a key that changes. It has one job at a time. A newer key ends
+//! the job for an older one by this rule:
+//!
+//! ```text
+//!   the newer key changes again within 100 ms   the job goes on: a stroke shows the values on the way
+//!   the newer key stays the same for 100 ms     the job ends, and the one for the newer key begins
+//!   the job before gave way and gave nothing    the job goes on, so that something is shown in the end
+//! ```
+//!
+//! So while a key changes, a newer value comes at least every two computations. Once it rests, its value
+//! comes after one computation and 100 ms where the work looks whether it is still wanted, and after two
+//! computations at the latest.
 
 mod failure;
+mod inbox;
 mod job;
 mod queue;
 mod slot;
+#[cfg(test)]
+mod slot_tests;
+mod succession;
+#[cfg(test)]
+mod tests;
 
 use std::cell::Cell;
 use std::rc::Rc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use eframe::egui::Context;
 
+use inbox::Inbox;
 pub use job::{Job, Output, Taken, Wanted};
 use queue::Queue;
 pub use slot::Slot;
+pub use succession::Succession;
 
 use super::document_id::DocumentId;
-
-/// How long a frame waits for jobs, all of them together: what takes a moment is shown in the frame that
-/// asked for it.
-const PATIENCE: Duration = Duration::from_millis(3);
 
 /// The purpose of a job. There are so many threads for each at most; more jobs wait their turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It computes what the window shows, or an edit of the document.
+    /// Jobs that compute contents of the window, or an edit of the document.
     Compute,
-    /// It reads a file. Whoever started it says what a panic means.
+    /// Jobs that read a file. The code that started a job reports a panic.
     Read,
-    /// It writes a file: a window that is being closed waits for it. Whoever started it says what a panic
-    /// means.
+    /// Jobs that write a file. A window that is being closed waits for them. The code that started a job
+    /// reports a panic.
     Write,
-    /// It waits for a person or for the system.
+    /// Jobs that wait for a person or for the system.
     Ask,
-    /// It keeps the journal, as long as the window is open.
+    /// The job that keeps the journal, as long as the window is open.
     Journal,
 }
 
 impl Kind {
     const ALL: [Self; 5] = [Self::Compute, Self::Read, Self::Write, Self::Ask, Self::Journal];
 
-    /// The most threads.
+    /// Returns the most threads.
     fn most(self) -> usize {
         match self {
             Self::Compute => 6,
             Self::Read | Self::Write | Self::Ask => 4,
             Self::Journal => 3,
         }
+    }
+
+    /// Returns whether the window says that a job ended with a panic. Whoever reads or writes a file says it
+    /// with the name of the file.
+    fn reports_panic(self) -> bool {
+        !matches!(self, Self::Read | Self::Write)
     }
 }
 
@@ -67,44 +90,62 @@ pub struct Jobs(Rc<Shared>);
 struct Shared {
     ctx: Context,
     queue: Queue,
+    inbox: Inbox,
+    /// How many were started.
+    started: Cell<u64>,
     /// The document that is open.
     document: Cell<DocumentId>,
-    /// How long this frame may still wait.
-    patience: Cell<Duration>,
-    /// Whether a frame waits as long as its jobs take: pictures must be the same every time.
-    waits_for_all: Cell<bool>,
-    problem_sender: Sender<String>,
-    problems: Receiver<String>,
+    /// The number of this frame.
+    frame: Cell<u64>,
+    /// The time of the frame, in seconds.
+    time: Cell<f64>,
 }
 
 impl Jobs {
     /// None yet, in the window of `ctx`.
     pub fn new(ctx: &Context) -> Self {
-        let (problem_sender, problems) = channel();
         Self(Rc::new(Shared {
             ctx: ctx.clone(),
             queue: Queue::default(),
+            inbox: Inbox::default(),
+            started: Cell::default(),
             document: Cell::default(),
-            patience: Cell::new(PATIENCE),
-            waits_for_all: Cell::new(false),
-            problem_sender,
-            problems,
+            frame: Cell::default(),
+            time: Cell::default(),
         }))
     }
 
-    /// From now on every frame waits until its jobs have ended.
+    /// Makes every later frame wait until its jobs have ended.
     pub fn wait_for_all(&self) {
-        self.0.waits_for_all.set(true);
+        self.0.inbox.wait_for_all();
     }
 
-    /// Whether every frame waits until its jobs have ended.
+    /// Returns whether every frame waits until its jobs have ended.
     pub fn waits_for_all(&self) -> bool {
-        self.0.waits_for_all.get()
+        self.0.inbox.waits_for_all()
     }
 
-    /// Begins a frame: it may wait again.
-    pub fn begin_frame(&self) {
-        self.0.patience.set(PATIENCE);
+    /// Begins a frame at a time in seconds: what jobs have sent is delivered, and the frame may wait again.
+    pub fn begin_frame(&self, time: f64) {
+        self.0.time.set(time);
+        self.0.frame.set(self.0.frame.get() + 1);
+        if self.0.inbox.begin_frame() {
+            self.wake();
+        }
+    }
+
+    fn frame(&self) -> u64 {
+        self.0.frame.get()
+    }
+
+    /// Returns whether this frame may still wait after it has spent some more time on the values of a job.
+    fn has_time_left_after(&self, spent: Duration) -> bool {
+        self.0.inbox.has_time_left_after(spent)
+    }
+
+    /// Makes another frame follow this one.
+    fn wake(&self) {
+        self.0.ctx.request_repaint();
     }
 
     /// Another document was opened. What jobs still find for the one before is dropped.
@@ -112,7 +153,7 @@ impl Jobs {
         self.0.document.set(document);
     }
 
-    /// The document that is open.
+    /// Returns the document that is open.
     pub fn document(&self) -> DocumentId {
         self.0.document.get()
     }
@@ -123,114 +164,84 @@ impl Jobs {
         kind: Kind,
         work: impl FnOnce(&Output<T>) + Send + 'static,
     ) -> Job<T> {
-        let (job, output) = Job::new(&self.0.ctx, self.document());
-        let problems = (!matches!(kind, Kind::Read | Kind::Write)).then(|| self.0.problem_sender.clone());
-        self.0.queue.push(kind, move || {
-            if output.is_wanted()
-                && let Err(problem) = failure::caught(|| work(&output))
-                && let Some(problems) = problems
-            {
-                // The receiver is gone when the window is closed.
-                let _ = problems.send(problem);
-            }
-            output.end();
+        let Shared { ctx, queue, inbox, started, .. } = &*self.0;
+        started.set(started.get() + 1);
+        let (job, output) = Job::new(started.get(), self.document(), inbox.sender(), ctx);
+        queue.push(kind, move || {
+            let done = if output.is_wanted() { failure::caught(|| work(&output)) } else { Ok(()) };
+            output.end(done.err().filter(|_| kind.reports_panic()));
         });
         job
     }
 
     /// Messages about jobs that ended with a panic, since the last call.
     pub fn take_problems(&self) -> Vec<String> {
-        self.0.problems.try_iter().collect()
+        self.0.inbox.take_problems()
     }
 
     /// Waits until no file is being written, or the time is over: for a window that is being closed.
     pub fn wait_for_writing(&self, longest: Duration) {
         self.0.queue.wait(Kind::Write, longest);
+        self.0.inbox.drain();
     }
 
-    /// Receives a value, and waits for it as long as the frame may still wait. No other code of the window
-    /// waits for a thread while it is open.
-    fn receive<T>(&self, values: &Receiver<T>) -> Result<T, RecvTimeoutError> {
-        if self.waits_for_all() {
-            return values.recv().map_err(|_| RecvTimeoutError::Disconnected);
+    /// Waits until a job has ended, however long it takes: for a window that is being closed.
+    pub fn wait_for_end<T: Send + 'static>(&self, job: &Job<T>) {
+        while !matches!(job.take_ready(), Taken::Ended) {
+            self.0.inbox.receive_within(Duration::MAX);
         }
-        let began = Instant::now();
-        let received = values.recv_timeout(self.0.patience.get());
-        self.0.patience.set(self.0.patience.get().saturating_sub(began.elapsed()));
-        received
+    }
+
+    /// Waits for the next value of any job as long as the frame may still wait. Returns whether one came.
+    fn receive(&self) -> bool {
+        self.0.inbox.receive()
+    }
+
+    /// Returns the time of the frame, in seconds.
+    fn time(&self) -> f64 {
+        self.0.time.get()
+    }
+
+    /// Wakes the window after so many seconds.
+    fn wake_after(&self, seconds: f64) {
+        self.0.ctx.request_repaint_after(Duration::from_secs_f64(seconds));
     }
 }
 
+/// Tests that decide when the window hears of its jobs, and that wait for them without a clock.
 #[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicUsize, Ordering};
+impl Jobs {
+    /// Holds back all later values of jobs until [`Self::release`] delivers them.
+    pub fn hold(&self) {
+        self.0.inbox.hold();
+    }
 
-    use super::*;
+    /// Delivers what one of the jobs sent next: `choose` picks its place among so many jobs. Returns whether
+    /// there was anything.
+    pub fn release(&self, choose: impl FnOnce(usize) -> usize) -> bool {
+        self.0.inbox.release(choose)
+    }
 
-    /// Goes on until nobody wants it any more.
-    fn endless(output: &Output<()>) {
-        while output.is_wanted() {
-            std::thread::yield_now();
+    /// Waits until the threads of all jobs but the journal have ended.
+    pub fn wait_for_threads(&self) {
+        for kind in Kind::ALL.into_iter().filter(|&kind| kind != Kind::Journal) {
+            self.0.queue.wait(kind, Duration::from_secs(60));
+            assert_eq!(self.threads(kind), 0, "{kind:?} does not end");
         }
     }
 
-    #[test]
-    fn a_frame_waits_for_all_its_jobs_together_no_longer_than_its_patience() {
-        let jobs = Jobs::new(&Context::default());
-        let running: Vec<Job<()>> =
-            (0..Kind::Compute.most()).map(|_| jobs.start(Kind::Compute, endless)).collect();
-        jobs.begin_frame();
-        assert!(running.iter().all(|job| matches!(job.take(&jobs), Taken::Working)));
-        assert_eq!(jobs.0.patience.get(), Duration::ZERO, "the jobs used up one patience together");
+    /// Returns how many jobs were started.
+    pub fn started(&self) -> u64 {
+        self.0.started.get()
     }
 
-    #[test]
-    fn no_more_jobs_of_a_kind_run_at_once_than_it_has_threads() {
-        let jobs = Jobs::new(&Context::default());
-        jobs.wait_for_all();
-        let (running, most) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
-        let started: Vec<Job<usize>> = (0..100)
-            .map(|number| {
-                let (running, most) = (running.clone(), most.clone());
-                jobs.start(Kind::Compute, move |output| {
-                    most.fetch_max(running.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-                    std::thread::yield_now();
-                    running.fetch_sub(1, Ordering::SeqCst);
-                    output.send(number);
-                })
-            })
-            .collect();
-        for (number, job) in started.iter().enumerate() {
-            assert!(matches!(job.take(&jobs), Taken::Value(value) if value == number));
-            assert!(matches!(job.take(&jobs), Taken::Ended));
-        }
-        assert!((1..=Kind::Compute.most()).contains(&most.load(Ordering::SeqCst)));
+    /// Returns how many threads a kind of jobs has now.
+    pub fn threads(&self, kind: Kind) -> usize {
+        self.0.queue.running(kind)
     }
 
-    #[test]
-    fn a_job_that_nobody_wants_any_more_does_not_begin() {
-        let jobs = Jobs::new(&Context::default());
-        let holding: Vec<Job<()>> = (0..Kind::Ask.most()).map(|_| jobs.start(Kind::Ask, endless)).collect();
-        let begun = Arc::new(AtomicUsize::new(0));
-        let begins = begun.clone();
-        drop(jobs.start(Kind::Ask, move |_: &Output<()>| {
-            begins.fetch_add(1, Ordering::SeqCst);
-        }));
-        drop(holding);
-        jobs.0.queue.wait(Kind::Ask, Duration::from_secs(30));
-        assert_eq!(begun.load(Ordering::SeqCst), 0);
-    }
-
-    #[test]
-    fn a_window_that_is_closed_waits_for_writing_and_not_for_reading() {
-        let jobs = Jobs::new(&Context::default());
-        let _reading = jobs.start(Kind::Read, endless);
-        let writing = jobs.start(Kind::Write, |output: &Output<u32>| {
-            output.send(7);
-        });
-        // The reading never ends by itself: waiting for it would take an hour.
-        jobs.wait_for_writing(Duration::from_secs(3600));
-        assert!(matches!(writing.take_ready(), Taken::Value(7)));
+    /// Waits a moment for what jobs send next.
+    pub fn wait_for_news(&self, longest: Duration) {
+        self.0.inbox.receive_within(longest);
     }
 }

@@ -54,6 +54,12 @@ impl Queue {
             state = self.0.ended.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0;
         }
     }
+
+    /// Returns how many threads a kind of work has now.
+    #[cfg(test)]
+    pub fn running(&self, kind: Kind) -> usize {
+        self.0.lock().running[kind as usize]
+    }
 }
 
 impl Threads {

@@ -1,24 +1,33 @@
 //! The last value for a key that changes, computed by jobs.
 
+use super::succession::Succession;
 use super::{Job, Jobs, Kind, Taken, Wanted};
 
 /// The value for a key that was computed last, and the one that is being computed. The key holds everything
 /// that the value depends on.
 pub struct Slot<K, T> {
     found: Option<(K, T)>,
-    running: Option<(K, Job<T>)>,
+    running: Option<Running<K, T>>,
     /// The key whose value could not be computed: it is not tried again.
     failed: Option<K>,
+    succession: Succession<K>,
+}
+
+struct Running<K, T> {
+    key: K,
+    job: Job<T>,
+    /// Whether its value is of no use any more.
+    is_forgotten: bool,
 }
 
 impl<K, T> Default for Slot<K, T> {
     fn default() -> Self {
-        Self { found: None, running: None, failed: None }
+        Self { found: None, running: None, failed: None, succession: Succession::default() }
     }
 }
 
-impl<K: PartialEq, T: Send + 'static> Slot<K, T> {
-    /// The last value with its key, which may be that of an earlier state.
+impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
+    /// Returns the last value with its key, which may be that of an earlier state.
     pub fn last(&self) -> Option<(&K, &T)> {
         self.found.as_ref().map(|(key, value)| (key, value))
     }
@@ -36,22 +45,40 @@ impl<K: PartialEq, T: Send + 'static> Slot<K, T> {
     /// Drops the last value and ends the job. Until it has ended, no other one starts.
     pub fn stop(&mut self, jobs: &Jobs) {
         self.found = None;
-        if let Some((_, job)) = &self.running {
-            job.cancel();
+        if let Some(running) = &mut self.running {
+            running.job.cancel();
+            running.is_forgotten = true;
         }
         self.take_ready(jobs);
     }
 
-    /// Whether a value is being computed.
+    /// Returns whether a value is being computed.
     pub fn is_running(&self) -> bool {
         self.running.is_some()
     }
 
-    /// Whether the value for a key is known, being computed, or cannot be computed.
+    /// Returns whether the value for a key is known, being computed, or cannot be computed.
     pub fn has(&self, key: &K) -> bool {
+        let is_coming = |running: &Running<K, T>| running.key == *key && !running.job.is_cancelled();
         self.found.as_ref().is_some_and(|(found, _)| found == key)
-            || self.running.as_ref().is_some_and(|(running, job)| running == key && !job.is_cancelled())
+            || self.running.as_ref().is_some_and(is_coming)
             || self.failed.as_ref() == Some(key)
+    }
+
+    /// Returns whether the job was told to end, and has not ended yet.
+    #[cfg(test)]
+    pub fn is_ending(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| running.job.is_cancelled())
+    }
+
+    /// Says which key is wanted now, in every frame: a job for another one may have to give way, by the rule
+    /// of [`super`].
+    pub fn want(&mut self, key: &K, jobs: &Jobs) {
+        if let Some(running) = &self.running
+            && self.succession.gives_way(&running.key, key, jobs)
+        {
+            running.job.cancel();
+        }
     }
 
     /// Computes the value for a key. Nothing happens while another one is being computed, which is shown
@@ -60,8 +87,8 @@ impl<K: PartialEq, T: Send + 'static> Slot<K, T> {
         self.start_wanted(key, |_| Some(compute()), jobs);
     }
 
-    /// As [`Self::start`], with work that ends without a value once it is no longer wanted: after
-    /// [`Self::stop`], and when this is dropped.
+    /// Starts work as [`Self::start`] does. The work may end without a value once it is no longer wanted:
+    /// after [`Self::stop`], for a newer key, and when the slot is dropped.
     pub fn start_wanted(
         &mut self,
         key: K,
@@ -76,107 +103,46 @@ impl<K: PartialEq, T: Send + 'static> Slot<K, T> {
                 output.send(value);
             }
         });
-        self.running = Some((key, job));
+        self.running = Some(Running { key, job, is_forgotten: false });
     }
 
     /// Takes the value that was computed, and waits for it as long as the frame may still wait. Returns
     /// whether one is being computed.
     pub fn take(&mut self, jobs: &Jobs) -> bool {
-        let taken = self.running.as_ref().map(|(_, job)| job.take(jobs));
+        let taken = self.running.as_ref().map(|running| running.job.take(jobs));
         self.took(taken, jobs)
     }
 
-    /// As [`Self::take`], without waiting.
+    /// Takes a value as [`Self::take`] does, but waits only where frames wait for all jobs.
+    pub fn poll(&mut self, jobs: &Jobs) -> bool {
+        let taken = self.running.as_ref().map(|running| running.job.poll(jobs));
+        self.took(taken, jobs)
+    }
+
+    /// Takes a value as [`Self::take`] does, without waiting.
     pub fn take_ready(&mut self, jobs: &Jobs) -> bool {
-        let taken = self.running.as_ref().map(|(_, job)| job.take_ready());
+        let taken = self.running.as_ref().map(|running| running.job.take_ready());
         self.took(taken, jobs)
     }
 
-    /// What a job found for an earlier document is dropped.
+    /// Stores a value that was taken, unless it belongs to an earlier document. A value that came although
+    /// its job was to give way is newer than what is shown. Returns whether the job still runs.
     fn took(&mut self, taken: Option<Taken<T>>, jobs: &Jobs) -> bool {
         let Some(taken) = taken else { return false };
         if matches!(taken, Taken::Working) {
             return true;
         }
-        let Some((key, job)) = self.running.take() else { return false };
-        if !job.is_cancelled() && job.document() == jobs.document() {
-            match taken {
-                Taken::Value(value) => self.found = Some((key, value)),
-                _ => self.failed = Some(key),
+        let Some(Running { key, job, is_forgotten }) = self.running.take() else { return false };
+        let is_wanted = !is_forgotten && job.document() == jobs.document();
+        match taken {
+            Taken::Value(value) if is_wanted => {
+                self.succession.ended(true);
+                self.found = Some((key, value));
             }
+            Taken::Ended if is_wanted && job.is_cancelled() => self.succession.ended(false),
+            Taken::Ended if is_wanted => self.failed = Some(key),
+            _ => {}
         }
         false
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
-    use eframe::egui::Context;
-
-    use super::*;
-    use crate::app::document_id::DocumentId;
-
-    fn patient_jobs() -> Jobs {
-        let jobs = Jobs::new(&Context::default());
-        jobs.wait_for_all();
-        jobs
-    }
-
-    #[test]
-    fn what_panics_is_computed_once_and_gives_one_message() {
-        let (jobs, runs) = (patient_jobs(), Arc::new(AtomicUsize::new(0)));
-        let mut slot: Slot<u32, u32> = Slot::default();
-        for _ in 0..5 {
-            let runs = runs.clone();
-            slot.start(
-                7,
-                move || {
-                    runs.fetch_add(1, Ordering::Relaxed);
-                    panic!("no value for seven")
-                },
-                &jobs,
-            );
-            assert!(!slot.take(&jobs) && slot.has(&7) && slot.last().is_none());
-        }
-        assert_eq!(runs.load(Ordering::Relaxed), 1);
-        let problems = jobs.take_problems();
-        assert!(problems.len() == 1 && problems[0].contains("(no value for seven)"), "{problems:?}");
-        slot.start(8, || 80, &jobs);
-        assert!(!slot.take(&jobs) && slot.last() == Some((&8, &80)));
-    }
-
-    #[test]
-    fn what_is_stopped_ends_before_anything_else_starts() {
-        let jobs = patient_jobs();
-        let mut slot: Slot<u32, u32> = Slot::default();
-        let (running, most) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
-        for key in 0..50 {
-            let (running, most) = (running.clone(), most.clone());
-            let work = move |wanted: &Wanted| {
-                most.fetch_max(running.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
-                while wanted.goes_on() {
-                    std::thread::yield_now();
-                }
-                running.fetch_sub(1, Ordering::SeqCst);
-                None
-            };
-            slot.start_wanted(key, work, &jobs);
-            slot.stop(&jobs);
-            assert!(!slot.has(&key));
-        }
-        assert!(!slot.take(&jobs));
-        assert!(running.load(Ordering::SeqCst) == 0 && most.load(Ordering::SeqCst) <= 1);
-    }
-
-    #[test]
-    fn what_was_computed_for_an_earlier_document_is_dropped() {
-        let jobs = patient_jobs();
-        let mut slot: Slot<u32, u32> = Slot::default();
-        slot.start(1, || 10, &jobs);
-        jobs.work_for(DocumentId::default().next());
-        assert!(!slot.take(&jobs) && slot.last().is_none() && !slot.has(&1));
     }
 }

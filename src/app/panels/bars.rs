@@ -3,9 +3,9 @@
 use eframe::egui::accesskit::Toggled;
 use eframe::egui::{self, Align, Align2, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::catalog::{CatalogItem, Menu, catalog};
+use crate::app::catalog::catalog;
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::tools::TOOLS;
 use crate::app::widgets::{Icon, ToolButton};

@@ -2,15 +2,14 @@
 
 use eframe::egui::Ui;
 
-use super::Panel;
 use crate::app::command::{BrushCommand, Command};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup};
 use crate::app::tools::{BrushMode, ERASER, PaintKind, PenEffect, Tools};
 use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
-/// What the brush paints and how, its radius, strength and hardness, and how strokes are drawn.
-pub static BRUSH: Panel = Panel { name: "brush", only_with_tool: true, show };
+/// The panel with the brush's paint, radius, strength and hardness, and the drawing of strokes.
+pub static BRUSH: Panel = Panel { name: "brush", group: PanelGroup::Size, only_with_tool: true, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut sent = Vec::new();
@@ -63,7 +62,7 @@ pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     }
 }
 
-/// What the brush paints: a strength, a risk or a diameter.
+/// Shows the amount that the brush paints: a strength, a risk or a diameter.
 fn amount_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     let tools = state.tools;
     match (tools.kind, tools.mode) {
@@ -84,7 +83,7 @@ fn strength_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand
     }
 }
 
-/// The strength that the selected tool has at first.
+/// Returns the strength that the selected tool has at first.
 fn usual_strength(state: &FrameState<'_>) -> f64 {
     let mut usual = Tools::for_domain(1.0, 0.0);
     usual.select(state.tools.tool);
@@ -130,7 +129,7 @@ fn smoothing_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushComman
     }
 }
 
-/// The target diameter and the level that a stroke paints.
+/// Returns the target diameter and the level that a stroke paints.
 fn painted(state: &FrameState<'_>) -> String {
     let (tools, transfer) = (state.tools, state.session.document().settings().transfer);
     let diameter = match (tools.kind, tools.mode) {
@@ -156,7 +155,7 @@ fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>
     });
 }
 
-/// What the pressure of a pen does, once a pen has reported one.
+/// Shows the effect of a pen's pressure, once a pen has reported one.
 fn pen_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     if !state.tools.pen.is_known() {
         return;

@@ -4,10 +4,9 @@ use eframe::egui::{Id, Ui};
 
 use super::brush::radius_row;
 use super::formula::FormulaRow;
-use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
 use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released, remark, set_once};
 use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
 use crate::app::widgets::{
     ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
@@ -22,7 +21,7 @@ use meshbrush_mesh::text::LengthUnit;
 const USUAL_SHARE: f64 = 0.01;
 
 /// The domain. While its tool is selected, it is open and the tool's settings are in it.
-pub static DOMAIN: Panel = Panel { name: "domain", only_with_tool: false, show };
+pub static DOMAIN: Panel = Panel { name: "domain", group: PanelGroup::Domain, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let section = Section::new("Domain");

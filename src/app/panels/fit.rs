@@ -3,10 +3,9 @@
 use eframe::egui::Ui;
 use glam::DVec2;
 
-use super::Panel;
 use crate::app::command::{Command, ViewCommand};
 use crate::app::derivation::Derived;
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup};
 use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_core::domain::{FitQuality, Region};
 use meshbrush_mesh::geometry::Rect;
@@ -15,7 +14,7 @@ use meshbrush_mesh::geometry::Rect;
 const AREA_IN_DIAMETERS: f64 = 24.0;
 
 /// The mesh compared with the polygons of its domain. Not shown without polygons.
-pub static FIT: Panel = Panel { name: "fit", only_with_tool: false, show };
+pub static FIT: Panel = Panel { name: "fit", group: PanelGroup::Domain, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(region) = state.session.follower().settings().domain.region() else { return };
@@ -109,7 +108,7 @@ fn quality_rows(
     value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
 }
 
-/// What cleaning removed, and the way to the largest part of it.
+/// Shows the parts that cleaning removed, with a button that goes to the largest one.
 fn removed_rows(
     ui: &mut Ui,
     derived: &Derived,

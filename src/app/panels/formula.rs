@@ -5,20 +5,20 @@ use std::str::FromStr;
 
 use eframe::egui::{Id, Key, Ui};
 
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::widgets::{TextError, TextRow};
 use meshbrush_core::field::formula::ParseError;
 
 /// Seconds without a key until a formula is applied: the beginning of `0.0005` is a valid formula, too.
 const PAUSE: f64 = 0.4;
 
-/// What a row is called and what it says.
+/// The name, text and help of a row.
 pub struct FormulaRow<'a> {
-    /// Its name.
+    /// The name of the row.
     pub label: &'a str,
     /// Shown while it is empty.
     pub hint: &'a str,
-    /// What it is for, in one sentence.
+    /// The purpose of the formula, in one sentence.
     pub help: &'a str,
 }
 
@@ -96,7 +96,7 @@ fn store<F: AnyFormula>(ui: &Ui, id: Id, typed: Typed<F>) {
 }
 
 impl<F: AnyFormula> Typed<F> {
-    /// Whether the document refused the formula that was sent last.
+    /// Returns whether the document refused the formula that was sent last.
     fn was_refused(&self, parsed: Option<&Option<F>>, current: Option<&F>, state: &FrameState<'_>) -> bool {
         let failed = state.session.notices().shown().is_some_and(|notice| notice.failed);
         let sent = self.sent.as_ref().filter(|sent| Some(*sent) == parsed);
@@ -113,7 +113,7 @@ impl<F: AnyFormula> Typed<F> {
         }
     }
 
-    /// The formula to send, if it is valid and typing has ended or paused.
+    /// Returns the formula to send, if it is valid and typing has ended or paused.
     fn take_finished(
         &mut self,
         ui: &Ui,

@@ -5,9 +5,8 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use super::{Panel, end_gesture_when_released, remark, set_once};
 use crate::app::command::{Command, EditCommand, ShellCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released, remark, set_once};
 use crate::app::threads::Threads;
 use crate::app::widgets::{NumberRow, Section, SliderRow, format, segmented, value_row};
 use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
@@ -25,7 +24,7 @@ const TRIANGLE_BUDGETS: RangeInclusive<f64> = 1000.0..=1e8;
 const MOST_MEMORY: f64 = 1000.0;
 
 /// Coarse spacing, refinement rule, budgets and threads.
-pub static MESH: Panel = Panel { name: "mesh", only_with_tool: false, show };
+pub static MESH: Panel = Panel { name: "mesh", group: PanelGroup::Mesh, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Mesh").closed().show(ui, |ui| {

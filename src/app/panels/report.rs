@@ -2,14 +2,13 @@
 
 use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 
-use super::{button_rows, remark};
 use crate::app::command::Command;
 use crate::app::features::plots::{self, PlotKind};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, button_rows, remark};
 use crate::app::report::{FigureCommand, as_text, comparisons};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};
-use meshbrush_core::document::{Comparison, ReportFigure};
+use meshbrush_study::report::{Comparison, ReportFigure};
 
 /// The figure that is shown, above all other sections.
 pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -19,8 +18,8 @@ pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     ui.label(RichText::new(figure.text()).font(font::body()).color(tokens(ui).text));
     ui.add_space(6.0);
     if figure.is_about_time() {
-        plots::measuring(ui, state.plots, commands);
-        let experiment = state.plots.experiment();
+        plots::measuring(ui, &state.features.plots, commands);
+        let experiment = state.features.plots.experiment();
         if figure == ReportFigure::Times && !experiment.meshes.is_empty() {
             plot_view(ui, PlotKind::Figure5.name(), &experiment.figure_5(), plots::HEIGHT);
         }

@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use eframe::egui::{Align, Layout, Ui};
 
-use crate::app::frame::FrameState;
-use crate::app::inspection::deciding_layer;
+use crate::app::features::inspection::deciding_layer;
+use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{StatusCell, format};
 use meshbrush_core::document::Stage;
@@ -34,8 +34,8 @@ pub fn status_bar(ui: &mut Ui, state: &FrameState<'_>) {
     });
 }
 
-/// The cells at the left, from the left, and those at the right, from the right. In a narrow window the least
-/// important are left out.
+/// Returns the cells at the left, from the left, and those at the right, from the right. In a narrow window
+/// the least important are left out.
 fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     let [x, y, target, layer] = pointer_cells(state);
     let [triangles, nodes, deepest] = mesh_cells(state);
@@ -56,7 +56,7 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     [left, right]
 }
 
-/// Position of the pointer, h̄ there, and the layer that decides it.
+/// Returns the position of the pointer, h̄ there, and the layer that decides it.
 fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     let unit = state.unit();
     let chars = 8 + unit.after("").chars().count();
@@ -86,7 +86,7 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     cells([x, y, target, layer])
 }
 
-/// A name with no more letters than its cell has room for.
+/// Returns a name with no more letters than its cell has room for.
 fn shortened(name: String) -> String {
     if name.chars().count() <= MOST_OF_NAME {
         return name;
@@ -109,7 +109,7 @@ fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
     ]
 }
 
-/// The rule, and the time of the last update or of the present one so far.
+/// Returns the rule, and the time of the last update or of the present one so far.
 fn work_cells(state: &FrameState<'_>) -> [StatusCell; 2] {
     let rule = match state.session.follower().settings().rule {
         RefinementRule::Area => "area",

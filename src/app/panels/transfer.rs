@@ -4,16 +4,15 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use super::{Panel, end_gesture_when_released};
 use crate::app::command::{Command, EditCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released};
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{CurveValues, Section, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// The curve from risk to diameter.
-pub static TRANSFER: Panel = Panel { name: "transfer", only_with_tool: false, show };
+pub static TRANSFER: Panel = Panel { name: "transfer", group: PanelGroup::Size, only_with_tool: false, show };
 
 /// Exponents that the curve's middle handle reaches.
 const SHAPES: RangeInclusive<f64> = 0.2..=5.0;

@@ -2,15 +2,14 @@
 
 use eframe::egui::{ThemePreference, Ui};
 
-use super::Panel;
 use crate::app::command::{Command, ViewCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::{Section, dropdown_row, segmented, toggle_row};
 use meshbrush_render::colormap::Colormap;
 
 /// Edges, colours, overlay and theme.
-pub static VIEW: Panel = Panel { name: "view", only_with_tool: false, show };
+pub static VIEW: Panel = Panel { name: "view", group: PanelGroup::View, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let view = state.view;

@@ -39,23 +39,23 @@ pub struct AlternativesFinder {
 }
 
 impl AlternativesFinder {
-    /// The alternatives so far, the cheapest first.
+    /// Returns the alternatives so far, the cheapest first.
     pub fn paths(&self) -> &[Solution] {
         &self.paths
     }
 
-    /// How much more than the best path an alternative costs, as a share.
+    /// Returns how much more than the best path an alternative costs, as a share.
     pub fn excess(&self, path: &Solution) -> f64 {
         self.best.as_ref().map_or(0.0, |best| path.cost / best.cost - 1.0)
     }
 
-    /// Whether the search goes on.
+    /// Returns whether the search goes on.
     pub fn is_running(&self) -> bool {
         self.running.is_some()
     }
 
-    /// A place that leads the path along an alternative: where that is farthest from the best path. With it
-    /// is the number of the leg, from 0.
+    /// Returns a place that leads the path along an alternative: where that is farthest from the best path.
+    /// With it is the number of the leg, from 0.
     pub fn place_on(&self, number: usize) -> Option<(usize, DVec2)> {
         let (best, path) = (self.best.as_ref()?, self.paths.get(number)?);
         let distance = |&point: &DVec2| {

@@ -1,4 +1,4 @@
-//! What can be done with paths.
+//! The commands about paths.
 
 use std::path::PathBuf;
 
@@ -67,9 +67,9 @@ pub enum PathCommand {
 /// How the cost of paths is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CostKind {
-    /// By the weights of length and risk.
+    /// The cost is given by the weights of length and risk.
     Weights,
-    /// By a formula.
+    /// The cost is given by a formula.
     Formula,
 }
 

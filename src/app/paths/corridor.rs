@@ -14,7 +14,7 @@ pub struct ShownCorridor {
     /// How much more than the best path the paths in it cost at most, as a share.
     pub share: f64,
     pub(super) lines: Arc<[Vec<DVec2>]>,
-    /// What the lines are those of.
+    /// The paths and the excess that the lines belong to.
     pub(super) of: Option<(Key, f64)>,
 }
 
@@ -25,12 +25,13 @@ impl Default for ShownCorridor {
 }
 
 impl ShownCorridor {
-    /// The closed lines around it, in world units: what is within an odd number of them belongs to it.
+    /// Returns the closed lines around it, in world units: what is within an odd number of them belongs to
+    /// it.
     pub fn lines(&self) -> &[Vec<DVec2>] {
         if self.is_on { &self.lines } else { &[] }
     }
 
-    /// Whether the lines are still to be found.
+    /// Returns whether the lines are still to be found.
     pub(super) fn is_due(&self, key: Key) -> bool {
         self.is_on && self.of != Some((key, self.share))
     }

@@ -2,8 +2,8 @@
 
 use super::PathCommand;
 use crate::app::command::Command;
-use crate::app::dialogs::{FileAct, FileKind};
 use crate::app::keep_out::KeepOutCommand;
+use crate::app::kit::{FileAct, FileKind};
 use meshbrush_render::render::path_export::PathFormat;
 
 /// Polygons as a region that paths stay out of.

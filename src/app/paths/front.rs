@@ -31,7 +31,7 @@ pub enum FrontCommand {
     Cancel,
 }
 
-/// What a front depends on: not on what paths cost.
+/// The data that a front depends on; the cost of paths is not among them.
 #[derive(Clone, PartialEq)]
 struct FrontKey {
     mesh: MeshKey,
@@ -63,22 +63,22 @@ pub struct FrontFinder {
 }
 
 impl FrontFinder {
-    /// The front so far, from the shortest path to the safest.
+    /// Returns the front so far, from the shortest path to the safest.
     pub fn points(&self) -> &[FrontPoint] {
         &self.points
     }
 
-    /// How many of [`FRONT_PATHS`] are done, while they are being found.
+    /// Returns how many of [`FRONT_PATHS`] are done, while they are being found.
     pub fn progress(&self) -> Option<usize> {
         self.running.as_ref().map(|_| FRONT_PATHS - self.remaining.min(FRONT_PATHS))
     }
 
-    /// The path that is pointed at.
+    /// Returns the path that is pointed at.
     pub fn pointed(&self) -> Option<&FrontPoint> {
         self.points.get(self.pointed?).filter(|_| self.is_on)
     }
 
-    /// The weights of the next path that is safer, or shorter, than that of the given weights.
+    /// Returns the weights of the next path that is safer, or shorter, than that of the given weights.
     pub fn next(&self, weights: Weights, is_safer: bool) -> Option<Weights> {
         let caution = |weights: &Weights| weights.risk / weights.length;
         let now = caution(&weights);

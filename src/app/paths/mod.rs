@@ -28,11 +28,11 @@ pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
 pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 
+use super::derivation::MeasuredMesh;
 use super::document_id::DocumentId;
 use super::jobs::{Jobs, Slot};
 use super::prover::{Known, Prover};
 use super::session::Session;
-use super::statistics::MeasuredMesh;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::PathError;
 
@@ -43,7 +43,7 @@ struct MeshKey {
     mesh: MeasuredMesh,
 }
 
-/// What paths were computed from.
+/// The data from which paths were computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Key {
     document: u64,
@@ -60,7 +60,7 @@ pub struct PathFinder {
     planner: Option<(KnownPlanner, MeshKey)>,
     key: Option<Key>,
     shown: Vec<ShownPath>,
-    /// What the paths that are shown were found with.
+    /// The data with which the shown paths were found.
     basis: Option<Known>,
     prover: Prover,
     /// The corridor of nearly best paths.
@@ -72,12 +72,12 @@ pub struct PathFinder {
 }
 
 impl PathFinder {
-    /// What is known of each route of the document, in order.
+    /// Returns the results for each route of the document, in order.
     pub fn shown(&self) -> &[ShownPath] {
         &self.shown
     }
 
-    /// The requested width of the interval, as a share of the cost.
+    /// Returns the requested width of the interval, as a share of the cost.
     pub fn width(&self) -> f64 {
         self.prover.width
     }
@@ -89,12 +89,12 @@ impl PathFinder {
         self.prover.restart();
     }
 
-    /// Whether the lower bounds are still rising.
+    /// Returns whether the lower bounds are still rising.
     pub fn is_proving(&self) -> bool {
         self.prover.is_running()
     }
 
-    /// Whether the paths are those of the document as it is.
+    /// Returns whether the paths are those of the document as it is.
     pub fn is_current(&self, session: &Session) -> bool {
         self.key.as_ref().is_some_and(|key| key.document == session.document().revision() && !key.is_live)
     }
@@ -137,7 +137,7 @@ impl PathFinder {
         self.front.is_on = former.front.is_on;
     }
 
-    /// What the paths should be those of; `None` while the first mesh is not complete.
+    /// Returns the data to compute paths from; `None` while the first mesh is not complete.
     fn wanted(&self, session: &Session) -> Option<Key> {
         let (document, follower) = (session.document(), session.follower());
         let derivation = session.derivation();

@@ -1,4 +1,4 @@
-//! What a thread does with the planner.
+//! The work on paths that a thread does with the planner.
 
 use std::sync::Arc;
 
@@ -16,13 +16,13 @@ use meshbrush_mesh::mesh::{Extract, Mesh};
 /// Places on a path at which its profile is known.
 const PROFILE_SAMPLES: usize = 200;
 
-/// What a thread returns: the planner goes back and forth.
+/// The result of a job on paths. It returns the planner, which the next job uses again.
 pub(super) struct Work {
     pub planner: Option<KnownPlanner>,
     pub result: WorkResult,
 }
 
-/// What it found.
+/// The paths that were found.
 pub(super) enum WorkResult {
     /// The paths, and what they cost.
     Paths { density: Option<Arc<dyn CostDensity>>, routes: Vec<Result<FoundPath, PathError>> },
@@ -39,7 +39,7 @@ pub(super) struct KnownPlanner {
 }
 
 impl KnownPlanner {
-    /// Whether its paths stay out of the regions of a plan, and of no others.
+    /// Returns whether its paths stay out of the regions of a plan, and of no others.
     pub fn avoids_those_of(&self, plan: &PathPlan) -> bool {
         Arc::ptr_eq(&self.plan.keep_out, &plan.keep_out)
     }
@@ -70,7 +70,7 @@ impl FoundPath {
     }
 }
 
-/// What is known of a route.
+/// The results for a route so far.
 #[derive(Clone, Debug, Default)]
 pub struct ShownPath {
     /// The last path that was found.
@@ -79,7 +79,7 @@ pub struct ShownPath {
     pub problem: Option<PathError>,
 }
 
-/// Where a planner comes from.
+/// The source of a planner.
 pub(super) enum PlannedMesh {
     /// The one for this mesh.
     Planner(Box<KnownPlanner>),
@@ -88,7 +88,7 @@ pub(super) enum PlannedMesh {
 }
 
 impl PlannedMesh {
-    /// A planner that knows the costs.
+    /// Returns a planner that knows the costs.
     pub fn planner(
         self,
         density: &Arc<dyn CostDensity>,

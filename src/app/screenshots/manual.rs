@@ -26,7 +26,7 @@ const GAP_COLOR: [u8; 4] = [0x15, 0x18, 0x1e, 0xff];
 /// Writes every picture of the manual into a folder, and returns the files.
 ///
 /// # Errors
-/// A sentence, when there is no graphics driver or a file cannot be written.
+/// Fails with a sentence when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
     make_folder(folder)?;
     let pictures = [
@@ -39,7 +39,7 @@ pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
     pictures.iter().chain([&boundary]).map(|(name, picture)| write_picture(folder, name, picture)).collect()
 }
 
-/// The first example, about to be painted on.
+/// Returns the first example, about to be painted on.
 fn window() -> Result<Image, String> {
     let mut window = OffscreenWindow::open(WINDOW, 1.0)?;
     window.send(Command::Inspect(InspectCommand::Query(dvec2(0.651, 0.464))));
@@ -47,7 +47,7 @@ fn window() -> Result<Image, String> {
     window.picture()
 }
 
-/// The transfer curve and the levels in the side panel of the first example.
+/// Returns the transfer curve and the levels in the side panel of the first example.
 fn panel() -> Result<Image, String> {
     let (top, height) = (804.0, 436.0);
     let mut window = OffscreenWindow::open(vec2(WINDOW.x, top + height + 40.0), 1.0)?;
@@ -56,7 +56,7 @@ fn panel() -> Result<Image, String> {
     Ok(cropped(&picture, Rect::from_min_size(corner, vec2(PANEL_WIDTH, height))))
 }
 
-/// A queried triangle with its neighbours.
+/// Returns a queried triangle with its neighbours.
 fn triangle() -> Result<Image, String> {
     let mut window = canvas_window(SQUARE)?;
     let place = dvec2(0.593, 0.2215);
@@ -65,7 +65,7 @@ fn triangle() -> Result<Image, String> {
     canvas_of(&mut window)
 }
 
-/// The pieces of a coast.
+/// Returns the pieces of a coast.
 fn sea() -> Result<Image, String> {
     let mut window = canvas_window(vec2(560.0, 560.0))?;
     boundary(&mut window);
@@ -90,7 +90,7 @@ fn how_it_works() -> Result<Image, String> {
     Ok(side_by_side(&[risk, target, mesh]))
 }
 
-/// A window without panels that shows the whole first example.
+/// Returns a window without panels that shows the whole first example.
 fn canvas_window(size: Vec2) -> Result<OffscreenWindow, String> {
     let mut window = OffscreenWindow::open(size, 1.0)?;
     window.send(Command::View(ViewCommand::TogglePanels));
@@ -98,14 +98,14 @@ fn canvas_window(size: Vec2) -> Result<OffscreenWindow, String> {
     Ok(window)
 }
 
-/// The canvas without the hint below it.
+/// Returns the canvas without the hint below it.
 fn canvas_of(window: &mut OffscreenWindow) -> Result<Image, String> {
     let picture = window.picture()?;
     let canvas = window.canvas_rect().ok_or("The window has no canvas.")?;
     Ok(cropped(&picture, canvas.with_max_y(canvas.bottom() - HINT)))
 }
 
-/// The part of a picture within a rectangle in points; a point is a pixel.
+/// Returns the part of a picture within a rectangle in points; a point is a pixel.
 fn cropped(picture: &Image, part: Rect) -> Image {
     let [width, _] = picture.size.map(|side| side as usize);
     let (left, right) = (part.left() as usize, part.right() as usize);

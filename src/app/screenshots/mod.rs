@@ -11,6 +11,7 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
+use super::command::StepCommand;
 use super::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
     LayerCommand, PinsCommand, ShellCommand, ViewCommand,
@@ -19,15 +20,16 @@ use super::features::boundary::BoundaryToolMode;
 use super::features::plots::{PlotKind, PlotsCommand};
 use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::report::FigureCommand;
-use super::stepping::StepCommand;
-use super::tools::{DomainToolMode, PATH, PaintKind, QUERY};
+use super::tools::{DomainToolMode, PATH, PaintKind};
 use super::view::FieldOverlay;
+use crate::app::features::inspection::QUERY;
 pub use manual::write as write_manual;
-use meshbrush_core::document::{Example, ReportFigure, Setting};
+use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_io::io;
 use meshbrush_render::render::Image;
+use meshbrush_study::report::ReportFigure;
 use offscreen::OffscreenWindow;
 pub use tour::write as write_tour;
 
@@ -69,7 +71,7 @@ const fn scene(name: &'static str, act: fn(&mut OffscreenWindow)) -> Scene {
 /// Writes every picture into a folder, and returns the files.
 ///
 /// # Errors
-/// A sentence, when there is no graphics driver or a file cannot be written.
+/// Fails with a sentence when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
     make_folder(folder)?;
     SCENES.iter().map(|scene| scene.write(folder)).collect()
@@ -120,7 +122,7 @@ fn why(window: &mut OffscreenWindow) {
     point_at(window, place - dvec2(0.0, 0.05));
 }
 
-/// What compatibility costs, by level.
+/// Takes a picture of the cost of compatibility, by level.
 fn plots(window: &mut OffscreenWindow) {
     window.send(Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
 }
@@ -137,7 +139,7 @@ fn pins(window: &mut OffscreenWindow) {
 fn steps(window: &mut OffscreenWindow) {
     window.send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
     window.send(Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
-    window.send(Command::Steps(StepCommand::Begin));
+    window.send(Command::Steps(StepCommand::Begin(None)));
     window.send(Command::Steps(StepCommand::GoTo(120)));
 }
 
@@ -194,8 +196,8 @@ fn path(window: &mut OffscreenWindow) {
     window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
 }
 
-/// What other paths there are: the corridor around the best, alternatives, and the front of length against
-/// risk.
+/// Takes pictures of other paths: the corridor around the best one, alternatives, and the front of length
+/// against risk.
 fn front(window: &mut OffscreenWindow) {
     path(window);
     for command in [
@@ -259,7 +261,7 @@ fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
     window.send(Command::View(ViewCommand::Zoom(factor)));
 }
 
-/// Where a point of the world is on the screen.
+/// Returns the position of a point of the world on the screen.
 fn on_screen(window: &OffscreenWindow, world: DVec2) -> Pos2 {
     window.screen_from_world(world).unwrap_or_default()
 }

@@ -14,8 +14,8 @@ use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguratio
 use glam::DVec2;
 
 use crate::app::App;
-use crate::app::canvas::marks::point_from_px;
 use crate::app::command::Command;
+use crate::app::kit::marks::point_from_px;
 use meshbrush_core::layers::Layer;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::render::Image;
@@ -41,7 +41,7 @@ impl OffscreenWindow {
     /// Opens the app in a window of `size` points.
     ///
     /// # Errors
-    /// A sentence, when there is no graphics driver that can paint it.
+    /// Fails with a sentence when there is no graphics driver that can paint it.
     pub fn open(size: Vec2, px_per_point: f32) -> Result<Self, String> {
         let (state, ctx) = (render_state()?, Context::default());
         let app = App::new(&ctx, Some(&state))?;
@@ -51,7 +51,7 @@ impl OffscreenWindow {
     /// Opens the app on a file.
     ///
     /// # Errors
-    /// A sentence, when there is no graphics driver that can paint it.
+    /// Fails with a sentence when there is no graphics driver that can paint it.
     pub fn open_file(size: Vec2, px_per_point: f32, file: PathBuf) -> Result<Self, String> {
         let (state, ctx) = (render_state()?, Context::default());
         let app = App::with_file(&ctx, Some(&state), file)?;
@@ -65,18 +65,18 @@ impl OffscreenWindow {
         window
     }
 
-    /// Where a point in world units is on the screen, in points.
+    /// Returns the position of a point in world units on the screen, in points.
     pub fn screen_from_world(&self, world: DVec2) -> Option<Pos2> {
         let px = self.app.view.camera?.screen_from_world(world);
         Some(point_from_px(self.app.canvas.rect()?, px, self.px_per_point))
     }
 
-    /// Where the canvas is on the screen, in points.
+    /// Returns the rectangle of the canvas on the screen, in points.
     pub fn canvas_rect(&self) -> Option<Rect> {
         self.app.canvas.rect()
     }
 
-    /// The layers of the document, from the bottom to the top.
+    /// Returns the layers of the document, from the bottom to the top.
     pub fn layers(&self) -> &[Layer] {
         &self.app.session.document().settings().layers
     }
@@ -107,7 +107,7 @@ impl OffscreenWindow {
         }
     }
 
-    /// Whether a file is being read or written, which is waited for a little.
+    /// Returns whether a file is being read or written, which is waited for a little.
     fn works_on_files(&self) -> bool {
         let works = !self.app.background.rows(true).is_empty();
         if works {
@@ -151,7 +151,7 @@ impl OffscreenWindow {
     /// Paints the window as it is now.
     ///
     /// # Errors
-    /// A sentence, when the driver does not give the picture back.
+    /// Fails with a sentence when the driver does not give the picture back.
     pub fn picture(&mut self) -> Result<Image, String> {
         let output = self.frame();
         let shapes = self.ctx.tessellate(output.shapes, self.px_per_point);
@@ -185,7 +185,7 @@ impl OffscreenWindow {
     }
 }
 
-/// A driver without a window behind it.
+/// Returns a driver without a window behind it.
 fn render_state() -> Result<RenderState, String> {
     let mut config = WgpuConfiguration::default();
     if let WgpuSetup::CreateNew(setup) = &mut config.wgpu_setup {

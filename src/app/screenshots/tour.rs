@@ -1,4 +1,4 @@
-//! What a person does at first, step by step in one window.
+//! The first steps of a person, in one window.
 
 use std::path::{Path, PathBuf};
 
@@ -9,9 +9,10 @@ use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_pi
 use crate::app::command::{
     BrushCommand, Command, DomainCommand, FileCommand, InspectCommand, ShellCommand, ViewCommand,
 };
+use crate::app::features::inspection::QUERY;
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
-use crate::app::tools::{BrushMode, DomainToolMode, ERASER, QUERY};
+use crate::app::tools::{BrushMode, DomainToolMode, ERASER};
 use meshbrush_io::io;
 
 /// Size of the window, in points.
@@ -34,7 +35,7 @@ const STEPS: [Step; 8] = [
 /// Writes a picture of each step into a folder, and returns the files.
 ///
 /// # Errors
-/// A sentence, when there is no graphics driver or a file cannot be written.
+/// Fails with a sentence when there is no graphics driver or a file cannot be written.
 pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
     make_folder(folder)?;
     let scratch = std::env::temp_dir().join("meshbrush-tour");

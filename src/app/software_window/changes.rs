@@ -1,4 +1,4 @@
-//! Where the picture of the window differs from that of the last frame.
+//! Finds the differences between the pictures of the window in this frame and in the previous one.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use meshbrush_render::render::software::Damage;
 /// How far ahead a primitive that is not at its place is looked for.
 const LOOK_AHEAD: usize = 12;
 
-/// A rectangle in points as columns and rows of pixels, as the graphics driver clips.
+/// Returns a rectangle in points as columns and rows of pixels, as the graphics driver clips.
 pub fn px_rect(rect: Rect, px_per_point: f32) -> [Range<i32>; 2] {
     let px = |points: f32| (points * px_per_point).round() as i32;
     [px(rect.min.x)..px(rect.max.x), px(rect.min.y)..px(rect.max.y)]
@@ -40,7 +40,7 @@ pub fn compare(
     old.iter().chain(new).for_each(|primitive| marks.add_all(primitive));
 }
 
-/// Whether one primitive can be the other one after a change.
+/// Returns whether one primitive can be the other one after a change.
 fn are_alike(a: &ClippedPrimitive, b: &ClippedPrimitive) -> bool {
     a.clip_rect == b.clip_rect
         && match (&a.primitive, &b.primitive) {

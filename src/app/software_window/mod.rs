@@ -45,13 +45,13 @@ pub struct CanvasImage<'a> {
 pub struct WindowImage {
     image: Option<Image>,
     textures: Textures,
-    /// What was drawn last, unless that is no longer in the picture.
+    /// The shapes that were drawn last, or `None` if the picture no longer shows them.
     former: Option<Vec<ClippedPrimitive>>,
     px_per_point: f32,
 }
 
 impl WindowImage {
-    /// The picture as far as it was drawn.
+    /// Returns the picture as far as it was drawn.
     pub fn image(&self) -> Option<&Image> {
         self.image.as_ref()
     }
@@ -122,7 +122,7 @@ impl WindowImage {
     }
 }
 
-/// What a frame shows.
+/// The contents of a frame.
 struct Frame<'a> {
     primitives: &'a [ClippedPrimitive],
     canvas: Option<&'a CanvasImage<'a>>,

@@ -12,7 +12,7 @@ const PIXEL: i64 = 256;
 
 /// Some columns of consecutive rows of the window, to be drawn on.
 pub struct Strip<'a> {
-    /// Those of the rows, in full width.
+    /// The pixels of the rows, in full width.
     pub pixels: &'a mut [[u8; 4]],
     /// Pixels in a row.
     pub width: usize,
@@ -23,7 +23,7 @@ pub struct Strip<'a> {
 }
 
 impl Strip<'_> {
-    /// The pixels of one row.
+    /// Returns the pixels of one row.
     pub fn row(&mut self, row: i32, columns: Range<i32>) -> &mut [[u8; 4]] {
         let start = (row - self.rows.start) as usize * self.width;
         &mut self.pixels[start + columns.start as usize..start + columns.end as usize]
@@ -68,7 +68,7 @@ impl Strip<'_> {
     }
 }
 
-/// The first pixel that can lie between these positions, and the one behind the last.
+/// Returns the first pixel that can lie between these positions, and the one behind the last.
 fn extent(px: [f32; 3]) -> [i32; 2] {
     let least = px[0].min(px[1]).min(px[2]);
     let largest = px[0].max(px[1]).max(px[2]);
@@ -94,8 +94,8 @@ impl Triangle {
         (turn != 0).then_some(Self { corners, doubled_area_px })
     }
 
-    /// The pixels of a row whose centres lie in the triangle. A centre on an edge belongs to the triangle to
-    /// its right or below.
+    /// Returns the pixels of a row whose centres lie in the triangle. A centre on an edge belongs to the
+    /// triangle to its right or below.
     fn span(&self, row: i32, columns: &Range<i32>) -> Range<i32> {
         let y = i64::from(row) * PIXEL + PIXEL / 2;
         let (mut start, mut end) = (i64::from(columns.start), i64::from(columns.end));
@@ -135,7 +135,7 @@ impl Slope {
     }
 }
 
-/// What the pixels of a triangle are filled with.
+/// The colours that fill the pixels of a triangle.
 enum Paint {
     /// One colour, premultiplied, from 0 to 255.
     Plain([f32; 4]),
@@ -174,7 +174,7 @@ impl Paint {
 }
 
 impl Triangle {
-    /// A value at the centres of pixels from its values at the corners.
+    /// Returns a value at the centres of pixels from its values at the corners.
     fn slope(&self, corners: [&Vertex; 3], value: &dyn Fn(&Vertex) -> f32) -> Slope {
         let [f, g, h] = corners.map(value);
         // The corners of the triangle may have changed places.
@@ -191,7 +191,7 @@ impl Triangle {
     }
 }
 
-/// The product of two colours from 0 to 255.
+/// Returns the product of two colours from 0 to 255.
 #[inline]
 fn product(a: [f32; 4], b: [f32; 4]) -> [f32; 4] {
     std::array::from_fn(|i| a[i] * b[i] * (1.0 / 255.0))

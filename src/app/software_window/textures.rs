@@ -12,7 +12,8 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// The colour at a place, from 0 to 1 from the upper left: red, green, blue and alpha from 0 to 255.
+    /// Returns the colour at a place, from 0 to 1 from the upper left: red, green, blue and alpha from 0 to
+    /// 255.
     #[inline]
     pub fn sample(&self, u: f32, v: f32) -> [f32; 4] {
         let [width, height] = self.image.size;

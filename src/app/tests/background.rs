@@ -7,13 +7,13 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable as _;
 
-use super::{Window, document, paint, send, window};
+use super::{Window, document, paint, send, step_until, wait_for_jobs, wait_until, window};
 use crate::app::command::{Command, DomainCommand, FileCommand};
 use meshbrush_io::io::project;
 
@@ -44,18 +44,9 @@ fn shows(window: &Window, label: &str) -> bool {
     window.query_by_label(label).is_some()
 }
 
-/// Whether there is a bar with that name.
+/// Returns whether there is a bar with that name.
 fn has_bar(window: &Window, what: &str) -> bool {
     window.query_by_role_and_label(Role::ProgressIndicator, what).is_some()
-}
-
-fn wait(window: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
-    let start = Instant::now();
-    while !done(window) {
-        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}; shown: {}", message(window));
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
-    }
 }
 
 fn cancel(window: &mut Window, what: &str) {
@@ -63,7 +54,7 @@ fn cancel(window: &mut Window, what: &str) {
     window.run();
 }
 
-/// What the last frame asked of the desktop.
+/// Returns the commands that the last frame sent to the desktop.
 fn asked(window: &Window) -> &[ViewportCommand] {
     &window.output().viewport_output[&ViewportId::ROOT].commands
 }
@@ -82,12 +73,7 @@ fn close(window: &mut Window) -> bool {
 
 /// Runs frames until the window is over; fails if it does not close.
 fn wait_for_close(window: &mut Window) {
-    let start = Instant::now();
-    while !asked(window).contains(&ViewportCommand::Close) {
-        assert!(start.elapsed() < Duration::from_secs(30), "it stays open; shown: {}", message(window));
-        std::thread::sleep(Duration::from_millis(2));
-        window.step();
-    }
+    step_until(window, |window| asked(window).contains(&ViewportCommand::Close));
     assert!(!close(window), "nothing is left that would be lost");
 }
 
@@ -112,7 +98,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
     let mut coast = writer(&file);
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0]").unwrap();
     assert!(!has_bar(&window, "Reading coast.geojson"), "not for a moment");
-    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    wait_until(&mut window, |window| has_bar(window, "Reading coast.geojson"));
     let pause = pause_before_next_frame(&window);
     assert!((Duration::from_millis(50)..Duration::from_secs(1)).contains(&pause), "{pause:?}");
     // The window continues meanwhile.
@@ -134,10 +120,7 @@ fn a_read_shows_how_far_it_is_and_cancelled_it_changes_nothing() {
         }
     };
     assert_eq!(end.kind(), ErrorKind::BrokenPipe);
-    for _ in 0..20 {
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
-    }
+    wait_for_jobs(&mut window);
     assert_eq!(document(&window).version(), version);
     assert!(shows(&window, EDITED));
 }
@@ -148,10 +131,10 @@ fn a_read_that_is_left_alone_is_opened() {
     let mut window = window();
     send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
-    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    wait_until(&mut window, |window| has_bar(window, "Reading coast.geojson"));
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
     drop(coast);
-    wait(&mut window, "opening", |window| shows(window, "coast"));
+    wait_until(&mut window, |window| shows(window, "coast"));
     assert!(!has_bar(&window, "Reading coast.geojson"));
 }
 
@@ -162,14 +145,14 @@ fn edits_are_asked_about_once_the_file_is_read() {
     paint(&mut window, 0.9);
     send(&mut window, Command::Domain(DomainCommand::Open(file.clone())));
     let mut coast = writer(&file);
-    wait(&mut window, "the bar", |window| has_bar(window, "Reading coast.geojson"));
+    wait_until(&mut window, |window| has_bar(window, "Reading coast.geojson"));
     assert!(!shows(&window, QUESTION), "it is not clear yet that the file can be opened");
     write!(coast, "{{\"type\": \"Polygon\", \"coordinates\": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}}").unwrap();
     drop(coast);
-    wait(&mut window, "the question", |window| shows(window, QUESTION));
+    wait_until(&mut window, |window| shows(window, QUESTION));
     assert!(shows(&window, EDITED));
     window.get_by_label("Do not save").click();
-    wait(&mut window, "opening", |window| shows(window, "coast"));
+    wait_until(&mut window, |window| shows(window, "coast"));
 }
 
 #[test]
@@ -182,13 +165,13 @@ fn a_cancelled_export_leaves_the_former_files() {
     let before = names(&folder);
     let mut window = window();
     send(&mut window, Command::File(FileCommand::Export(folder.join("mesh.node"))));
-    wait(&mut window, "the bar", |window| has_bar(window, "Writing mesh.node"));
+    wait_until(&mut window, |window| has_bar(window, "Writing mesh.node"));
     // This waits until the last of the four files is being written.
     let mut last = File::open(&last).unwrap();
     cancel(&mut window, "Writing mesh.node");
     assert!(has_bar(&window, "Cancelling mesh.node"), "the pipe is full");
     last.read_to_end(&mut Vec::new()).unwrap();
-    wait(&mut window, "the notice", |window| !message(window).is_empty());
+    wait_until(&mut window, |window| !message(window).is_empty());
     assert_eq!(message(&window), "Writing mesh.node was cancelled. The file that was there is unchanged.");
     assert!(!has_bar(&window, "Cancelling mesh.node"));
     assert_eq!(names(&folder), before);
@@ -233,7 +216,7 @@ fn edits_made_while_the_document_is_saved_are_asked_about_before_the_window_clos
     window.run();
     paint(&mut window, 0.8);
     let saved = std::thread::spawn(move || read_all(&file));
-    wait(&mut window, "the question", |window| shows(window, "Save changes to “a”?"));
+    wait_until(&mut window, |window| shows(window, "Save changes to “a”?"));
     assert!(!saved.join().unwrap().is_empty());
 }
 
@@ -247,7 +230,7 @@ fn a_cancelled_save_leaves_the_document_unsaved_and_the_window_open() {
     window.run();
     cancel(&mut window, "Saving a.meshbrush");
     let saved = std::thread::spawn(move || read_all(&file));
-    wait(&mut window, "the notice", |window| message(window).contains("Saving a.meshbrush was cancelled"));
+    wait_until(&mut window, |window| message(window).contains("Saving a.meshbrush was cancelled"));
     assert!(shows(&window, EDITED));
     assert!(project::from_bytes(&saved.join().unwrap(), Path::new("a")).is_err());
     assert!(close(&mut window), "it is asked first");
@@ -262,11 +245,11 @@ fn what_is_saved_again_after_cancelling_is_saved() {
     let mut window = window();
     paint(&mut window, 0.9);
     send(&mut window, Command::File(FileCommand::SaveTo(slow.clone())));
-    wait(&mut window, "the bar", |window| has_bar(window, "Saving slow.meshbrush"));
+    wait_until(&mut window, |window| has_bar(window, "Saving slow.meshbrush"));
     cancel(&mut window, "Saving slow.meshbrush");
     send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     let reader = std::thread::spawn(move || read_all(&slow));
-    wait(&mut window, "saving", |window| shows(window, "a"));
+    wait_until(&mut window, |window| shows(window, "a"));
     assert!(project::read(&file).is_ok());
     reader.join().unwrap();
 }
@@ -276,7 +259,7 @@ fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left()
     let file = folder("next").join("a.meshbrush");
     let mut window = window();
     send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
-    wait(&mut window, "saving", |window| shows(window, "a"));
+    wait_until(&mut window, |window| shows(window, "a"));
     fs::remove_file(&file).unwrap();
     let file = pipe(file);
     paint(&mut window, 0.9);
@@ -290,7 +273,7 @@ fn what_is_saved_while_the_document_is_saved_is_saved_next_and_then_it_is_left()
     // Open for writing too, so that it does not end between the two.
     let mut drain = File::options().read(true).write(true).open(&file).unwrap();
     std::thread::spawn(move || std::io::copy(&mut drain, &mut std::io::sink()));
-    wait(&mut window, "the new document", |window| document(window).paint().is_blank());
+    wait_until(&mut window, |window| document(window).paint().is_blank());
     assert!(message(&window).is_empty(), "{}", message(&window));
 }
 
@@ -325,7 +308,7 @@ fn an_export_that_fails_keeps_the_window_open_to_say_so() {
     window.run();
     // Somebody reads a little of it and goes away.
     File::open(&file).unwrap().read_exact(&mut [0; 10]).unwrap();
-    wait(&mut window, "the failure", |window| message(window).contains("could not be written"));
+    wait_until(&mut window, |window| message(window).contains("could not be written"));
     for _ in 0..10 {
         window.step();
         assert!(!asked(&window).contains(&ViewportCommand::Close));

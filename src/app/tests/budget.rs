@@ -12,12 +12,14 @@ use super::{
     price_tag, release, send, set, settings, stroke, triangles, type_into, window, window_of,
 };
 use crate::app::command::{BrushCommand, Command, EditCommand, ShellCommand};
-use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN, QUERY};
+use crate::app::features::inspection::QUERY;
+use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_mesh::mesh::MemoryLimit;
 
-/// The number on the tag for a dab at a place, and what a click there then does to the number of triangles.
+/// Returns the number on the tag for a dab at a place, and what a click there then does to the number of
+/// triangles.
 fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {
     let message = hover(window, world).expect("a tag beside the ring");
     let before = triangles(window) as i64;

@@ -12,7 +12,7 @@ use super::{
     window, window_of,
 };
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
-use crate::app::panels::PANELS;
+use crate::app::panels;
 use crate::app::tools::TOOLS;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Example;
@@ -115,9 +115,9 @@ fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert!(!window.state().tools().hint().is_empty(), "{tool:?}");
         for panel in tool.panels {
-            assert!(PANELS.iter().any(|known| known.name == panel.name), "{tool:?}: {}", panel.name);
+            assert!(panels::all().any(|known| known.name == *panel), "{tool:?}: {panel}");
         }
     }
-    let names: BTreeSet<_> = PANELS.iter().map(|panel| panel.name).collect();
-    assert_eq!(names.len(), PANELS.len());
+    let names: BTreeSet<_> = panels::all().map(|panel| panel.name).collect();
+    assert_eq!(names.len(), panels::all().count());
 }

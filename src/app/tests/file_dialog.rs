@@ -18,7 +18,7 @@ use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
 use meshbrush_render::render::export::ExportFormat;
 
-/// A folder with files and folders.
+/// Returns a folder with files and folders.
 fn folder(name: &str) -> PathBuf {
     let folder = super::folder("app-file-dialog", name);
     for name in ["coasts", "Maps", ".hidden"] {
@@ -46,7 +46,8 @@ fn text(window: &Window) -> String {
     value_of(window, Role::TextInput, "Path")
 }
 
-/// The rows of the list of files, from the top. Rows of layers, behind the dialog, have a value as well.
+/// Returns the rows of the list of files, from the top. Rows of layers, behind the dialog, have a value as
+/// well.
 fn rows(window: &Window) -> Vec<String> {
     let is_file = |row: &egui_kittest::Node<'_>| row.accesskit_node().value().is_none();
     let mut rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).filter(is_file).collect();

@@ -1,7 +1,5 @@
 //! Opening and exporting files.
 
-use std::time::{Duration, Instant};
-
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -103,11 +101,6 @@ fn a_bad_picture_is_told_and_a_good_one_becomes_risk() {
 
     let good = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/jacksboro_slope.png");
     send(&mut window, Command::Layer(LayerCommand::OpenImage(good.into())));
-    let patience = Instant::now() + Duration::from_secs(20);
-    while fingerprint(&window) == before {
-        assert!(Instant::now() < patience, "{}", notice(&window));
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
-    }
+    wait_until(&mut window, |window| fingerprint(window) != before);
     assert!(has_raster(&window, &RasterReading::Risk));
 }

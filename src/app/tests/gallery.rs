@@ -267,7 +267,7 @@ fn gallery(ui: &mut Ui, state: &mut State, levels: u32) {
     }
 }
 
-/// The gallery without a picture: needs no graphics driver.
+/// Returns the gallery without a picture: needs no graphics driver.
 fn harness(state: State) -> Harness<'static, State> {
     harness_for(state, Theme::Dark, 11, 1.0, false)
 }
@@ -373,7 +373,7 @@ fn pictures() {
     }
 }
 
-/// What a row or field says, found by its name.
+/// Returns the value of a row or field, found by its name.
 fn value_of(harness: &Harness<'_, State>, role: Role, name: &str) -> String {
     harness.get_by_role_and_label(role, name).value().unwrap_or_default()
 }

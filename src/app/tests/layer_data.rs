@@ -34,7 +34,7 @@ fn add_by_button(window: &mut Window, entry: &str) {
     click_button(window, entry);
 }
 
-/// A window with a raster of risk at the bottom, which is selected.
+/// Returns a window with a raster of risk at the bottom, which is selected.
 fn window_with_terrain() -> Window {
     let mut window = window_of(TALL);
     send(&mut window, Command::File(FileCommand::OpenExample(Example::Terrain)));
@@ -58,7 +58,7 @@ fn knots(window: &Window) -> Vec<[f64; 2]> {
     }
 }
 
-/// Whether a sentence below a field has these words.
+/// Returns whether a sentence below a field has these words.
 fn warns(window: &Window, words: &str) -> bool {
     let mut alerts = window.query_all_by_role(Role::Alert);
     alerts.any(|alert| alert.accesskit_node().label().is_some_and(|text| text.contains(words)))

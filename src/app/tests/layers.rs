@@ -20,7 +20,7 @@ use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Quantity, Raste
 /// A place in the first example where risk is painted.
 const PAINTED: glam::DVec2 = dvec2(0.245, 0.765);
 
-/// Names of the layers, from the top.
+/// Returns the names of the layers, from the top.
 fn names(window: &Window) -> Vec<&str> {
     settings(window).layers.iter().rev().map(|layer| layer.name.as_str()).collect()
 }

@@ -19,7 +19,7 @@ use meshbrush_core::document::{Document, Example, Follower, Setting, Stage};
 /// A smallest diameter that makes the first example's mesh have about two million triangles.
 const TWO_MILLIONS: f64 = 0.00025;
 
-/// A window as on a screen: frames that are longer have more time for the mesh.
+/// Returns a window as on a screen: frames that are longer have more time for the mesh.
 fn at_60_frames_a_second(size: Vec2) -> Window {
     window_with(Harness::builder().with_size(size).with_step_dt(1.0 / 60.0))
 }

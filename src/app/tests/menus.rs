@@ -7,7 +7,7 @@ use eframe::egui::{Event, Key, Modifiers, Shape, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{FREE, Window, choose, click, key, open_menu, selected, value_of, wheel, window, window_of};
-use crate::app::tools::QUERY;
+use crate::app::features::inspection::QUERY;
 
 #[test]
 fn the_palette_finds_and_runs_a_command() {
@@ -123,7 +123,7 @@ fn pressed(key: Key, modifiers: Modifiers) -> Event {
     Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
 }
 
-/// Whether this text was painted in the last frame.
+/// Returns whether this text was painted in the last frame.
 fn is_painted(window: &Window, text: &str) -> bool {
     window.output().shapes.iter().any(|clipped| holds(&clipped.shape, text))
 }

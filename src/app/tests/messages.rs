@@ -8,7 +8,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{
-    RESTING_PLACE, Window, folder, notice, paint, scratch, send, set, wait_for_notice, wait_until, window,
+    RESTING_PLACE, Window, folder, notice, paint, scratch, send, set, step_until, wait_for_notice,
+    wait_until, window,
 };
 use crate::app::App;
 use crate::app::command::{Command, EditCommand, FileCommand};
@@ -95,7 +96,7 @@ fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     wait_until(&mut window, |window| super::document(window).settings().name == "sea");
 }
 
-/// A window that was started with a file.
+/// Returns a window that was started with a file.
 fn started_with(file: std::path::PathBuf) -> Window {
     let mut window = Harness::builder()
         .with_size(vec2(1440.0, 900.0))
@@ -112,17 +113,12 @@ fn a_file_given_at_start_is_the_first_that_is_shown() {
     let triangle = r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}"#;
     std::fs::write(&file, triangle).unwrap();
     let mut window = started_with(file);
-    for _ in 0..400 {
-        let name = super::document(&window).settings().name.clone();
+    step_until(&mut window, |window| {
+        let name = super::document(window).settings().name.clone();
         assert!(name == "Untitled" || name == "sea", "{name}");
         assert_eq!(window.state().starts_with_file, name == "Untitled", "no mesh until the file is read");
-        if name == "sea" {
-            break;
-        }
-        std::thread::sleep(Duration::from_millis(5));
-        window.step();
-    }
-    assert_eq!(super::document(&window).settings().name, "sea");
+        name == "sea"
+    });
 
     let mut window = started_with(folder.join("missing.geojson"));
     assert!(wait_for_notice(&mut window).contains("missing.geojson"));

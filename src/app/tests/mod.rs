@@ -11,10 +11,10 @@ mod domain;
 mod file_dialog;
 mod files;
 mod gallery;
+mod held_jobs;
 mod help;
 #[cfg(unix)]
 mod identity;
-mod inspection;
 mod keys;
 mod layer_data;
 mod layers;
@@ -27,23 +27,18 @@ mod other_window;
 mod outline;
 mod painting;
 mod path;
-mod pictures;
+pub mod pictures;
 mod polygon;
 mod project;
-mod query;
 mod recipes;
 mod report;
 mod settings;
 mod software_window;
-mod statistics;
-mod steps;
 mod threads;
-mod threats;
 mod unit;
 pub mod tips;
 mod view;
-mod walks;
-mod why;
+mod hidden_levels;
 
 use std::fs;
 use std::path::PathBuf;
@@ -60,14 +55,12 @@ use glam::{DVec2, dvec2};
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
-use crate::app::explore::Explore;
-use crate::app::features::plots::Plots;
+use crate::app::features::Features;
+use crate::app::features::stepping::Steps;
 use crate::app::paths::PathFinder;
 use crate::app::session::Session;
-use crate::app::stepping::Stepping;
 use crate::app::tools::Tools;
 use crate::app::view::View;
-use crate::app::widgets::format;
 use meshbrush_core::document::{Document, Setting, Settings};
 use meshbrush_core::layers::{LayerId, LayerKind, RasterReading};
 use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
@@ -91,7 +84,7 @@ pub const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND 
 pub const PAINTED_DIAMETER: LayerId = LayerId(1);
 pub const PAINTED_RISK: LayerId = LayerId(2);
 
-/// What is painted on a layer at a point.
+/// Returns the painted value of a layer at a point.
 pub fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {
     let paint = window.state().session().document().paint();
     paint.get(layer).expect("a layer that was painted on").sample(point)
@@ -102,14 +95,14 @@ pub fn select_base(window: &mut Window) {
     send(window, Command::Layer(LayerCommand::Select(LayerId(0))));
 }
 
-/// The layers of the document, with another one at the bottom.
+/// Returns the layers of the document, with another one at the bottom.
 pub fn with_base(window: &Window, kind: LayerKind) -> Setting {
     let mut layers = settings(window).layers.clone();
     layers[0].kind = kind;
     Setting::Layers(layers)
 }
 
-/// Whether a layer reads a raster.
+/// Returns whether a layer reads a raster.
 pub fn has_raster(window: &Window, wanted: &RasterReading) -> bool {
     let mut layers = settings(window).layers.iter();
     layers.any(|layer| matches!(&layer.kind, LayerKind::Raster { reading, .. } if reading == wanted))
@@ -136,7 +129,7 @@ pub fn send(window: &mut Window, command: Command) {
     window.run();
 }
 
-/// The command that shows a new document, as one that was read.
+/// Returns the command that shows a new document, as one that was read.
 pub fn show(settings: Settings) -> Command {
     let document = Document::new(settings, None).expect("valid settings");
     Command::File(FileCommand::Show(Opened { document: Arc::new(document), home: None }))
@@ -151,13 +144,13 @@ pub fn canvas(window: &Window) -> Rect {
     window.get_by_role_and_label(Role::Image, CANVAS_NAME).rect()
 }
 
-/// Where a point of the world is on the screen.
+/// Returns the position of a point of the world on the screen.
 pub fn on_screen(window: &Window, world: DVec2) -> Pos2 {
     let px = window.state().view().camera.unwrap().screen_from_world(world);
     canvas(window).min + vec2(px.x as f32, px.y as f32)
 }
 
-/// What point of the world is at a place on the screen.
+/// Returns the point of the world at a position on the screen.
 pub fn in_world(window: &Window, at: Pos2) -> DVec2 {
     let px = at - canvas(window).min;
     window.state().view().camera.unwrap().world_from_screen(dvec2(px.x.into(), px.y.into()))
@@ -252,7 +245,7 @@ pub fn notice(window: &Window) -> String {
     window.state().session().notices().shown().map_or(String::new(), |notice| notice.text.clone())
 }
 
-/// The level of the triangle round a point.
+/// Returns the level of the triangle round a point.
 pub fn level_at(window: &Window, world: DVec2) -> u32 {
     let mesh = window.state().session().mesh();
     mesh.triangle(mesh.locate(world).triangle().expect("a point of the domain")).level()
@@ -310,7 +303,7 @@ pub fn wheel(window: &mut Window, at: Pos2, delta: f32) {
     window.run();
 }
 
-/// Area of the mesh.
+/// Returns the area of the mesh.
 pub fn area(window: &Window) -> f64 {
     window.state().session().mesh().area()
 }
@@ -319,28 +312,42 @@ pub fn scratch(name: &str) -> PathBuf {
     PathBuf::from(FOLDER).join(name)
 }
 
-/// Runs frames until work off the thread has been heard of.
-pub fn wait_until(window: &mut Window, done: impl Fn(&Window) -> bool) {
-    let patience = Instant::now() + Duration::from_secs(60);
+/// Runs frames until something is so. Between them it waits for what jobs send.
+#[track_caller]
+pub fn wait_until(window: &mut Window, is_so: impl Fn(&Window) -> bool) {
     window.run();
-    while !done(window) {
-        assert!(Instant::now() < patience, "it did not happen");
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
+    wait(window, |window| _ = window.run(), is_so);
+}
+
+/// As [`wait_until`], and looks at each single frame.
+#[track_caller]
+pub fn step_until(window: &mut Window, is_so: impl Fn(&Window) -> bool) {
+    wait(window, Window::step, is_so);
+}
+
+#[track_caller]
+fn wait(window: &mut Window, frames: impl Fn(&mut Window), is_so: impl Fn(&Window) -> bool) {
+    let patience = Instant::now() + Duration::from_secs(120);
+    while !is_so(window) {
+        assert!(Instant::now() < patience, "it did not happen; shown: {}", notice(window));
+        window.state().jobs.wait_for_news(Duration::from_millis(5));
+        frames(window);
     }
 }
 
+/// Runs frames until no job is left.
+pub fn wait_for_jobs(window: &mut Window) {
+    window.state().jobs.wait_for_threads();
+    window.run();
+}
+
+#[track_caller]
 pub fn wait_for_notice(window: &mut Window) -> String {
-    let patience = Instant::now() + Duration::from_secs(60);
-    while notice(window).is_empty() {
-        assert!(Instant::now() < patience, "no message was shown");
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
-    }
+    wait(window, |window| _ = window.run(), |window| !notice(window).is_empty());
     notice(window)
 }
 
-/// The tag beside the brush ring.
+/// Returns the tag beside the brush ring.
 pub fn price_tag(window: &Window) -> Option<String> {
     let mut tags = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
     tags.find(|label| {
@@ -352,7 +359,7 @@ pub fn hover(window: &mut Window, world: DVec2) -> Option<String> {
     move_to(window, world);
     price_tag(window)
 }
-/// An empty folder of its own for each test `name` of the file `of`.
+/// Returns an empty folder of its own for each test `name` of the file `of`.
 pub fn folder(of: &str, name: &str) -> PathBuf {
     let folder = scratch(of).join(name);
     let _ = fs::remove_dir_all(&folder); // absent at the first run
@@ -371,14 +378,10 @@ pub fn document(window: &Window) -> &Document {
     window.state().session().document()
 }
 
-/// What only tests look at.
+/// Functions for tests only.
 impl App {
     pub fn session(&self) -> &Session {
         &self.session
-    }
-
-    pub fn explore(&self) -> &Explore {
-        &self.explore
     }
 
     pub fn tools(&self) -> &Tools {
@@ -393,12 +396,12 @@ impl App {
         &self.paths
     }
 
-    pub fn plots(&self) -> &Plots {
-        &self.features.plots
+    pub fn features(&self) -> &Features {
+        &self.features
     }
 
-    pub fn stepping(&self) -> Option<&Stepping> {
-        self.stepping.as_ref()
+    pub fn stepping(&self) -> Option<&Steps> {
+        self.features.stepping.steps()
     }
 
     pub fn is_cutting(&self) -> bool {

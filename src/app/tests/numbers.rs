@@ -12,7 +12,8 @@ use super::{
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::LayerKind;
 
-/// A tall window whose frames are as short as those on a screen, so that there is time within a double click.
+/// Returns a tall window whose frames are as short as those on a screen, so that there is time within a
+/// double click.
 fn quick_window() -> Window {
     window_with(Harness::builder().with_size(TALL).with_step_dt(0.02))
 }
@@ -21,7 +22,7 @@ fn field(window: &Window, name: &str) -> Pos2 {
     window.get_by_role_and_label(Role::TextInput, name).rect().center()
 }
 
-/// The sentences that the window shows about what was typed.
+/// Returns the sentences that the window shows about what was typed.
 fn alerts(window: &Window) -> String {
     let alerts = window.query_all_by_role(Role::Alert);
     alerts.filter_map(|node| node.accesskit_node().label()).collect::<Vec<_>>().join(" ")

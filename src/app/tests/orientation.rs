@@ -14,7 +14,7 @@ use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
 use meshbrush_mesh::text::LengthUnit;
 
-/// What the scale bar says.
+/// Returns the text of the scale bar.
 fn scale(window: &Window) -> Option<String> {
     let mut labels = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
     labels.find_map(|label| label.strip_prefix("Scale: ").map(str::to_owned))
@@ -139,7 +139,7 @@ fn after_a_change_of_size_the_pointer_is_where_it_is_seen() {
     assert_eq!(window.state().canvas.pointer(), Some(pointer));
 }
 
-/// What the legend on the canvas says.
+/// Returns the text of the legend on the canvas.
 fn legend(window: &Window) -> Option<String> {
     let mut labels = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
     labels.find_map(|label| label.strip_prefix("Legend: ").map(str::to_owned))

@@ -27,7 +27,7 @@ fn square(name: &str, min: DVec2, side: f64) -> PathBuf {
     file
 }
 
-/// A new document with a stroke at x = 0.5.
+/// Returns a new document with a stroke at x = 0.5.
 fn painted() -> Window {
     // Frames so short that no message fades while the mesh is built.
     let mut window = window_with(Harness::builder().with_size(TALL).with_step_dt(0.01));

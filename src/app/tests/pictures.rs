@@ -1,4 +1,4 @@
-//! What is drawn, judged by its picture.
+//! Checks of the drawing by its pictures.
 
 use std::sync::Arc;
 
@@ -8,6 +8,7 @@ use glam::dvec2;
 
 use super::{
     FREE, PAINTED_RISK, RESTING_PLACE, Window, canvas, key, on_screen, scratch, send, set, settings, stroke,
+    wait_for_jobs,
 };
 use crate::app::App;
 use crate::app::command::{Command, LayerCommand, ViewCommand};
@@ -15,12 +16,13 @@ use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{self, Setting};
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};
 
-/// A window whose canvas is drawn, on the software driver. Slower: only for what is judged by its picture.
+/// Returns a window whose canvas is drawn, on the software driver. Slower: only for what is judged by its
+/// picture.
 pub fn drawn_window() -> Window {
     window_drawn_by(|_, _| {})
 }
 
-/// As [`drawn_window`], after the app was readied for drawing.
+/// Returns the window of [`drawn_window`], with an app that `ready` prepared.
 pub fn window_drawn_by(ready: fn(&mut App, &Context)) -> Window {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
@@ -40,7 +42,7 @@ pub fn window_drawn_by(ready: fn(&mut App, &Context)) -> Window {
     window
 }
 
-/// What the window looks like: rows from the top, four bytes a pixel.
+/// A picture of the window: rows from the top, four bytes per pixel.
 pub struct Picture {
     pub width: usize,
     pub rgba: Vec<u8>,
@@ -60,7 +62,7 @@ fn is_colorful([r, g, b]: [u8; 3]) -> bool {
     r.max(g).max(b) - r.min(g).min(b) > 40
 }
 
-/// How many pixels within `radius` points of `middle` are coloured as a refined level.
+/// Returns how many pixels within `radius` points of `middle` are coloured as a refined level.
 fn colorful(image: &Picture, middle: Pos2, radius: i32) -> usize {
     let offsets = (-radius..=radius).flat_map(|y| (-radius..=radius).map(move |x| vec2(x as f32, y as f32)));
     offsets.filter(|offset| is_colorful(pixel(image, middle + *offset))).count()
@@ -114,13 +116,9 @@ fn an_overlay_and_the_light_theme_are_seen_on_the_canvas() {
     let plain = picture(&mut window);
     send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Risk)));
     // Its colours are computed on another thread.
-    let is_warm = (0..200).any(|_| {
-        std::thread::sleep(std::time::Duration::from_millis(50));
-        window.run();
-        let [r, g, _] = pixel(&picture(&mut window), at);
-        r > g
-    });
-    assert!(is_warm, "risk is warm");
+    wait_for_jobs(&mut window);
+    let [r, g, _] = pixel(&picture(&mut window), at);
+    assert!(r > g, "risk is warm");
     send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
     assert_eq!(pixel(&picture(&mut window), at), pixel(&plain, at));
     send(&mut window, Command::View(ViewCommand::Theme(ThemePreference::Light)));

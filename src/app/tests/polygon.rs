@@ -13,7 +13,7 @@ use crate::app::tools::DomainToolMode;
 
 const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), dvec2(0.2, 0.4)];
 
-/// A new document and an open polygon with these corners.
+/// Returns a new document and an open polygon with these corners.
 fn with_corners(corners: &[DVec2]) -> Window {
     let mut window = window();
     send(&mut window, Command::File(FileCommand::New));

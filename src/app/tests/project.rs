@@ -1,16 +1,16 @@
 //! Saving, opening and the questions before something would be lost, in the window, by role and label.
 
+use std::cell::RefCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{Window, document, paint, send, show, window};
+use super::{Window, document, paint, send, show, wait_until, window};
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting, Settings, Stage};
 use meshbrush_io::io::journal::{self, Journal, Left};
@@ -35,14 +35,10 @@ fn press(window: &mut Window, button: &str) {
     window.run();
 }
 
-/// Waits for work off the window's thread.
-fn wait(window: &mut Window, what: &str, done: impl Fn(&Window) -> bool) {
-    let start = Instant::now();
-    while !done(window) || window.state().session().stage() != Stage::InStep {
-        assert!(start.elapsed() < Duration::from_secs(30), "waited for {what}");
-        std::thread::sleep(Duration::from_millis(5));
-        window.run();
-    }
+/// Waits for something that jobs bring about, and for the mesh.
+#[track_caller]
+fn wait(window: &mut Window, is_so: impl Fn(&Window) -> bool) {
+    wait_until(window, |window| is_so(window) && window.state().session().stage() == Stage::InStep);
 }
 
 fn shows(window: &Window, label: &str) -> bool {
@@ -66,7 +62,7 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     press(&mut window, "Save");
     // The ending is added.
     let saved = file.with_extension("meshbrush");
-    wait(&mut window, "saving", |window| shows(window, "threats"));
+    wait(&mut window, |window| shows(window, "threats"));
     assert!(project::read(&saved).unwrap().paint() == document(&window).paint());
 
     let (before, bytes) = (fingerprint(&window), fs::read(&saved).unwrap());
@@ -76,12 +72,12 @@ fn what_is_saved_by_key_is_opened_with_the_same_mesh() {
     assert!(shows(&window, "threats"), "undone to what is saved");
     send(&mut window, Command::Edit(EditCommand::Redo));
     key(&mut window, Modifiers::COMMAND, Key::S);
-    wait(&mut window, "saving again", |window| shows(window, "threats"));
+    wait(&mut window, |window| shows(window, "threats"));
     assert!(fs::read(&saved).unwrap() != bytes);
 
     fs::write(&saved, &bytes).unwrap();
     send(&mut window, Command::File(FileCommand::Open(saved.clone())));
-    wait(&mut window, "opening", |window| document(window).history().is_empty());
+    wait(&mut window, |window| document(window).history().is_empty());
     assert_eq!(fingerprint(&window), before);
     assert!(shows(&window, "threats"));
 }
@@ -94,7 +90,7 @@ fn edits_after_the_start_of_saving_stay_unsaved() {
     send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
     let saved = document(&window).paint().clone();
     paint(&mut window, 0.8);
-    wait(&mut window, "saving", |window| shows(window, "a — edited"));
+    wait(&mut window, |window| shows(window, "a — edited"));
     assert!(*project::read(&file).unwrap().paint() == saved);
     assert!(saved != *document(&window).paint());
 }
@@ -129,12 +125,12 @@ fn unsaved_edits_are_asked_about() {
     // Saved first, and then left.
     let mut window = window();
     send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
-    wait(&mut window, "saving", |window| shows(window, "b"));
+    wait(&mut window, |window| shows(window, "b"));
     paint(&mut window, 0.9);
     let painted = document(&window).paint().clone();
     send(&mut window, Command::File(FileCommand::New));
     press(&mut window, "Save");
-    wait(&mut window, "saving and leaving", |window| document(window).paint().is_blank());
+    wait(&mut window, |window| document(window).paint().is_blank());
     assert!(*project::read(&file).unwrap().paint() == painted);
     // A new document has no file: nothing is written over.
     paint(&mut window, 0.5);
@@ -151,7 +147,7 @@ fn edits_are_asked_about_before_unsaved_work_is_restored() {
     let mut window = window();
     window.state_mut().keep_journal_in(folder);
     let (offer, question) = ("Restore unsaved work?", "Save changes to “Radar threats”?");
-    wait(&mut window, "the offer", |window| shows(window, offer));
+    wait(&mut window, |window| shows(window, offer));
     paint(&mut window, 0.9);
     let painted = document(&window).version();
     press(&mut window, "Restore");
@@ -174,7 +170,7 @@ fn a_journal_that_cannot_be_read_is_named() {
     let mut window = window();
     window.state_mut().keep_journal_in(folder);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
-    wait(&mut window, "the message", |window| told(window).is_some());
+    wait(&mut window, |window| told(window).is_some());
     let text = told(&window).unwrap();
     assert!(text.contains(file.to_str().unwrap()) && text.contains("another version"), "{text}");
     assert!(file.exists());
@@ -190,7 +186,7 @@ fn a_journal_that_cannot_be_written_is_told() {
     send(&mut window, Command::File(FileCommand::New));
     paint(&mut window, 0.9);
     let told = |window: &Window| window.state().session().notices().shown().map(|shown| shown.text.clone());
-    wait(&mut window, "the message", |window| told(window).is_some());
+    wait(&mut window, |window| told(window).is_some());
     let text = told(&window).unwrap();
     assert!(text.starts_with("Unsaved work is no longer kept in case of a crash: "), "{text}");
     assert!(text.ends_with("Save the project from time to time."), "{text}");
@@ -209,17 +205,19 @@ fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     let hidden = |settings: &Settings| settings.layer(painted).is_some_and(|layer| !layer.visible);
     assert!(hidden(document(&window).settings()));
     // As after a kill: the journal of a window that is open is locked, a copy of it is not.
-    let start = Instant::now();
-    let kept = loop {
-        assert!(start.elapsed() < Duration::from_secs(30), "nothing was kept");
+    let kept = RefCell::new(None);
+    wait_until(&mut window, |_| {
         for entry in fs::read_dir(&live).unwrap().flatten() {
             fs::copy(entry.path(), copied.join(entry.file_name())).unwrap();
         }
-        match journal::left(&copied).next() {
-            Some(Left::Work(work)) if hidden(&work.project.settings) => break work.project,
-            _ => _ = window.run(),
+        if let Some(Left::Work(work)) = journal::left(&copied).next()
+            && hidden(&work.project.settings)
+        {
+            kept.replace(Some(work.project));
         }
-    };
+        kept.borrow().is_some()
+    });
+    let kept = kept.into_inner().unwrap();
     assert!(kept.paint == *document(&window).paint() && kept.settings == *document(&window).settings());
 }
 
@@ -233,7 +231,7 @@ fn a_file_that_is_there_is_not_replaced_without_a_question() {
     assert_eq!(fs::read(&file).unwrap(), b"somebody's");
     send(&mut window, Command::File(FileCommand::SaveAs(file.clone())));
     press(&mut window, "Replace");
-    wait(&mut window, "saving", |window| shows(window, "c"));
+    wait(&mut window, |window| shows(window, "c"));
     assert!(project::read(&file).is_ok());
 }
 
@@ -249,9 +247,13 @@ fn a_document_is_saved_as_a_recipe_and_files_beside_it_are_asked_about() {
     assert!(fs::read(&beside).unwrap() == b"somebody's" && !file.exists());
     send(&mut window, Command::File(FileCommand::SaveRecipeAs(file.clone())));
     press(&mut window, "Replace");
-    wait(&mut window, "saving", |_| file.exists());
+    wait(&mut window, |_| file.exists());
     let recipe = recipe::read(&file).unwrap();
-    assert!(recipe.mesh.layers.len() == 2 && project::read(&beside).is_ok(), "{:?}", recipe.mesh.layers);
+    assert!(
+        recipe.settings.layer.len() == 2 && project::read(&beside).is_ok(),
+        "{:?}",
+        recipe.settings.layer
+    );
 }
 
 #[test]
@@ -264,7 +266,7 @@ fn a_session_is_exported_as_a_test_that_replays() {
     send(&mut window, Command::Edit(EditCommand::Undo));
     send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(1e-9))));
     send(&mut window, Command::File(FileCommand::ExportTestAs(file.with_extension(""))));
-    wait(&mut window, "exporting", |_| file.exists());
+    wait(&mut window, |_| file.exists());
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.difference), (3, None), "what was refused is no edit");
     assert_eq!(replayed.triangles, window.state().session().mesh().triangle_count());
@@ -276,7 +278,7 @@ fn a_session_is_exported_as_a_test_that_replays() {
     send(&mut window, Command::File(FileCommand::OpenExample(Example::Diamond)));
     press(&mut window, "Do not save");
     send(&mut window, Command::File(FileCommand::ExportTest(file.clone())));
-    wait(&mut window, "exporting", |_| fs::read(&file).unwrap() != before);
+    wait(&mut window, |_| fs::read(&file).unwrap() != before);
     let replayed = recording::read(&file).unwrap().replay(&Meter::default()).unwrap();
     assert_eq!((replayed.edits, replayed.triangles), (0, 9560));
 }
@@ -304,16 +306,19 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
         send(&mut window, Command::File(FileCommand::Open(file)));
         let message =
             |window: &Window| window.state().session().notices().shown().map(|notice| notice.text.clone());
-        wait(&mut window, name, |window| message(window).is_some_and(|text| text.contains(name)));
+        wait(&mut window, |window| message(window).is_some_and(|text| text.contains(name)));
         let text = message(&window).unwrap();
         assert!(text.contains(word), "{text}");
     }
     assert_eq!(document(&window).version(), version);
     paint(&mut window, 0.9);
     send(&mut window, Command::File(FileCommand::SaveTo(folder.join("no-such-folder").join("d.meshbrush"))));
-    let failed =
-        |window: &Window| window.state().session().notices().shown().is_some_and(|notice| notice.failed);
-    wait(&mut window, "the failure", failed);
+    // The message about the last file may still be shown.
+    let failed = |window: &Window| {
+        let shown = window.state().session().notices().shown();
+        shown.is_some_and(|notice| notice.failed && notice.text.contains("no-such-folder"))
+    };
+    wait(&mut window, failed);
     assert!(shows(&window, EDITED), "it is not saved");
     // A file that cannot be opened raises no question about edits.
     send(&mut window, Command::Shell(ShellCommand::Escape));
@@ -321,7 +326,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     let message = |window: &Window| {
         window.state().session().notices().shown().is_some_and(|n| n.text.contains("cut off"))
     };
-    wait(&mut window, "the failure", message);
+    wait(&mut window, message);
     assert!(!shows(&window, "Save changes to “Radar threats”?") && shows(&window, EDITED));
     send(&mut window, Command::File(FileCommand::Quit));
     assert!(shows(&window, "Save changes to “Radar threats”?"));
@@ -354,7 +359,7 @@ fn files_can_be_dropped_and_recent_ones_are_in_the_menu() {
     let mut window = window();
     window.input_mut().dropped_files.push(Arc::new(Dropped(file)));
     window.run();
-    wait(&mut window, "opening", |window| shows(window, "dropped"));
+    wait(&mut window, |window| shows(window, "dropped"));
     assert_eq!(window.state().session().mesh().triangle_count(), 9560);
     press(&mut window, "File");
     assert!(shows(&window, "Open recent dropped.meshbrush"));

@@ -15,7 +15,7 @@ use crate::app::command::{Command, FileCommand, ShellCommand};
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_io::io::{Meter, recipe};
 
-/// A recipe in a folder of its own, whose layer reads a file beside it.
+/// Returns a recipe in a folder of its own, whose layer reads a file beside it.
 fn recipe_in(name: &str, text: &str) -> PathBuf {
     let folder = super::folder("app-recipes", name);
     fs::write(folder.join("depth.asc"), "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n")

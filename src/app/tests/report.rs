@@ -9,10 +9,10 @@ use super::{
     window_of,
 };
 use crate::app::command::Command;
-use crate::app::command::PlotsCommand;
+use crate::app::features::plots::PlotsCommand;
 use crate::app::report::FigureCommand;
-use meshbrush_core::document::ReportFigure;
-use meshbrush_mesh::mesh::StepPlayer;
+use meshbrush_study::report::ReportFigure;
+use meshbrush_study::steps::StepPlayer;
 
 fn open(window: &mut Window, figure: ReportFigure) {
     choose(window, "Examples", &format!("The report, {}", figure.name()));
@@ -68,11 +68,11 @@ fn figures_3_and_4_stand_at_their_steps() {
 #[test]
 fn figure_5_waits_for_its_button_and_shows_the_gradient() {
     let mut window = opened(ReportFigure::Times);
-    assert!(!window.state().plots().is_measuring());
+    assert!(!window.state().features().plots.is_measuring());
     send(&mut window, Command::Plots(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
     window.get_by_role_and_label(Role::Button, "Measure").click();
     window.run();
-    wait_until(&mut window, |window| !window.state().plots().is_measuring());
+    wait_until(&mut window, |window| !window.state().features().plots.is_measuring());
     assert!(window.query_by_role_and_label(Role::Image, "Figure 5 of the report").is_some());
     assert!(has(&window, "1.01") && has(&window, "Gradient"));
 }
@@ -92,7 +92,7 @@ fn figure_6_shows_the_walk_to_a_queried_point() {
 #[test]
 fn the_experiment_is_made_beside_the_triangles_of_the_report() {
     let mut window = opened(ReportFigure::Experiment);
-    wait_until(&mut window, |window| window.state().plots().experiment().meshes.len() >= 5);
+    wait_until(&mut window, |window| window.state().features().plots.experiment().meshes.len() >= 5);
     window.get_by_role_and_label(Role::Button, "Cancel measuring").click();
     window.run();
     assert!(has(&window, "Level 5") && has(&window, "9,560"));

@@ -26,7 +26,7 @@ fn in_software() -> Window {
     })
 }
 
-/// What a person does.
+/// Actions of a person.
 const ACTIONS: [fn(&mut Window); 8] = [
     |window| move_to(window, FREE),
     |window| move_to(window, dvec2(0.8, 0.55)),
@@ -38,7 +38,7 @@ const ACTIONS: [fn(&mut Window); 8] = [
     |window| send(window, Command::View(ViewCommand::SetOverlay(FieldOverlay::None))),
 ];
 
-/// The share of pixels that differ, and the first of them.
+/// Returns the share of pixels that differ, and the first of them.
 fn difference(a: &Picture, b: &Picture) -> (f64, Option<[usize; 2]>) {
     assert_eq!((a.width, a.rgba.len()), (b.width, b.rgba.len()));
     let pairs = a.rgba.as_chunks::<4>().0.iter().zip(b.rgba.as_chunks::<4>().0);

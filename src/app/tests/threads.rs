@@ -1,19 +1,13 @@
 //! How many threads the window computes on.
 
-use std::time::{Duration, Instant};
-
 use super::*;
 use crate::app::background::{Aim, Outcome};
 
-/// The threads of work on a file that starts now.
+/// Returns the threads of work on a file that starts now.
 fn threads_of_a_file(window: &mut Window) -> String {
     let count = |_: &_| Outcome::Exported(format!("{} threads", rayon::current_num_threads()));
     window.state_mut().background.start(Aim::Export, FOLDER.as_ref(), count);
-    let start = Instant::now();
-    while !notice(window).contains("threads") {
-        assert!(start.elapsed() < Duration::from_secs(60), "no news: {}", notice(window));
-        window.step();
-    }
+    step_until(window, |window| notice(window).contains("threads"));
     notice(window)
 }
 

@@ -8,8 +8,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::DVec2;
 
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
+use crate::app::command::StepCommand;
 use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, ShellCommand, ThreatsCommand};
-use crate::app::stepping::StepCommand;
 use crate::app::tools::TOOLS;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::Formula;
@@ -27,7 +27,7 @@ const CONTROLS: [Role; 7] = [
     Role::Definition,
 ];
 
-/// Names of the controls and values in tool strip and side panel that have no sentence.
+/// Returns the names of the controls and values in tool strip and side panel that have no sentence.
 pub fn unexplained(window: &Window) -> Vec<String> {
     let canvas = canvas(window);
     let in_panels = |x: f32| x < canvas.left() || x > canvas.right();
@@ -98,7 +98,7 @@ fn every_control_of_the_steps_has_a_sentence() {
     let mut window = window_of(TALL);
     send(&mut window, Command::Edit(EditCommand::Set(Setting::SmallestDiameter(0.06))));
     send(&mut window, Command::Edit(EditCommand::Set(Setting::Spacing(0.25))));
-    send(&mut window, Command::Steps(StepCommand::Begin));
+    send(&mut window, Command::Steps(StepCommand::Begin(None)));
     wait_until(&mut window, |window| window.query_by_label("Changed rows").is_some());
     open_section(&mut window, "Export");
     for moved in [0, 1, 5, 40] {

@@ -3,10 +3,9 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{CLICK_SLACK, Gesture, PaintKind, Pointer, Press, ToolSpec, Tools};
-use crate::app::canvas::marks;
+use super::{PaintKind, Tools};
 use crate::app::command::{BrushCommand, Command};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, ToolSpec, marks};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -14,7 +13,7 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
-    panels: &[&panels::BRUSH],
+    panels: &[panels::BRUSH.name],
     hint: |tools| if tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,
     brush: Some(brush),
@@ -68,7 +67,7 @@ impl BrushMode {
 }
 
 fn brush(tools: &Tools) -> Brush {
-    // A value is no share: with a lower strength it would be another value.
+    // A brush that sets a value has full strength: a lower strength would give another value.
     let (medium, strength) = match (tools.kind, tools.mode) {
         (PaintKind::Risk, BrushMode::BuildUp) => (Medium::Risk(1.0), tools.paint_strength),
         (PaintKind::Risk, BrushMode::Set) => (Medium::Risk(tools.risk), 1.0),
@@ -78,7 +77,7 @@ fn brush(tools: &Tools) -> Brush {
     Brush { medium, radius: tools.radius, hardness: tools.hardness, strength }
 }
 
-/// Whether a click picks the value under the pointer instead of painting.
+/// Returns whether a click picks the value under the pointer instead of painting.
 pub fn picks(modifiers: Modifiers) -> bool {
     modifiers.alt || modifiers.command
 }
@@ -91,7 +90,7 @@ fn diameter_change(mode: BrushMode) -> DiameterChange {
     }
 }
 
-/// The menu of the tools that paint.
+/// Returns the menu of the tools that paint.
 pub fn line_to_here(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
     let line = state
         .tools
@@ -124,9 +123,9 @@ pub fn press_to_paint(
 /// not move it.
 #[derive(Debug)]
 struct Painting {
-    /// Where the brush is, in points.
+    /// The position of the brush, in points.
     brush: Pos2,
-    /// Where the pointer is, in points.
+    /// The position of the pointer, in points.
     pointer: Pos2,
     /// Length of the string, in points; 0 without smoothing.
     slack: f32,
@@ -167,7 +166,7 @@ impl Gesture for Painting {
 /// Shift held with a brush: a line if released here, the brush's size if dragged.
 #[derive(Debug)]
 struct Sizing {
-    /// Where the pointer went down, in points.
+    /// The point where the pointer went down, in points.
     from: Pos2,
     /// The radius then, in world units.
     radius: f64,

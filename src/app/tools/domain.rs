@@ -3,10 +3,9 @@
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
-use super::{CLICK_SLACK, Gesture, OverMesh, Pointer, Press, ToolSpec, Tools};
-use crate::app::canvas::marks;
+use super::Tools;
 use crate::app::command::{Command, DomainCommand, EditCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, ToolSpec, marks};
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -15,7 +14,7 @@ use meshbrush_mesh::geometry::Rect as WorldRect;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
-    panels: &[&panels::DOMAIN],
+    panels: &[panels::DOMAIN.name],
     hint: |_| HINT,
     has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
     paint,
@@ -38,7 +37,7 @@ const HINT: &[Hint] = &[
     Text("undo"),
 ];
 
-/// What the domain tool cuts with.
+/// The shape that the domain tool cuts with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DomainToolMode {
     /// The brush ring.
@@ -55,7 +54,7 @@ pub enum DomainToolMode {
 /// Settings of the domain tool, and its open polygon.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DomainTool {
-    /// What it cuts with.
+    /// The shape that the tool cuts with.
     pub mode: DomainToolMode,
     /// Whether it adds to the domain instead of removing from it.
     pub adds: bool,
@@ -95,7 +94,7 @@ fn press_corner(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command
     MovingCorner { index, from: press.at, moved: false, closes: nearest.is_some() && ends }
 }
 
-/// The secondary button closes the polygon.
+/// Returns the secondary button closes the polygon.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
     let has_polygon = !tools.domain.corners.is_empty();
     if has_polygon {
@@ -119,7 +118,7 @@ fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
 #[derive(Debug)]
 struct MovingCorner {
     index: usize,
-    /// Where the pointer went down, in points.
+    /// The point where the pointer went down, in points.
     from: Pos2,
     moved: bool,
     closes: bool,
@@ -149,7 +148,7 @@ fn cut_along(path: Vec<DVec2>, pointer: &Pointer<'_>, adds: bool) -> Command {
 /// Cutting the domain with the brush.
 #[derive(Debug)]
 struct Cutting {
-    /// Where the brush was last, in world units.
+    /// The last position of the brush, in world units.
     last: DVec2,
     /// Whether it adds to the domain.
     adds: bool,
@@ -177,9 +176,9 @@ impl Gesture for Cutting {
 /// Drawing a rectangle: the domain's bounds, or one to cut with.
 #[derive(Debug)]
 struct Framing {
-    /// Where the pointer went down, in points.
+    /// The point where the pointer went down, in points.
     from: Pos2,
-    /// Where it is, in points.
+    /// The position of the pointer, in points.
     to: Pos2,
     /// Whether the rectangle is added to the domain or removed from it; `None` where it becomes the bounds.
     adds: Option<bool>,

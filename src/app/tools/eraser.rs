@@ -2,8 +2,9 @@
 
 use eframe::egui::Key;
 
+use super::Tools;
 use super::brush::{line_to_here, press_to_paint};
-use super::{ToolSpec, Tools};
+use crate::app::kit::ToolSpec;
 use crate::app::panels;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -11,7 +12,7 @@ use meshbrush_core::paint::{Brush, Medium};
 
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {
-    panels: &[&panels::BRUSH],
+    panels: &[panels::BRUSH.name],
     hint: |_| HINT,
     has_ring: |_| true,
     brush: Some(brush),

@@ -2,8 +2,8 @@
 
 use eframe::egui::{CursorIcon, Key, PointerButton, Pos2};
 
-use super::{Gesture, Pointer, ToolSpec, Tools};
 use crate::app::command::{Command, ViewCommand};
+use crate::app::kit::{Gesture, Pointer, ToolSpec};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 
@@ -18,19 +18,10 @@ pub static PAN: ToolSpec = ToolSpec {
 const HINT: &[Hint] =
     &[Text("Drag to move, wheel to zoom"), HintKey("Home"), Text("fits"), HintKey("B"), Text("brush")];
 
-impl Tools {
-    /// The same tools with this one selected.
-    pub fn panning(&self) -> Self {
-        let mut tools = self.clone();
-        tools.select(&PAN);
-        tools
-    }
-}
-
 /// Moving the view.
 #[derive(Debug)]
 pub struct Panning {
-    /// Where the pointer was last, in points.
+    /// The last position of the pointer, in points.
     pub last: Pos2,
     /// The button held.
     pub button: PointerButton,

@@ -3,9 +3,8 @@
 use eframe::egui::{Color32, CursorIcon, Key, Pos2, Stroke};
 use glam::DVec2;
 
-use super::{OverMesh, SettingsDrag, ToolSpec};
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec};
 use crate::app::panels;
 use crate::app::paths::PathCommand;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
@@ -15,7 +14,7 @@ use meshbrush_core::document::PathPlan;
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {
     cursor: CursorIcon::Crosshair,
-    panels: &[&panels::PATH, &panels::OTHER_PATHS],
+    panels: &[panels::PATH.name, panels::OTHER_PATHS.name],
     hint: |tools| if tools.path.pending.is_some() { GOAL_HINT } else { HINT },
     paint,
     press: |press, pointer, commands| {
@@ -28,7 +27,8 @@ pub static PATH: ToolSpec = ToolSpec {
     menu: |state, point| {
         let plan = &state.session.document().settings().paths;
         let goal = state.tools.path.pending.map(|_| ("Path to here", PathCommand::GoalAt(point)));
-        let via = (!plan.routes.is_empty()).then_some(("Path by way of here", PathCommand::ViaAt(point)));
+        let via =
+            (!plan.routes.is_empty()).then_some(("Lead the path through here", PathCommand::ViaAt(point)));
         let selected = state.tools.path.selected_in(plan);
         let delete = selected.map(|_| ("Delete the selected place", PathCommand::Delete));
         let entries = [Some(("Path from here", PathCommand::StartAt(point))), goal, via, delete];
@@ -49,7 +49,7 @@ const GOAL_HINT: &[Hint] = &[Text("Click the goal of the path"), HintKey("Esc"),
 /// How far from a place a press still takes hold of it, in points.
 const REACH_POINTS: f64 = 10.0;
 
-/// What the path tool keeps.
+/// The state of the path tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathTool {
     /// The selected place: the number of its route and its number there, from 0.
@@ -65,13 +65,14 @@ pub struct PathTool {
 }
 
 impl PathTool {
-    /// The selected place. An undo can have removed it.
+    /// Returns the selected place. An undo can have removed it.
     pub fn selected_in(&self, plan: &PathPlan) -> Option<(usize, usize)> {
         self.selected
             .filter(|&(route, place)| plan.routes.get(route).is_some_and(|route| place < route.len()))
     }
 
-    /// The number of the route that is shown in the panel: that of the selected place, or else the first.
+    /// Returns the number of the route that is shown in the panel: that of the selected place, or else the
+    /// first.
     pub fn route_in(&self, plan: &PathPlan) -> Option<usize> {
         let first = (!plan.routes.is_empty()).then_some(0);
         self.selected_in(plan).map(|(route, _)| route).or(first)
@@ -90,7 +91,7 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     paint_place(over, at, PathPlace::Start, true);
 }
 
-/// What a place of a path is.
+/// The role of a point of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathPlace {
     /// Its start: a disc.

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use meshbrush_core::paint::PathPoint;
 
-/// What the pressure of a pen changes.
+/// The effect of the pressure of a pen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PenEffect {
     /// Nothing.
@@ -19,7 +19,7 @@ pub enum PenEffect {
 /// A pen that reports its pressure.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pen {
-    /// What its pressure changes.
+    /// The effect of the pressure.
     pub effect: PenEffect,
     /// Its pressure, 0 to 1, while it is down.
     pressure: Option<f64>,
@@ -37,12 +37,12 @@ impl Pen {
         self.seen |= self.pressure.is_some();
     }
 
-    /// Whether the system has reported a pressure since the program was started.
+    /// Returns whether the system has reported a pressure since the program was started.
     pub fn is_known(&self) -> bool {
         self.seen
     }
 
-    /// A point of a stroke, with the brush as the pressure makes it.
+    /// Returns a point of a stroke, with the brush as the pressure makes it.
     pub fn path_point(&self, at: DVec2) -> PathPoint {
         let share = self.pressure.map_or(1.0, |pressure| pressure.clamp(LEAST_SHARE, 1.0));
         let whole = PathPoint::from(at);

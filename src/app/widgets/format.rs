@@ -7,12 +7,12 @@
 use meshbrush_mesh::text::{LengthUnit, group_digits};
 pub use meshbrush_mesh::text::{digits, fixed, rounded, significant, with_unit};
 
-/// A count, grouped by thousands: `37,987`.
+/// Returns a count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
     group_digits(&value.to_string())
 }
 
-/// A change of a count, with its sign: `+2,418`, `−12`, `0`.
+/// Returns a change of a count, with its sign: `+2,418`, `−12`, `0`.
 pub fn change(value: i64) -> String {
     let sign = match value {
         0 => "",
@@ -22,7 +22,8 @@ pub fn change(value: i64) -> String {
     format!("{sign}{}", count(value.unsigned_abs()))
 }
 
-/// All digits of `value`: exactly this number when it is read again. Without commas, for other programs.
+/// Returns all digits of `value`: exactly this number when it is read again. Without commas, for other
+/// programs.
 pub fn exact(value: f64) -> String {
     match value.abs() {
         size if value == 0.0 || (1e-5..1e16).contains(&size) => value.to_string(),
@@ -30,18 +31,18 @@ pub fn exact(value: f64) -> String {
     }
 }
 
-/// A length in world units, with three significant digits and the unit: `0.0061`, `0.2°`, `1,250 m`.
+/// Returns a length in world units, with three significant digits and the unit: `0.0061`, `0.2°`, `1,250 m`.
 pub fn length(value: f64, unit: LengthUnit) -> String {
     unit.after(&digits(value, 3))
 }
 
-/// A coordinate, with the unit and as many decimals as `step` (the size of a pixel, say) can tell apart:
-/// `0.5813`, `23.58°`.
+/// Returns a coordinate, with the unit and as many decimals as `step` (the size of a pixel, say) can tell
+/// apart: `0.5813`, `23.58°`.
 pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
     unit.after(&fixed(value, decimals_for(step)))
 }
 
-/// The number of decimals that tells apart values `step` from each other, at most 15.
+/// Returns the number of decimals that tells apart values `step` from each other, at most 15.
 pub fn decimals_for(step: f64) -> usize {
     if !(step.is_finite() && step > 0.0) {
         return 0;
@@ -49,7 +50,7 @@ pub fn decimals_for(step: f64) -> usize {
     (-step.log10() - 1e-9).ceil().clamp(0.0, 15.0) as usize
 }
 
-/// A time in seconds, in a suitable unit: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.
+/// Returns a time in seconds, in a suitable unit: `0.4 ms`, `37 ms`, `1.24 s`, `2 min 05 s`.
 pub fn time(seconds: f64) -> String {
     let ms = seconds * 1e3;
     match seconds {
@@ -64,7 +65,7 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
-/// The size of a file: `312 B`, `14 kB`, `1.2 MB`.
+/// Returns the size of a file: `312 B`, `14 kB`, `1.2 MB`.
 pub fn file_size(bytes: u64) -> String {
     let (value, unit) = match bytes as f64 {
         b if b < 999.5 => (b, "B"),

@@ -17,8 +17,8 @@ pub use controls::*;
 pub use display::*;
 pub use floating::*;
 
-/// Whether a gesture that may have changed a value is complete: the pointer was released, or a value was
-/// typed or set by key.
+/// Returns whether a gesture that may have changed a value is complete: the pointer was released, or a value
+/// was typed or set by key.
 ///
 /// Everything that changed since the last complete gesture is one undo step. The answer is yes after a click
 /// that changed nothing, too.

@@ -9,19 +9,19 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
 
-/// One line of text.
+/// Returns one line of text.
 pub(super) fn line(ui: &Ui, text: &str, font: FontId, color: Color32) -> Arc<Galley> {
     ui.painter().layout_no_wrap(text.to_owned(), font, color)
 }
 
-/// One line of text, ended by `…` where it exceeds `width` points.
+/// Returns one line of text, ended by `…` where it exceeds `width` points.
 pub(super) fn elided(ui: &Ui, text: &str, font: FontId, color: Color32, width: f32) -> Arc<Galley> {
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, color);
     job.wrap = TextWrapping::truncate_at_width(width);
     ui.painter().layout_job(job)
 }
 
-/// A title in small capitals: upper case, semi-bold, slightly spaced.
+/// Returns a title in small capitals: upper case, semi-bold, slightly spaced.
 pub(super) fn small_caps(ui: &Ui, text: &str, color: Color32, width: f32) -> Arc<Galley> {
     let format =
         TextFormat { font_id: font::title(), extra_letter_spacing: 0.6, color, ..Default::default() };
@@ -64,7 +64,7 @@ pub(super) fn focus_ring(ui: &Ui, response: &Response, rect: Rect, radius: u8) {
 pub(super) struct Columns {
     /// The name's column.
     pub label: Rect,
-    /// Between name and number.
+    /// The part between name and number.
     pub middle: Rect,
     /// The number's column, at the right edge.
     pub value: Rect,
@@ -87,7 +87,7 @@ impl Columns {
 }
 
 impl Columns {
-    /// The columns for a longer name: the control gives up some width, in whole steps of the grid.
+    /// Returns the columns for a longer name: the control gives up some width, in whole steps of the grid.
     pub fn widened_for(self, ui: &Ui, name: &str) -> Self {
         let name = line(ui, name, font::body(), Color32::PLACEHOLDER).size().x;
         let missing = (name - self.label.width()).clamp(0.0, self.middle.width() / 2.0);
@@ -118,7 +118,7 @@ pub(super) fn label(ui: &Ui, rect: Rect, text: &str, help: &str) {
     }
 }
 
-/// The keys of a shortcut: `Ctrl+Shift+Z` is three, `Ctrl++` two.
+/// Returns the keys of a shortcut: `Ctrl+Shift+Z` is three, `Ctrl++` two.
 pub(super) fn split_keys(shortcut: &str) -> Vec<&str> {
     let Some(before_plus) = shortcut.strip_suffix('+') else {
         return shortcut.split('+').filter(|key| !key.is_empty()).collect();
@@ -129,7 +129,7 @@ pub(super) fn split_keys(shortcut: &str) -> Vec<&str> {
 /// Height of a key's cap.
 pub(super) const KEY_CAP: f32 = 18.0;
 
-/// The width of a key's cap.
+/// Returns the width of a key's cap.
 pub(super) fn key_cap_width(ui: &Ui, key: &str) -> f32 {
     let text = line(ui, key, font::small_value(), Color32::PLACEHOLDER);
     (text.size().x.ceil() + 10.0).max(KEY_CAP)
@@ -147,7 +147,7 @@ pub(super) fn key_cap(ui: &Ui, left: Pos2, key: &str) -> f32 {
     rect.right()
 }
 
-/// The width of a shortcut drawn by [`shortcut_at_right`].
+/// Returns the width of a shortcut drawn by [`shortcut_at_right`].
 pub(super) fn shortcut_width(ui: &Ui, shortcut: &str) -> f32 {
     let keys = split_keys(shortcut);
     let caps: f32 = keys.iter().map(|key| key_cap_width(ui, key)).sum();

@@ -320,7 +320,7 @@ static SENTENCES: [(&str, &str); 190] = [
     ("Largest part removed", "Triangles of the largest part that was removed. A click goes there."),
 ];
 
-/// The sentence for a control, or an empty text.
+/// Returns the sentence for a control, or an empty text.
 pub fn sentence(name: &str) -> &'static str {
     SENTENCES.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
 }
@@ -332,7 +332,7 @@ pub fn explain(ui: &Ui, response: Response, text: &str) -> Response {
     explain_with(ui, response, text, |ui| drop(ui.label(text)))
 }
 
-/// As [`explain`], with other contents for the pointer.
+/// Explains a widget as [`explain`] does, with `contents` in the tooltip at the pointer.
 pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     if text.is_empty() {
         return response;
@@ -346,7 +346,8 @@ pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOn
     response
 }
 
-/// Where the tooltip of a control at `rect` goes, if its panel is at the left or right edge of the window.
+/// Returns the place of the tooltip of a control at `rect`, if its panel is at the left or right edge of the
+/// window.
 fn place(panel: Rect, window: Rect, rect: Rect) -> Option<(Rect, RectAlign)> {
     let at_right = panel.right() > window.right() - EDGE && panel.left() > window.center().x;
     let at_left = panel.left() < window.left() + EDGE && panel.right() < window.center().x;

@@ -9,13 +9,13 @@ const BYTES: [(&str, f64, f64); 4] =
 /// Letters after a number that multiply it.
 const MULTIPLIERS: [(&str, f64); 4] = [("k", 1e3), ("K", 1e3), ("M", 1e6), ("G", 1e9)];
 
-/// The number that a user typed, in `unit`.
+/// Returns the number that a user typed, in `unit`.
 ///
 /// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-4`, `100k`,
 /// `2M`, and a unit at the end: `unit` itself, or one that can be converted to it (`1.5 km` in metres).
 ///
 /// # Errors
-/// A sentence that says what was not understood.
+/// Fails with a sentence that says what was not understood.
 pub fn number(text: &str, unit: &str) -> Result<f64, String> {
     let text = text.trim();
     let (digits, suffix) = text.split_at(end_of_number(text));
@@ -29,7 +29,7 @@ pub fn number(text: &str, unit: &str) -> Result<f64, String> {
     Some(value * numerator / denominator).filter(|value| value.is_finite()).ok_or_else(|| not_a_number(text))
 }
 
-/// The byte at which the unit begins.
+/// Returns the byte at which the unit begins.
 fn end_of_number(text: &str) -> usize {
     let mut end = 0;
     let mut rest = text.char_indices().peekable();
@@ -51,7 +51,7 @@ fn plain_number(text: &str) -> Option<f64> {
     plain.parse().ok().filter(|value: &f64| value.is_finite())
 }
 
-/// Whether the commas of `text` stand where thousands are grouped: `1,234,567.8`, but not `0,123`.
+/// Returns whether the commas of `text` stand where thousands are grouped: `1,234,567.8`, but not `0,123`.
 fn groups_thousands(text: &str) -> bool {
     let whole = text.trim_start_matches(['-', '+']).split('.').next().unwrap_or_default();
     let mut groups = whole.split(',');
@@ -59,7 +59,7 @@ fn groups_thousands(text: &str) -> bool {
     (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(|group| group.len() == 3)
 }
 
-/// What a number with `suffix` is multiplied and divided by to be in `unit`.
+/// Returns the factors by which a number with `suffix` is multiplied and divided to be in `unit`.
 fn factor(suffix: &str, unit: &str) -> Option<(f64, f64)> {
     if suffix.is_empty() || suffix == unit || (unit == "°" && suffix.starts_with("deg")) {
         return Some((1.0, 1.0));
@@ -72,7 +72,7 @@ fn factor(suffix: &str, unit: &str) -> Option<(f64, f64)> {
         .or_else(multiplier)
 }
 
-/// The factor between two units of one table.
+/// Returns the factor between two units of one table.
 fn convert(from: &str, to: &str, table: &[(&str, f64, f64)]) -> Option<(f64, f64)> {
     let find = |unit: &str| table.iter().find(|(name, ..)| *name == unit);
     let ((_, up, down), (_, to_up, to_down)) = (find(from)?, find(to)?);

@@ -16,8 +16,8 @@ pub struct Token {
     pub text: String,
 }
 
-/// A path such as `crate::mesh::Mesh`, complete even if part of it was written in braces. The names of our other
-/// packages are replaced by `crate`: no two have a module of the same name.
+/// A path such as `crate::mesh::Mesh`, complete even if part of it was written in braces. The names of our
+/// other packages are replaced by `crate`: no two have a module of the same name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathInCode {
     pub line: usize,
@@ -46,8 +46,15 @@ pub struct SourceFile {
 }
 
 /// The folders of source, those of the packages that others depend on first.
-pub const SOURCES: [&str; 6] =
-    ["crates/mesh/src", "crates/core/src", "crates/io/src", "crates/render/src", "crates/cli/src", "src"];
+pub const SOURCES: [&str; 7] = [
+    "crates/mesh/src",
+    "crates/core/src",
+    "crates/study/src",
+    "crates/io/src",
+    "crates/render/src",
+    "crates/cli/src",
+    "src",
+];
 
 /// Path and text of all Rust files in [`SOURCES`], with their tests.
 pub fn read_texts() -> Vec<(String, String)> {
@@ -63,7 +70,7 @@ pub fn read_texts() -> Vec<(String, String)> {
     paths.iter().map(|path| (relative(path), fs::read_to_string(path).unwrap())).collect()
 }
 
-/// All Rust files in [`SOURCES`] in the order of their paths, without those that only tests use.
+/// Returns all Rust files in [`SOURCES`] in the order of their paths, without those that only tests use.
 pub fn read_src() -> Vec<SourceFile> {
     let files: Vec<SourceFile> =
         read_texts().iter().map(|(path, text)| SourceFile::new(path, text)).collect();
@@ -91,13 +98,14 @@ impl SourceFile {
         Self { path: path.to_owned(), module, tokens, line_count, test_modules }
     }
 
-    /// The top-level module: the first folder or file in a folder `src`; empty for `lib.rs` and `main.rs`.
+    /// Returns the top-level module: the first folder or file in a folder `src`; empty for `lib.rs` and
+    /// `main.rs`.
     pub fn top_module(&self) -> &str {
         self.module.first().map_or("", String::as_str)
     }
 
-    /// Every path with at least two segments; `use` trees are expanded. `self` and `super` are resolved to
-    /// paths that begin with `crate`.
+    /// Returns every path with at least two segments; `use` trees are expanded. `self` and `super` are
+    /// resolved to paths that begin with `crate`.
     pub fn paths(&self) -> Vec<PathInCode> {
         let mut found = Vec::new();
         let mut inline: Vec<(String, usize)> = Vec::new();
@@ -134,7 +142,7 @@ impl SourceFile {
         found
     }
 
-    /// Every function with a body, from the line of its name to the closing brace.
+    /// Returns every function with a body, from the line of its name to the closing brace.
     pub fn functions(&self) -> Vec<Function> {
         let named = (0..self.tokens.len()).filter(|&at| self.text(at) == "fn" && is_name(self.text(at + 1)));
         named.filter_map(|at| self.function(at)).collect()
@@ -150,7 +158,7 @@ impl SourceFile {
         Some(Function { name: self.text(at + 1).to_owned(), lines })
     }
 
-    /// The first of `signs` from `at` on outside parentheses and brackets.
+    /// Returns the first of `signs` from `at` on outside parentheses and brackets.
     fn at_depth_0(&self, at: usize, signs: &[&str]) -> Option<usize> {
         let mut depth = 0;
         (at..self.tokens.len()).find(|&i| {
@@ -196,7 +204,7 @@ impl SourceFile {
         at
     }
 
-    /// The text of a token; empty beyond the end.
+    /// Returns the text of a token; empty beyond the end.
     fn text(&self, at: usize) -> &str {
         self.tokens.get(at).map_or("", |token| &token.text)
     }
@@ -231,7 +239,8 @@ fn is_name(text: &str) -> bool {
     text.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// The code without tests, the number of lines of the tests, and the names of test modules in other files.
+/// Returns the code without tests, the number of lines of the tests, and the names of test modules in other
+/// files.
 fn without_tests(tokens: Vec<Token>) -> (Vec<Token>, usize, Vec<String>) {
     let (mut kept, mut lines, mut names) = (Vec::new(), 0, Vec::new());
     let mut at = 0;
@@ -256,13 +265,13 @@ fn without_tests(tokens: Vec<Token>) -> (Vec<Token>, usize, Vec<String>) {
     (kept, lines, names)
 }
 
-/// The token after the attribute that begins at `at`, if there is one.
+/// Returns the token after the attribute that begins at `at`, if there is one.
 fn attribute_end(tokens: &[Token], at: usize) -> Option<usize> {
     let begins = tokens[at].text == "#" && tokens.get(at + 1).is_some_and(|token| token.text == "[");
     begins.then(|| end_of_group(tokens, at + 1) + 1)
 }
 
-/// The last token of the item at `at`, which may have more attributes.
+/// Returns the last token of the item at `at`, which may have more attributes.
 fn item_end(tokens: &[Token], mut at: usize) -> usize {
     while let Some(end) = attribute_end(tokens, at) {
         at = end;
@@ -279,7 +288,7 @@ fn item_end(tokens: &[Token], mut at: usize) -> usize {
     tokens.len() - 1
 }
 
-/// The bracket that closes the group opened at `open`.
+/// Returns the bracket that closes the group opened at `open`.
 fn end_of_group(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0;
     for (at, token) in tokens.iter().enumerate().skip(open) {
@@ -295,7 +304,7 @@ fn end_of_group(tokens: &[Token], open: usize) -> usize {
     panic!("line {}: a bracket is never closed", tokens[open].line)
 }
 
-/// The tokens of the code, without comments and without the contents of literals.
+/// Returns the tokens of the code, without comments and without the contents of literals.
 fn tokens(text: &str) -> Vec<Token> {
     let mut reader = Reader { chars: text.chars().collect(), at: 0, line: 1, tokens: Vec::new() };
     while reader.at < reader.chars.len() {

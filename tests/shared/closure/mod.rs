@@ -12,8 +12,8 @@ pub type Point = [i64; 2];
 /// Corners: the right angle, then the ends of the longest edge.
 pub type Triangle = [Point; 3];
 
-/// A grid of `columns` × `rows` cells of side `cell`, each cut from its upper left to its lower right; a half
-/// is kept when `contains` is true at its corners, given as (column, row).
+/// Returns a grid of `columns` × `rows` cells of side `cell`, each cut from its upper left to its lower
+/// right; a half is kept when `contains` is true at its corners, given as (column, row).
 pub fn coarse(columns: i64, rows: i64, cell: i64, contains: impl Fn(i64, i64) -> bool) -> Vec<Triangle> {
     let mut kept = Vec::new();
     for (column, row) in (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))) {
@@ -29,7 +29,8 @@ pub fn coarse(columns: i64, rows: i64, cell: i64, contains: impl Fn(i64, i64) ->
     kept
 }
 
-/// How many bisections made the triangle from a coarse one: each halves the square of its longest edge.
+/// Returns how many bisections made the triangle from a coarse one: each halves the square of its longest
+/// edge.
 pub fn level(cell: i64, [_, a, b]: &Triangle) -> u32 {
     let square = i128::from(a[0] - b[0]).pow(2) + i128::from(a[1] - b[1]).pow(2);
     (2 * i128::from(cell).pow(2) / square).ilog2()
@@ -71,7 +72,7 @@ fn midpoint(p: Point, q: Point) -> Option<Point> {
     (sum[0] % 2 == 0 && sum[1] % 2 == 0).then_some([sum[0] / 2, sum[1] / 2])
 }
 
-/// The triangles as a set, independent of their order and that of their corners.
+/// Returns the triangles as a set, independent of their order and that of their corners.
 pub fn set_of(triangles: impl IntoIterator<Item = Triangle>) -> Vec<Triangle> {
     let sorted = |mut t: Triangle| {
         t.sort_unstable();

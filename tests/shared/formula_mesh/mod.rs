@@ -7,7 +7,7 @@ use meshbrush_core::layers::{Layer, LayerKind, SizeFieldSpec};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
-/// The mesh of a domain; `target` is a formula.
+/// Returns the mesh of a domain; `target` is a formula.
 pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, target: &str) -> BuiltMesh {
     let limits = Limits::default();
     let mut builder = MeshBuilder::new(MeshSpec {

@@ -1,4 +1,4 @@
-//! Arguments as typed. [`MeshRequest`](super::request::MeshRequest) interprets and checks them.
+//! Arguments as typed. [`Input`](super::input::Input) interprets and checks those on what to mesh.
 
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
@@ -32,11 +32,11 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The arguments as typed, the name of the program first. (clap can forbid a file before a command only
-    /// together with all options, and `--threads` may stand on either side.)
+    /// Returns the arguments as typed, the name of the program first. (clap can forbid a file before a
+    /// command only together with all options, and `--threads` may stand on either side.)
     ///
     /// # Errors
-    /// Wrong usage, and also help and version, which clap hands over as errors.
+    /// Fails on wrong usage, and also for help and version, which clap returns as errors.
     pub fn read(typed: &[OsString]) -> Result<Self, clap::Error> {
         let arguments = Self::try_parse_from(typed)?;
         if let (Some(file), Some(_)) = (&arguments.file, &arguments.command) {
@@ -306,7 +306,7 @@ impl From<RuleArgument> for RefinementRule {
     }
 }
 
-/// The help of `--output`, with the ending of every format.
+/// Returns the help of `--output`, with the ending of every format.
 fn output_help() -> String {
     let endings: String = ExportFormat::endings().map(|ending| format!(" .{ending}")).collect();
     format!("File to write, may be repeated:{endings}")
@@ -366,7 +366,7 @@ pub const PICTURE_SIZE: &str = "1600";
 pub const PICTURE_COLORMAP: &str = "viridis";
 
 impl PictureArguments {
-    /// Whether an option was given that is not the default.
+    /// Returns whether an option was given that is not the default.
     pub fn differs_from_default(&self) -> bool {
         self.size != PICTURE_SIZE || self.no_edges || self.colormap != PICTURE_COLORMAP || self.light
     }

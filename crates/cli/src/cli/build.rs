@@ -1,4 +1,4 @@
-//! Builds the mesh of a request, with progress on the terminal.
+//! Builds the mesh of an input, with progress on the terminal.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -6,8 +6,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 use super::failure::Failure;
-use super::request::MeshRequest;
-use super::sources::{ToMesh, read};
+use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
 use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
@@ -27,9 +26,9 @@ const SLICE: usize = 1 << 18;
 /// A mesh that was asked for, and how it was made.
 pub struct FinishedMesh {
     built: BuiltMesh,
-    /// What differs from the mesh in files.
+    /// The differences of the exported mesh from the mesh.
     pub derived: DerivedMesh,
-    /// What is painted on the layers.
+    /// The paint of the layers.
     paint: PaintLayers,
     limits: Limits,
     domain: Domain,
@@ -43,27 +42,27 @@ pub struct FinishedMesh {
 }
 
 impl FinishedMesh {
-    /// The mesh.
+    /// Returns the mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.built.mesh
     }
 
-    /// The mesh as files get it.
+    /// Returns the mesh as files get it.
     pub fn extract(&self) -> Extract<'_> {
         self.derived.extract(self.mesh())
     }
 
-    /// The polygons of the domain, if it has some.
+    /// Returns the polygons of the domain, if it has some.
     pub fn region(&self) -> Option<&Region> {
         self.domain.region().map(|region| &**region)
     }
 
-    /// The boundary of the mesh as files get it, in named pieces.
+    /// Returns the boundary of the mesh as files get it, in named pieces.
     pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
         MeshBoundary::new(extract, &self.domain, &self.marks)
     }
 
-    /// Names and splits of the boundary that are not on it, a sentence each.
+    /// Returns the names and splits of the boundary that are not on it, a sentence each.
     pub fn misplaced_marks(&self, boundary: &MeshBoundary) -> Vec<String> {
         let pieces = boundary.pieces();
         let is_off = |place: &DVec2| pieces.nearest(*place, pieces.tolerance()).is_none();
@@ -99,49 +98,49 @@ impl FinishedMesh {
         targets.expect("nobody cancels this meter")
     }
 
-    /// The risk of the layers.
+    /// Returns the risk of the layers.
     pub fn risk(&self) -> RiskField {
         RiskField::new(self.layers(), &self.paint)
     }
 
-    /// The domain, in world units.
+    /// Returns the domain, in world units.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
 
-    /// Why a triangle is in the mesh.
+    /// Returns why a triangle is in the mesh.
     pub fn explanation(&self, id: TriangleId) -> Explanation {
         let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
         let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.paint));
         Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.limits)
     }
 
-    /// The layers of the size field, from the bottom to the top.
+    /// Returns the layers of the size field, from the bottom to the top.
     pub fn layers(&self) -> &[Layer] {
         &self.built.field.spec().layers
     }
 
-    /// The triangles whose diameter exceeds their target.
+    /// Returns the triangles whose diameter exceeds their target.
     ///
     /// # Errors
-    /// When a target is impossible.
+    /// Fails when a target is impossible.
     pub fn unsatisfied(&self) -> Result<Vec<TriangleId>, InvalidTarget> {
         self.built.unsatisfied(Some(&self.paint))
     }
 }
 
-/// Reads what the request names, and builds the mesh.
+/// Reads the files of an input, and builds the mesh.
 ///
 /// # Errors
-/// When a file is of no use, the target is impossible somewhere, or a limit is reached.
-pub fn build(request: &MeshRequest, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    build_from(read(request, terminal)?, terminal)
+/// Fails when a file is of no use, the target is impossible somewhere, or a limit is reached.
+pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
+    build_from(input.read(terminal)?, terminal)
 }
 
 /// Builds the mesh of what was read.
 ///
 /// # Errors
-/// When the target is impossible somewhere, or a limit is reached.
+/// Fails when the target is impossible somewhere, or a limit is reached.
 pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
     let ToMesh { spec, paint, marks, unit, .. } = read;
     let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());

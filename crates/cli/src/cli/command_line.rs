@@ -5,7 +5,7 @@ use std::ffi::OsString;
 /// The option that decides how fast the work is done, and nothing about its result.
 const THREADS: &str = "--threads";
 
-/// The program's name and its arguments, quoted so that a shell reads them as they were given.
+/// Returns the program's name and its arguments, quoted so that a shell reads them as they were given.
 ///
 /// The name is without the folder that the program is in. The number of threads is left out: it changes no
 /// mesh, and files are the same for any number.

@@ -1,9 +1,9 @@
-//! What files and the JSON summary say about a mesh besides its triangles.
+//! The data about a mesh in files and in the JSON summary, besides its triangles.
 
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::request::MeshRequest;
+use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -14,14 +14,14 @@ pub struct MeshDetails {
     pub boundary: MeshBoundary,
     /// For each triangle the number of its part, from the largest.
     pub parts: Vec<u32>,
-    /// Where the mesh comes from.
+    /// The origin of the mesh.
     pub provenance: Provenance,
 }
 
 impl MeshDetails {
-    /// Those of a mesh as files get it, which the command `line` asked for.
-    pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, request: &MeshRequest) -> Self {
-        let coordinates = match request.mesh.region.as_ref().or(request.project.as_ref()) {
+    /// Collects the details of an exported mesh that the command `line` requested.
+    pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, input: &Input) -> Self {
+        let coordinates = match input.settings.domain.region.as_ref().or(input.project.as_ref()) {
             Some(file) => format!("x, y as in {}", file.display()),
             None => "x, y".to_owned(),
         };
@@ -31,7 +31,7 @@ impl MeshDetails {
         Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
     }
 
-    /// The number of triangles of each part.
+    /// Returns the number of triangles of each part.
     pub fn part_triangles(&self) -> Vec<usize> {
         let mut counts = Vec::new();
         for &part in &self.parts {
@@ -46,9 +46,9 @@ impl MeshDetails {
 /// A piece of the boundary of which the mesh has edges.
 #[derive(Clone, Debug, Serialize)]
 pub struct PieceSummary {
-    /// Its number among all pieces of the domain's boundary. Markers in files are one higher.
+    /// The number of the piece among all pieces of the domain's boundary. Markers in files are one higher.
     pub id: usize,
-    /// Its name, which no other piece has.
+    /// The name of the piece. No other piece has it.
     pub name: String,
     /// "open", "mainland" or "island".
     pub kind: &'static str,
@@ -59,7 +59,7 @@ pub struct PieceSummary {
 }
 
 impl PieceSummary {
-    /// Those of the pieces of which the mesh has edges, by number.
+    /// Returns the pieces that have edges in the mesh, by number.
     pub fn of_present(boundary: &MeshBoundary) -> Vec<Self> {
         let summary = |id: usize| {
             let (piece, figures) = (&boundary.pieces().list()[id], boundary.figures()[id]);
@@ -84,7 +84,7 @@ pub struct LostPiece {
 }
 
 impl LostPiece {
-    /// Those of a mesh, by number.
+    /// Returns the parts of a mesh, by number.
     pub fn all(boundary: &MeshBoundary) -> Vec<Self> {
         let lost = |id: usize| {
             let piece = &boundary.pieces().list()[id];
@@ -108,7 +108,7 @@ pub struct LostIsland {
 }
 
 impl LostIsland {
-    /// The island with its name, where the pieces of the boundary are known.
+    /// Returns the island with its name, where the pieces of the boundary are known.
     pub fn new(island: HoleFigures, boundary: Option<&MeshBoundary>) -> Self {
         let HoleFigures { place, area } = island;
         let pieces = boundary.map(MeshBoundary::pieces);

@@ -5,8 +5,7 @@ use meshbrush_core::build::BuildError;
 use meshbrush_core::field::TransferError;
 use meshbrush_core::path::PathError;
 use meshbrush_io::io::ReadError;
-use meshbrush_io::io::layers::LayerError;
-use meshbrush_io::io::recipe::DescriptionError;
+use meshbrush_io::io::recipe::LoadError;
 use meshbrush_mesh::mesh::{CoarseError, InvalidTarget, RefineError};
 use meshbrush_mesh::text::abridged;
 
@@ -23,9 +22,6 @@ pub enum Failure {
     /// A file given as input is of no use.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// The data of a layer are of no use.
-    #[error(transparent)]
-    Layer(#[from] LayerError),
     /// There is no mesh.
     #[error("{0}{advice}", advice = advice(.0))]
     Build(#[from] BuildError),
@@ -37,7 +33,7 @@ pub enum Failure {
     Write {
         /// The file as it was named.
         file: PathBuf,
-        /// What the operating system says.
+        /// The operating system's message.
         problem: String,
     },
     /// Standard output is closed or full.
@@ -57,13 +53,13 @@ impl Failure {
         }
     }
 
-    /// Whether the reader of standard output has simply seen enough, as `head` does.
+    /// Returns whether the reader of standard output has simply seen enough, as `head` does.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Print(e) if e.kind() == io::ErrorKind::BrokenPipe)
     }
 }
 
-/// What would help, as a further sentence.
+/// Returns advice against an error, as a further sentence.
 fn advice(error: &BuildError) -> &'static str {
     match error {
         BuildError::Refine(RefineError::TooManyTriangles { .. }) => {
@@ -75,20 +71,21 @@ fn advice(error: &BuildError) -> &'static str {
         BuildError::Refine(RefineError::TooFine { .. }) => {
             " Raise the smallest diameter, or mesh a smaller domain."
         }
-        BuildError::Refine(RefineError::OutOfMemory { .. } | RefineError::InvalidTarget(_))
+        BuildError::Refine(RefineError::OutOfMemory { .. } | RefineError::Rule(_))
         | BuildError::Coarse(_)
         | BuildError::InvalidLayer(_)
         | BuildError::InvalidTarget(_) => "",
     }
 }
 
-impl From<DescriptionError> for Failure {
-    fn from(error: DescriptionError) -> Self {
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Self {
         match error {
-            DescriptionError::Read(error) => error.into(),
-            DescriptionError::Layer(error) => error.into(),
-            DescriptionError::Coarse(error) => error.into(),
-            DescriptionError::Unsuited(_) => Self::Work(error.to_string()),
+            LoadError::Read(error) => error.into(),
+            LoadError::Coarse(error) => error.into(),
+            LoadError::Data(_) | LoadError::Value(_) | LoadError::Unsuited(_) => {
+                Self::Work(error.to_string())
+            }
         }
     }
 }

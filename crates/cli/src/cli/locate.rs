@@ -8,9 +8,10 @@ use glam::DVec2;
 use super::args::LocateArguments;
 use super::build::{FinishedMesh, build};
 use super::failure::Failure;
+use super::input::Input;
 use super::mesh::note_capped;
+use super::options::parse_formula;
 use super::output::{check_place, is_standard_stream};
-use super::request::{MeshRequest, parse_formula};
 use super::terminal::Terminal;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::located::LocatedIn;
@@ -20,18 +21,18 @@ use meshbrush_mesh::mesh::Extract;
 /// Runs the command. `out` is standard output.
 ///
 /// # Errors
-/// With the reason, when the arguments make no sense or the work failed.
+/// Fails with the reason, when the arguments make no sense or the work failed.
 pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
-    let request = MeshRequest::new(&typed.input)?;
+    let input = Input::new(&typed.input)?;
     let quantity = typed.quantity.as_deref().map(|text| parse_formula("--quantity", text)).transpose()?;
     let output = typed.output.as_ref().filter(|path| !is_standard_stream(path));
     if let Some(path) = output {
-        let inputs = [request.input_files(), vec![typed.points.clone()]].concat();
+        let inputs = [input.files(), vec![typed.points.clone()]].concat();
         check_place(path, &inputs)?;
     }
-    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let points = read_points(&typed.points, &request)?;
-    let finished = build(&request, terminal)?;
+    input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let points = read_points(&typed.points, &input)?;
+    let finished = build(&input, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
@@ -48,22 +49,22 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
     written.map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() })
 }
 
-fn read_points(path: &Path, request: &MeshRequest) -> Result<Vec<DVec2>, Failure> {
+fn read_points(path: &Path, input: &Input) -> Result<Vec<DVec2>, Failure> {
     if !is_standard_stream(path) {
         return Ok(points::read(path)?);
     }
-    if request.mesh.region.as_deref().is_some_and(is_standard_stream) {
+    if input.settings.domain.region.as_deref().is_some_and(is_standard_stream) {
         let problem = "--region - and --points - both read standard input";
         return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
     }
     Ok(points::read_from(io::stdin().lock(), Path::new("standard input"))?)
 }
 
-/// What the answers are computed from.
+/// The data from which answers are computed.
 struct Answers<'a> {
     finished: &'a FinishedMesh,
     extract: Extract<'a>,
-    /// What to interpolate instead of h̄.
+    /// The quantity to interpolate in place of h̄.
     quantity: Option<&'a Formula>,
 }
 

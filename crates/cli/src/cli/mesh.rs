@@ -6,8 +6,8 @@ use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
 use super::details::MeshDetails;
 use super::failure::Failure;
+use super::input::Input;
 use super::output::Output;
-use super::request::MeshRequest;
 use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
@@ -20,33 +20,33 @@ const SHOWN_VIOLATIONS: usize = 20;
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
 /// # Errors
-/// With the reason, when the arguments make no sense or the work failed.
+/// Fails with the reason, when the arguments make no sense or the work failed.
 pub fn run(
     typed: &MeshArguments,
     line: &str,
     out: &mut dyn Write,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let request = MeshRequest::new(&typed.input)?;
+    let input = Input::new(&typed.input)?;
     let by_options = RequestedFiles::of_options(typed)?;
     let outputs = &by_options.outputs;
     check_stdout(typed, outputs)?;
-    note_without_effect(typed, &request, outputs, terminal);
-    let mut files = request.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
+    note_without_effect(typed, &input, outputs, terminal);
+    let mut files = input.recipe.as_ref().map(RequestedFiles::of_recipe).transpose()?.unwrap_or_default();
     files.push(by_options);
-    let inputs = request.input_files();
+    let inputs = input.files();
     let mut outputs = files.iter().flat_map(|files| &files.outputs);
     outputs.try_for_each(|output| output.check_places(&inputs))?;
-    let finished = build(&request, terminal)?;
+    let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let violations = match typed.checks {
-        true => Some(report_violations(&finished, &extract, request.mesh.max_level, terminal)?),
+        true => Some(report_violations(&finished, &extract, input.settings.mesh.max_level, terminal)?),
         false => None,
     };
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
     let (details, summary) = terminal.while_working("measuring the mesh", || {
-        let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &request));
+        let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input));
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
         (details, summary)
     });
@@ -54,7 +54,7 @@ pub fn run(
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
-    note_misplaced_marks(&request, &finished, &extract, terminal);
+    note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = &details {
         write_files(&files, &finished, &extract, details, terminal)?;
     }
@@ -80,13 +80,8 @@ pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
 }
 
 /// Tells the user about names and splits of a recipe that are not on the boundary.
-fn note_misplaced_marks(
-    request: &MeshRequest,
-    finished: &FinishedMesh,
-    extract: &Extract,
-    terminal: &mut Terminal,
-) {
-    if request.mesh.marks.is_some() {
+fn note_misplaced_marks(input: &Input, finished: &FinishedMesh, extract: &Extract, terminal: &mut Terminal) {
+    if input.settings.domain.has_marks() {
         let notes = finished.misplaced_marks(&finished.boundary(extract));
         notes.iter().for_each(|note| terminal.note(note));
     }
@@ -124,13 +119,8 @@ fn report_violations(
 }
 
 /// Names the options that change nothing.
-fn note_without_effect(
-    typed: &MeshArguments,
-    request: &MeshRequest,
-    outputs: &[Output],
-    terminal: &mut Terminal,
-) {
-    let mut notes = request.options_without_effect(&typed.input);
+fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output], terminal: &mut Terminal) {
+    let mut notes = input.options_without_effect(&typed.input);
     if !typed.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
         notes.push("--quantity changes nothing: no file with data is written (-o).".into());
     }

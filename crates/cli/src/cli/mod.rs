@@ -1,4 +1,5 @@
-//! The command line: arguments as typed (`args`), the request that they make (`request`), running it.
+//! The command line: arguments as typed (`args`), what they say about the mesh (`options`, `input`), running
+//! it.
 //!
 //! Results go to standard output, everything else to standard error. Exit status 0: done; 1: the work failed,
 //! with a sentence; 2: wrong usage.
@@ -8,10 +9,11 @@ mod build;
 mod command_line;
 mod details;
 mod failure;
-mod layer_options;
+mod input;
 mod locate;
 mod mesh;
 mod more_args;
+mod options;
 mod output;
 mod path;
 mod path_args;
@@ -19,9 +21,7 @@ mod quantities;
 mod recipe;
 mod replay;
 mod report;
-mod request;
 mod requested_files;
-mod sources;
 mod summary;
 mod terminal;
 mod why;
@@ -39,7 +39,7 @@ use command_line::command_line;
 use failure::Failure;
 use terminal::Terminal;
 
-/// What the command line can ask of the window. Errors are sentences.
+/// The functions of the window that the command line calls. Errors are sentences.
 pub struct Window {
     /// Opens it, on a file or the first example, and returns when it is closed.
     pub open: fn(Option<PathBuf>) -> Result<(), String>,

@@ -6,9 +6,8 @@ use std::str::FromStr;
 
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::failure::Failure;
-use meshbrush_io::io::layers::KeyFault;
-use meshbrush_io::io::recipe::SavedOutput;
-use meshbrush_io::io::{MeshData, Meter, obstacle};
+use meshbrush_io::io::settings::SavedOutput;
+use meshbrush_io::io::{KeyFault, MeshData, Meter, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::Grouped;
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
@@ -25,11 +24,11 @@ pub struct Output {
 }
 
 impl Output {
-    /// A file, whose extension decides the format; or `-`, standard output, in the format of the extension
-    /// `stdout_format`. A format that has a binary form takes it where `is_binary`.
+    /// Creates a file, whose extension decides the format; or `-`, standard output, in the format of the
+    /// extension `stdout_format`. A format that has a binary form takes it where `is_binary`.
     ///
     /// # Errors
-    /// When the extension is unknown, or no format is given for standard output.
+    /// Fails when the extension is unknown, or no format is given for standard output.
     pub fn new(path: &Path, stdout_format: Option<&str>, is_binary: bool) -> Result<Self, Failure> {
         let mut output = Self::in_usual_form(path, stdout_format)?;
         if let (true, Some(binary)) = (is_binary, output.format.binary()) {
@@ -61,7 +60,7 @@ impl Output {
         }
     }
 
-    /// Whether it is standard output.
+    /// Returns whether it is standard output.
     pub fn is_stdout(&self) -> bool {
         self.path.is_none()
     }
@@ -69,7 +68,7 @@ impl Output {
     /// Checks before the work whether its files can be written there.
     ///
     /// # Errors
-    /// Those of [`check_place`], for each of its files.
+    /// Fails with the errors of [`check_place`], for each of its files.
     pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
         let files = self.path.iter().flat_map(|path| self.format.files(path));
         files.into_iter().try_for_each(|file| check_place(&file, inputs))
@@ -80,17 +79,17 @@ impl Output {
         self.is_binary
     }
 
-    /// Whether some node data is written.
+    /// Returns whether some node data is written.
     pub fn wants_node_data(&self) -> bool {
         self.format.wants_node_data()
     }
 
-    /// Whether it is a picture.
+    /// Returns whether it is a picture.
     pub fn is_picture(&self) -> bool {
         !matches!(self.format, ExportFormat::Mesh(_))
     }
 
-    /// What messages call it.
+    /// Returns the name of the output in messages.
     pub fn name(&self) -> String {
         self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
     }
@@ -99,7 +98,7 @@ impl Output {
     /// and `data` is in the order of its nodes.
     ///
     /// # Errors
-    /// When the file cannot be written. What was there before is kept then.
+    /// Fails when the file cannot be written. What was there before is kept then.
     pub fn write(
         &self,
         mesh: &Mesh,
@@ -118,7 +117,7 @@ impl Output {
     }
 }
 
-/// Whether a path stands for standard input or standard output.
+/// Returns whether a path stands for standard input or standard output.
 pub fn is_standard_stream(path: &Path) -> bool {
     path == Path::new("-")
 }
@@ -130,7 +129,7 @@ fn failed(path: &Path, problem: String) -> Failure {
 /// Checks before the work whether a file can be written there.
 ///
 /// # Errors
-/// When its folder does not exist, it is a folder itself, or it is one of the input files.
+/// Fails when its folder does not exist, it is a folder itself, or it is one of the input files.
 pub fn check_place(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
     if let Some(obstacle) = obstacle(path) {
         return Err(failed(path, obstacle));
@@ -156,10 +155,10 @@ pub struct RequestedLook {
 }
 
 impl RequestedLook {
-    /// The look that the arguments describe.
+    /// Returns the look that the arguments describe.
     ///
     /// # Errors
-    /// When the size or the name of the colour map is invalid.
+    /// Fails when the size or the name of the colour map is invalid.
     pub fn new(typed: &PictureArguments) -> Result<Self, Failure> {
         let size = parse_size(&typed.size);
         let size = size.map_err(|rule| Failure::Usage(format!("--size {}: {rule}", typed.size)))?;
@@ -168,10 +167,10 @@ impl RequestedLook {
         Ok(Self::of(size, !typed.no_edges, colormap, typed.light))
     }
 
-    /// The look that an output of a recipe describes.
+    /// Returns the look that an output of a recipe describes.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Fails as [`Self::new`] does.
     pub fn of_saved(saved: &SavedOutput) -> Result<Self, KeyFault> {
         let size = parse_size(saved.size.as_deref().unwrap_or(PICTURE_SIZE));
         let size = size.map_err(|rule| KeyFault::value("size", rule))?;
@@ -186,7 +185,7 @@ impl RequestedLook {
         Self { width, height, edges, colormap, ground }
     }
 
-    /// The look, with the colours spread over the levels of a mesh.
+    /// Returns the look, with the colours spread over the levels of a mesh.
     pub fn for_mesh(&self, mesh: &Mesh) -> Look {
         let Self { width, height, edges, colormap, ground } = *self;
         let deepest = mesh.level_counts().len() as u8 - 1;

@@ -12,11 +12,10 @@ use serde::Serialize;
 use super::build::{FinishedMesh, build_from};
 use super::details::MeshDetails;
 use super::failure::Failure;
+use super::input::{Input, ToMesh};
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
-use super::request::MeshRequest;
-use super::sources::{ToMesh, read};
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
@@ -34,7 +33,7 @@ use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
 /// # Errors
-/// With the reason, when the arguments make no sense, the work failed, or there is no path.
+/// Fails with the reason, when the arguments make no sense, the work failed, or there is no path.
 pub fn run(
     typed: &PathArguments,
     line: &str,
@@ -46,12 +45,12 @@ pub fn run(
     let places = places(typed)?;
     let look = RequestedLook::new(&typed.picture)?;
     let outputs = typed.output.iter().map(|path| PathOutput::new(path)).collect::<Result<Vec<_>, _>>()?;
-    let request = MeshRequest::new(&typed.input)?;
-    let inputs = [request.input_files(), typed.keep_out.clone()].concat();
+    let input = Input::new(&typed.input)?;
+    let inputs = [input.files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
-    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let ask = |saved: &PathPlan| Asked::new(typed, places, formula, saved);
-    let (read, asked) = read_and_ask(&request, terminal, ask)?;
+    let (read, asked) = read_and_ask(&input, terminal, ask)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
@@ -68,7 +67,7 @@ pub fn run(
     }
     let seconds = start.elapsed().as_secs_f64();
     let export = PathExport::new(&solution, &*density, typed.simplify)?;
-    let provenance = MeshDetails::of(&finished, &extract, line, &request).provenance;
+    let provenance = MeshDetails::of(&finished, &extract, line, &input).provenance;
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
@@ -82,7 +81,7 @@ pub fn run(
     }
 }
 
-/// What path is asked for: by options, and where these say nothing, by the project or the recipe.
+/// The requested path: from the options, and from the project or recipe where an option is missing.
 struct Asked {
     places: Vec<DVec2>,
     cost: PathCost,
@@ -105,7 +104,7 @@ impl Asked {
         Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
     }
 
-    /// The path, and the triangles that it was sought in.
+    /// Returns the path, and the triangles that it was sought in.
     fn path(
         &self,
         density: &dyn CostDensity,
@@ -118,30 +117,30 @@ impl Asked {
     }
 }
 
-/// Reads what the request names, and with the paths of its project or recipe, what path is asked for. Without
+/// Reads the files of an input, and with the paths of its project or recipe, what path is asked for. Without
 /// either that is known before: a mistake in it should not wait for large files.
 fn read_and_ask(
-    request: &MeshRequest,
+    input: &Input,
     terminal: &mut Terminal,
     ask: impl FnOnce(&PathPlan) -> Result<Asked, Failure>,
 ) -> Result<(ToMesh, Asked), Failure> {
-    if request.project.is_none() && request.recipe.is_none() {
+    if input.project.is_none() && input.recipe.is_none() {
         let asked = ask(&PathPlan::default())?;
-        return Ok((read(request, terminal)?, asked));
+        return Ok((input.read(terminal)?, asked));
     }
-    let read = read(request, terminal)?;
+    let read = input.read(terminal)?;
     let asked = ask(&read.paths)?;
     Ok((read, asked))
 }
 
-/// The start, the via points and the goal, where they are given.
+/// Returns the start, the via points and the goal, where they are given.
 fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
     let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
     let texts = std::iter::once(from).chain(&typed.via).chain([to]);
     texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
 }
 
-/// The places of a path of the project or the recipe.
+/// Returns the places of a path of the project or the recipe.
 fn saved_places(typed: &PathArguments, saved: &PathPlan) -> Result<Vec<DVec2>, Failure> {
     let number = typed.route.unwrap_or(1);
     if let Some(places) = number.checked_sub(1).and_then(|n| saved.routes.get(n)) {
@@ -160,7 +159,7 @@ fn saved_places(typed: &PathArguments, saved: &PathPlan) -> Result<Vec<DVec2>, F
     }))
 }
 
-/// What the path costs. A weight that is not given is that of the file, or the usual one.
+/// Returns the cost of paths. A weight that is not given comes from the file, or has its default.
 fn cost(typed: &PathArguments, formula: Option<CostFormula>, saved: &PathCost) -> PathCost {
     if let Some(formula) = formula {
         return PathCost::Formula(formula);
@@ -202,7 +201,7 @@ fn mask(path: &Path) -> Result<Mask, Failure> {
     Mask::new(&polygons).map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
 }
 
-/// What is to be proved of a path.
+/// Returns the statement to prove about a path.
 fn task(
     finished: &FinishedMesh,
     cost: Arc<dyn CostDensity>,
@@ -220,7 +219,7 @@ fn task(
 /// Raises the lower bound, and takes better paths. Returns why that ended.
 ///
 /// # Errors
-/// When there is no proof, or none beyond what the solution has then.
+/// Fails when there is no proof, or none beyond what the solution has then.
 fn prove(
     solution: &mut Solution,
     task: &CertificateTask,
@@ -301,13 +300,13 @@ impl PathOutput {
 /// The answer of `--json`.
 #[derive(Serialize)]
 struct Answer {
-    /// What the path costs.
+    /// The cost of the path.
     cost: f64,
     /// No path costs less; 0 where no bound is known.
     lower: f64,
     /// The best path costs no more.
     upper: f64,
-    /// In world units.
+    /// The length of the path, in world units.
     length: f64,
     /// The integral of the risk.
     risk: f64,

@@ -20,10 +20,10 @@ pub struct NamedQuantity {
     formula: Formula,
 }
 
-/// The values that are asked for, in their order.
+/// Returns the values that are asked for, in their order.
 ///
 /// # Errors
-/// When a formula or a name is wrong, or a name comes twice; with the number of the quantity, from 0.
+/// Fails when a formula or a name is wrong, or a name comes twice; with the number of the quantity, from 0.
 pub fn parse_quantities(typed: &[String]) -> Result<Vec<NamedQuantity>, (usize, QuantityError)> {
     let mut quantities: Vec<NamedQuantity> = Vec::new();
     for (index, text) in typed.iter().enumerate() {
@@ -48,7 +48,7 @@ pub enum QuantityError {
     Formula(#[from] ParseError),
 }
 
-/// Name and formula. A comparison (`==`) is part of the formula.
+/// Returns the name and formula. A comparison (`==`) is part of the formula.
 fn split(text: &str) -> (&str, &str) {
     if let Some((name, expression)) = text.split_once('=')
         && !expression.starts_with('=')
@@ -66,10 +66,10 @@ fn is_name(text: &str) -> bool {
 }
 
 impl NamedQuantity {
-    /// Its values at the nodes of a mesh.
+    /// Returns the values at the nodes of a mesh.
     ///
     /// # Errors
-    /// When one is not finite.
+    /// Fails when one is not finite.
     pub fn at_nodes(&self, mesh: &Extract) -> Result<NodeValues, Failure> {
         let Self { name, formula } = self;
         let value = |p: DVec2| {

@@ -12,7 +12,7 @@ use meshbrush_io::io::{Interruption, Meter};
 /// Writes a project as a recipe.
 ///
 /// # Errors
-/// When the project cannot be read, or the recipe not written.
+/// Fails when the project cannot be read, or the recipe not written.
 pub fn write(typed: &RecipeArguments, terminal: &mut Terminal) -> Result<(), Failure> {
     check_ending(&typed.output)?;
     let meter = Meter::default();

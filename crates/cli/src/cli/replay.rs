@@ -14,7 +14,7 @@ use meshbrush_mesh::text::Grouped;
 /// Runs the command. `out` is standard output.
 ///
 /// # Errors
-/// When the file is no recording, an edit cannot be done, or a mesh is not the recorded one.
+/// Fails when the file is no recording, an edit cannot be done, or a mesh is not the recorded one.
 pub fn run(typed: &ReplayArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let file = recording::read(&typed.file)?;
     let meter = Meter::default();

@@ -8,15 +8,15 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::more_args::ReportArguments;
 use super::terminal::Terminal;
-use meshbrush_core::document::{Experiment, ExperimentMesh};
+use meshbrush_study::report::{Experiment, ExperimentMesh};
 
 /// The numbers of the experiment; its JSON is the answer of `--json`.
 #[derive(Serialize)]
 struct Answer<'a> {
     meshes: &'a [ExperimentMesh],
-    /// Of time over triangles, both in proportion to the mesh of level 5, from that level on.
+    /// The gradient of time over triangles, both in proportion to the mesh of level 5, from that level on.
     gradient: f64,
-    /// Of the logarithms of the same.
+    /// The gradient of the logarithms of time over triangles, from the mesh of level 5 on.
     logarithmic_gradient: f64,
     gradient_in_report: f64,
 }
@@ -24,7 +24,7 @@ struct Answer<'a> {
 /// Runs the command. `out` is standard output.
 ///
 /// # Errors
-/// When there is not enough memory, or standard output is closed.
+/// Fails when there is not enough memory, or standard output is closed.
 pub fn run(typed: &ReportArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let start = Instant::now();
     let mut experiment = Experiment::default();

@@ -9,9 +9,9 @@ use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
 use super::terminal::Terminal;
-use meshbrush_io::io::layers::{KeyFault, Step};
-use meshbrush_io::io::recipe::{OutputSpec, Recipe, SavedOutput};
-use meshbrush_io::io::{Interruption, MeshData};
+use meshbrush_io::io::recipe::Recipe;
+use meshbrush_io::io::settings::SavedOutput;
+use meshbrush_io::io::{Interruption, KeyFault, MeshData};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::render::export::ExportFormat;
 
@@ -25,10 +25,10 @@ pub struct RequestedFiles {
 }
 
 impl RequestedFiles {
-    /// Those of the options.
+    /// Returns the files that the options request.
     ///
     /// # Errors
-    /// With a sentence that names the option, the value and the rule.
+    /// Fails with a sentence that names the option, the value and the rule.
     pub fn of_options(typed: &MeshArguments) -> Result<Self, Failure> {
         let look = RequestedLook::new(&typed.picture)?;
         let quantities = parse_quantities(&typed.quantity).map_err(|(index, error)| match error {
@@ -46,19 +46,19 @@ impl RequestedFiles {
         Ok(Self { outputs, look, quantities })
     }
 
-    /// Those of a recipe, in its order.
+    /// Returns the files that a recipe requests, in its order.
     ///
     /// # Errors
-    /// With the line and column of a value that cannot be used.
+    /// Fails with the line and column of a value that cannot be used.
     pub fn of_recipe(recipe: &Recipe) -> Result<Vec<Self>, Failure> {
-        let files = |(index, output): (usize, &OutputSpec)| {
+        let files = |(index, output): (usize, &SavedOutput)| {
             Self::of_output(output).map_err(|fault| recipe.output_error(index, fault).into())
         };
-        recipe.outputs.iter().enumerate().map(files).collect()
+        recipe.settings.output.iter().enumerate().map(files).collect()
     }
 
-    fn of_output(output: &OutputSpec) -> Result<Self, KeyFault> {
-        let OutputSpec { path, saved } = output;
+    fn of_output(saved: &SavedOutput) -> Result<Self, KeyFault> {
+        let path = &saved.file;
         ExportFormat::of(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
         let file = Output::new(path, None, saved.binary);
         let file = file.map_err(|failure| KeyFault::value("file", failure.to_string()))?;
@@ -69,7 +69,7 @@ impl RequestedFiles {
                 QuantityError::Name(_) => None,
                 QuantityError::Formula(mistake) => Some(mistake.pointer().to_owned()),
             };
-            let fault = KeyFault::value("quantities", error.to_string()).at(Step::Index(index));
+            let fault = KeyFault::value("quantities", error.to_string()).at(index);
             KeyFault { pointer, ..fault }
         })?;
         Ok(Self { outputs: vec![file], look, quantities })
@@ -106,7 +106,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
 /// Writes files, and says which.
 ///
 /// # Errors
-/// When a quantity is not finite somewhere, or a file cannot be written.
+/// Fails when a quantity is not finite somewhere, or a file cannot be written.
 pub fn write_files(
     requested: &[RequestedFiles],
     finished: &FinishedMesh,

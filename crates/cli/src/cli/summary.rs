@@ -63,7 +63,7 @@ pub struct Summary {
 pub struct OutlineNodes {
     /// Nodes of the boundary along the outline.
     pub boundary: usize,
-    /// Those on the polygons.
+    /// Number of these nodes that lie on the polygons.
     pub on_outline: usize,
     /// Largest distance of the others from the polygons, in world units.
     pub farthest: f64,
@@ -103,7 +103,7 @@ pub struct Outline {
     pub holes: usize,
     /// Edge-connected parts of the mesh.
     pub parts: usize,
-    /// What was removed to clean the mesh.
+    /// The parts and pinches that were removed to clean the mesh.
     pub removed: RemovedSummary,
     /// The area that only one of mesh and polygons covers.
     pub misclassified_area: f64,
@@ -126,7 +126,7 @@ pub struct Outline {
     pub largest_angle: f64,
 }
 
-/// What cleaning removed.
+/// The parts and pinches that cleaning removed.
 #[derive(Clone, Debug, Serialize)]
 pub struct RemovedSummary {
     /// The parts, the largest first.
@@ -135,7 +135,7 @@ pub struct RemovedSummary {
     pub pinches: usize,
     /// Triangles, of parts and at pinches.
     pub triangles: usize,
-    /// Their area.
+    /// The area of these triangles.
     pub area: f64,
 }
 
@@ -144,9 +144,9 @@ pub struct RemovedSummary {
 pub struct RemovedPartSummary {
     /// A point in it.
     pub place: [f64; 2],
-    /// Its triangles.
+    /// Number of triangles of the part.
     pub triangles: usize,
-    /// Its area.
+    /// The area of the part.
     pub area: f64,
 }
 
@@ -249,7 +249,7 @@ fn angles(smallest: f64, largest: f64) -> String {
     format!("angles {smallest:.1}° to {largest:.1}°")
 }
 
-/// A number with its noun.
+/// Returns a number with its noun.
 fn counted(count: usize, noun: &str) -> String {
     let ending = match noun {
         _ if count == 1 => "",
@@ -260,8 +260,7 @@ fn counted(count: usize, noun: &str) -> String {
 }
 
 impl Summary {
-    /// The figures of a mesh, and of the extract that files get.
-    /// `details` are wanted for JSON only.
+    /// Returns the figures of a mesh, and of the extract that files get. `details` are wanted for JSON only.
     pub fn of(
         finished: &FinishedMesh,
         extract: &Extract,
@@ -295,7 +294,7 @@ impl Summary {
         }
     }
 
-    /// A few lines and a table of levels.
+    /// Returns a few lines and a table of levels.
     pub fn for_people(&self) -> String {
         let mut text = format!(
             "{} triangles, {} nodes, levels 0 to {}, refined in {}\ncoarse spacing {}, {} rule\n\n",

@@ -1,4 +1,4 @@
-//! What a person reads while and after the work: standard error.
+//! The messages for a person during and after the work, on standard error.
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -41,7 +41,7 @@ impl Terminal {
         self.say(&format!("meshbrush: note: {sentence}"));
     }
 
-    /// What has been done so far, in work that began at `start`; shown a few times a second, on one line.
+    /// Shows the progress of work that began at `start` on one line, a few times a second.
     pub fn progress(&mut self, start: Instant, done: impl FnOnce() -> String) {
         let due = start.elapsed() > PATIENCE && self.last_shown.is_none_or(|last| last.elapsed() > PACE);
         if self.show_progress && due {
@@ -106,8 +106,7 @@ impl Drop for Ends<'_> {
     }
 }
 
-/// What is written of a line of progress: at most so much that no terminal breaks it. A broken line could not
-/// be erased.
+/// Shortens a line of progress so that no terminal breaks it. A broken line could not be erased.
 fn progress_line(text: &str) -> String {
     // The end says how far the work is: it stays.
     let (count, most) = (text.chars().count(), LONGEST_LINE - 2);
@@ -119,7 +118,7 @@ fn progress_line(text: &str) -> String {
     format!("{start}…{end} …")
 }
 
-/// How much of a file is done: percent, or bytes where the number in all is not known.
+/// Returns how much of a file is done: percent, or bytes where the number in all is not known.
 fn share(meter: &Meter) -> String {
     let done = meter.done();
     match meter.total() {

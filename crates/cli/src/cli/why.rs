@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::args::WhyArguments;
 use super::build::{FinishedMesh, build};
 use super::failure::Failure;
+use super::input::Input;
 use super::mesh::note_capped;
-use super::request::MeshRequest;
 use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
 use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bisection_edge_length};
@@ -17,12 +17,12 @@ use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bise
 /// Runs the command. `out` is standard output.
 ///
 /// # Errors
-/// With the reason, when the arguments make no sense, the work failed, or no triangle is at the point.
+/// Fails with the reason, when the arguments make no sense, the work failed, or no triangle is at the point.
 pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
     let point = point(&typed.point)?;
-    let request = MeshRequest::new(&typed.input)?;
-    request.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let finished = build(&request, terminal)?;
+    let input = Input::new(&typed.input)?;
+    input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
+    let finished = build(&input, terminal)?;
     note_capped(&finished, terminal);
     let mesh = finished.mesh();
     let location = mesh.locate(point);
@@ -40,7 +40,7 @@ pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -
 /// Reads "X,Y".
 ///
 /// # Errors
-/// When these are not two finite numbers.
+/// Fails when these are not two finite numbers.
 pub fn point(text: &str) -> Result<DVec2, Failure> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -75,7 +75,7 @@ fn sentences(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation)
     lines.join("\n")
 }
 
-/// The number of a triangle in files. None where it was changed along the outline.
+/// Returns the number of a triangle in files. None where it was changed along the outline.
 fn number(finished: &FinishedMesh, id: TriangleId) -> Option<usize> {
     finished.extract().place_of(id).map(TriangleId::index)
 }
@@ -91,7 +91,7 @@ struct Answer<'a> {
     corners: [[f64; 2]; 3],
     /// "coarse", "rule", "compatibility", or "unneeded" where the mesh is not up to date.
     cause: &'static str,
-    /// From the triangle that exceeds its target to the parent.
+    /// The triangles from the one that exceeds its target to the parent.
     chain: Vec<Link>,
     #[serde(skip_serializing_if = "Option::is_none")]
     demand: Option<SavedDemand<'a>>,
@@ -105,7 +105,7 @@ struct Link {
     corners: [[f64; 2]; 3],
 }
 
-/// What the first triangle of the chain exceeds.
+/// The target that the first triangle of the chain exceeds.
 #[derive(Serialize)]
 #[serde(tag = "by", rename_all = "lowercase")]
 enum SavedDemand<'a> {

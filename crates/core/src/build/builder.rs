@@ -18,19 +18,19 @@ use crate::mesh::{
 #[derive(Clone, Debug)]
 pub struct MeshBuilder {
     spec: MeshSpec,
-    /// The field, where it was given.
+    /// The field, if the caller gave one.
     given_field: Option<Arc<SizeField>>,
-    /// A mesh whose memory is used again.
+    /// A mesh whose memory is reused.
     spare: Option<Mesh>,
     /// `None` once an error has ended the work.
-    step: Option<Step>,
+    step: Option<BuildStep>,
     /// Triangles that the level cap left coarser than their target.
     capped: usize,
 }
 
-/// What is being done, with all that it needs.
+/// The current step of the work, with everything that it needs.
 #[derive(Clone, Debug)]
-enum Step {
+enum BuildStep {
     /// The outline is indexed on the lattice.
     Index(DomainOnLatticeBuilder),
     /// The coarse grid comes next.
@@ -64,7 +64,7 @@ enum RefinerByRule {
     Vertex(Refiner, VertexRule),
 }
 
-/// A mesh, and what decided it.
+/// A mesh, with the domain, field and rule that it was made from.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct BuiltMesh {
@@ -72,24 +72,24 @@ pub struct BuiltMesh {
     pub domain: DomainOnLattice,
     /// h̄.
     pub field: Arc<SizeField>,
-    /// Which points of a triangle count.
+    /// The points of a triangle whose target diameters count.
     pub rule: RefinementRule,
     /// The mesh. Triangles outside a fitted domain are marked.
     pub mesh: Mesh,
 }
 
-/// What a builder may take over from an earlier mesh.
+/// The parts that a builder may take over from an earlier mesh.
 #[derive(Clone, Debug, Default)]
 pub struct Parts {
     /// The domain of the spec on the lattice of the spec, with any treatment of the boundary.
     pub domain: Option<DomainOnLattice>,
     /// The field of the spec on the lattice of the spec, whose layers are valid.
     pub field: Option<Arc<SizeField>>,
-    /// A mesh that is no longer needed. Its memory is used again, which saves about a third of the time.
+    /// A mesh that is no longer needed. Reusing its memory saves about a third of the time.
     pub spare: Option<Mesh>,
 }
 
-/// What a builder is busy with.
+/// The current stage of a builder's work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuildStage {
     /// The outline of the domain is indexed on the lattice.
@@ -108,19 +108,19 @@ pub enum BuildStage {
     },
 }
 
-/// Why there is no mesh.
+/// The reason why no mesh was made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BuildError {
-    /// The coarse grid is impossible, or empty.
+    /// The coarse grid is impossible or empty.
     #[error(transparent)]
     Coarse(#[from] CoarseError),
-    /// A layer has a value that no mesh can meet.
+    /// A layer has a value that is not a valid risk or target diameter.
     #[error(transparent)]
     InvalidLayer(#[from] InvalidLayer),
-    /// h̄ is no length somewhere.
+    /// At some point, h̄ is not a positive, finite length.
     #[error(transparent)]
     InvalidTarget(#[from] InvalidTarget),
-    /// The refinement met a limit.
+    /// The refinement reached a limit.
     #[error(transparent)]
     Refine(#[from] RefineError),
 }
@@ -132,102 +132,104 @@ impl From<GridError> for BuildError {
 }
 
 impl MeshBuilder {
-    /// Work from scratch.
+    /// Creates a builder that makes the mesh of `spec` from scratch.
     pub fn new(spec: MeshSpec) -> Self {
         Self::from_parts(spec, Parts::default())
     }
 
-    /// Work that takes over what an earlier mesh has already. The parts must be those of `spec`.
+    /// Creates a builder that takes over parts of an earlier mesh. The parts must be those of `spec`.
     pub fn from_parts(spec: MeshSpec, parts: Parts) -> Self {
         let Parts { domain, field: given_field, spare } = parts;
         let step = match domain {
-            Some(domain) => Step::Grid(domain.with_boundary(spec.boundary)),
-            None => Step::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
+            Some(domain) => BuildStep::Grid(domain.with_boundary(spec.boundary)),
+            None => BuildStep::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
         };
         Self { spec, given_field, spare, step: Some(step), capped: 0 }
     }
 
-    /// What the mesh is made from.
+    /// Returns the description of the mesh.
     pub fn spec(&self) -> &MeshSpec {
         &self.spec
     }
 
-    /// What is being done.
+    /// Returns the current stage.
     pub fn stage(&self) -> BuildStage {
         let triangles = self.triangles();
         match &self.step {
-            None | Some(Step::Index(_)) => BuildStage::Indexing,
-            Some(Step::Check { .. }) => BuildStage::Checking,
-            Some(Step::Grid(_) | Step::Refine(_)) => BuildStage::Refining { triangles },
-            Some(Step::Classify { .. } | Step::Done(_)) => BuildStage::Classifying { triangles },
+            None | Some(BuildStep::Index(_)) => BuildStage::Indexing,
+            Some(BuildStep::Check { .. }) => BuildStage::Checking,
+            Some(BuildStep::Grid(_) | BuildStep::Refine(_)) => BuildStage::Refining { triangles },
+            Some(BuildStep::Classify { .. } | BuildStep::Done(_)) => BuildStage::Classifying { triangles },
         }
     }
 
-    /// How many triangles the mesh has so far.
+    /// Returns the number of triangles that the mesh has so far.
     pub fn triangles(&self) -> usize {
         let mesh = match &self.step {
-            None | Some(Step::Index(_) | Step::Grid(_)) => return 0,
-            Some(Step::Check { mesh, .. }) => mesh,
-            Some(Step::Refine(refinement)) => return refinement.triangles(),
-            Some(Step::Classify { built, .. } | Step::Done(built)) => &built.mesh,
+            None | Some(BuildStep::Index(_) | BuildStep::Grid(_)) => return 0,
+            Some(BuildStep::Check { mesh, .. }) => mesh,
+            Some(BuildStep::Refine(refinement)) => return refinement.triangles(),
+            Some(BuildStep::Classify { built, .. } | BuildStep::Done(built)) => &built.mesh,
         };
         mesh.raw_triangle_count()
     }
 
-    /// How many triangles asked for more than [`Limits::max_level`](crate::mesh::Limits) allows.
+    /// Returns the number of triangles that were not bisected although they exceed their target, because of
+    /// [`Limits::max_level`](crate::mesh::Limits).
     pub fn capped(&self) -> usize {
         self.capped
     }
 
-    /// One slice of work: about `budget` edges, pixels or triangles. The coarse grid is made in one go.
+    /// Does one slice of work: about `budget` edges, pixels or triangles. The coarse grid is made in one
+    /// call.
     ///
     /// `paint` has the pixels of the paint layers; without it they are blank. It may change between two
     /// calls: the mesh must then be updated where it changed.
     ///
     /// # Errors
-    /// When the spec has no mesh.
+    /// Fails when the spec has no mesh.
     ///
     /// # Panics
-    /// When it is called again after an error.
+    /// Panics when it is called again after an error.
     pub fn advance(&mut self, paint: Option<&PaintLayers>, budget: usize) -> Result<Progress, BuildError> {
         let step = self.step.take().expect("work that failed cannot go on");
         let next = match step {
-            Step::Index(mut index) => match index.advance(budget) {
-                Progress::More => Step::Index(index),
-                Progress::Done => Step::Grid(index.finish()),
+            BuildStep::Index(mut index) => match index.advance(budget) {
+                Progress::More => BuildStep::Index(index),
+                Progress::Done => BuildStep::Grid(index.finish()),
             },
-            Step::Grid(domain) => self.begin_field(domain)?,
-            Step::Check { domain, mesh, field, mut check } => match check.advance(&field, budget)? {
-                Progress::More => Step::Check { domain, mesh, field, check },
+            BuildStep::Grid(domain) => self.begin_field(domain)?,
+            BuildStep::Check { domain, mesh, field, mut check } => match check.advance(&field, budget)? {
+                Progress::More => BuildStep::Check { domain, mesh, field, check },
                 Progress::Done => self.begin_refinement(domain, field, mesh),
             },
-            Step::Refine(mut refinement) => match refinement.advance(paint, budget)? {
-                Progress::More => Step::Refine(refinement),
+            BuildStep::Refine(mut refinement) => match refinement.advance(paint, budget)? {
+                Progress::More => BuildStep::Refine(refinement),
                 Progress::Done => {
                     self.capped = refinement.capped();
                     self.begin_classification(refinement.built)
                 }
             },
-            Step::Classify { built, first } => self.classify(built, first, budget),
-            Step::Done(built) => Step::Done(built),
+            BuildStep::Classify { built, first } => self.classify(built, first, budget),
+            BuildStep::Done(built) => BuildStep::Done(built),
         };
-        let progress = if matches!(next, Step::Done(_)) { Progress::Done } else { Progress::More };
+        let progress = if matches!(next, BuildStep::Done(_)) { Progress::Done } else { Progress::More };
         self.step = Some(next);
         Ok(progress)
     }
 
-    /// The mesh.
+    /// Returns the mesh.
     ///
     /// # Panics
-    /// When the work is not done.
+    /// Panics when the work is not done.
     pub fn finish(self) -> BuiltMesh {
         match self.step {
-            Some(Step::Done(built)) => built,
+            Some(BuildStep::Done(built)) => built,
             _ => panic!("the mesh is finished once `advance` returns `Progress::Done`"),
         }
     }
 
-    fn begin_field(&mut self, domain: DomainOnLattice) -> Result<Step, BuildError> {
+    fn begin_field(&mut self, domain: DomainOnLattice) -> Result<BuildStep, BuildError> {
         let MeshSpec { lattice, limits, .. } = &self.spec;
         let coarse = Mesh::coarse_grid(lattice, |node| domain.admits(node), limits)?;
         let mesh = match self.spare.take() {
@@ -246,10 +248,10 @@ impl MeshBuilder {
             return Ok(self.begin_refinement(domain, field, mesh));
         }
         let check = LayerCheck::new(&field);
-        Ok(Step::Check { domain, mesh, field, check })
+        Ok(BuildStep::Check { domain, mesh, field, check })
     }
 
-    fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<SizeField>, mesh: Mesh) -> Step {
+    fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<SizeField>, mesh: Mesh) -> BuildStep {
         let MeshSpec { limits, rule, .. } = self.spec;
         let refiner = match rule {
             RefinementRule::Area => RefinerByRule::Area(BlockRefiner::new(&mesh, limits)),
@@ -258,22 +260,26 @@ impl MeshBuilder {
             }
         };
         let built = BuiltMesh { domain, field, rule, mesh };
-        Step::Refine(Box::new(Refinement { built, refiner }))
+        BuildStep::Refine(Box::new(Refinement { built, refiner }))
     }
 }
 
 impl MeshBuilder {
-    fn begin_classification(&self, built: BuiltMesh) -> Step {
-        if built.domain.is_fitted() { Step::Classify { built, first: 0 } } else { Step::Done(built) }
+    fn begin_classification(&self, built: BuiltMesh) -> BuildStep {
+        if built.domain.is_fitted() {
+            BuildStep::Classify { built, first: 0 }
+        } else {
+            BuildStep::Done(built)
+        }
     }
 
     /// Marks about `budget` of the triangles outside a fitted domain, from `first` on.
-    fn classify(&self, mut built: BuiltMesh, first: usize, budget: usize) -> Step {
+    fn classify(&self, mut built: BuiltMesh, first: usize, budget: usize) -> BuildStep {
         let BuiltMesh { domain, mesh, .. } = &mut built;
         let all = mesh.raw_triangle_count();
         let end = first.saturating_add(budget).min(all);
         mesh.classify(first..end, |element| domain.excludes(element));
-        if end == all { Step::Done(built) } else { Step::Classify { built, first: end } }
+        if end == all { BuildStep::Done(built) } else { BuildStep::Classify { built, first: end } }
     }
 }
 
@@ -282,7 +288,9 @@ impl Refinement {
         let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
         let criterion = RefinementCriterion::new(domain, field, *rule, paint);
         match &mut self.refiner {
-            RefinerByRule::Area(refiner) => refiner.advance(mesh, &criterion.shared(), budget),
+            RefinerByRule::Area(refiner) => refiner
+                .advance(mesh, &criterion.shared(), budget)
+                .map_err(|error| error.map_rule(|never| match never {})),
             RefinerByRule::Vertex(refiner, vertex_rule) => {
                 let mut criterion = criterion.resumed(std::mem::take(vertex_rule));
                 let progress = refiner.advance(mesh, |element| criterion.exceeds(element), budget);
@@ -292,7 +300,7 @@ impl Refinement {
         }
     }
 
-    /// How many triangles the mesh has or will have, as far as that is known.
+    /// Returns the number of triangles that the mesh has or will have, as far as it is known.
     fn triangles(&self) -> usize {
         let so_far = self.built.mesh.raw_triangle_count();
         match &self.refiner {
@@ -310,15 +318,15 @@ impl Refinement {
 }
 
 impl BuiltMesh {
-    /// The criterion that the mesh satisfies, for the paint that it was made with.
+    /// Returns the criterion that the mesh satisfies, for the paint that it was made with.
     pub fn criterion<'a>(&'a self, paint: Option<&'a PaintLayers>) -> RefinementCriterion<'a> {
         RefinementCriterion::new(&self.domain, &self.field, self.rule, paint)
     }
 
-    /// The triangles whose diameter exceeds their target, for the paint that the mesh was made with.
+    /// Returns the triangles whose diameter exceeds their target, for the paint that the mesh was made with.
     ///
     /// # Errors
-    /// When a target is impossible.
+    /// Fails when a target is not a positive, finite length.
     pub fn unsatisfied(&self, paint: Option<&PaintLayers>) -> Result<Vec<TriangleId>, InvalidTarget> {
         let mut criterion = self.criterion(paint);
         self.mesh.unsatisfied(|element: &Element| criterion.exceeds(element))

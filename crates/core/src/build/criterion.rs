@@ -1,13 +1,15 @@
+use std::convert::Infallible;
+
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
 use crate::layers::{LeastTarget, PaintLayers, SettledSquares, SizeField};
 use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule, bisection_edge_length};
 
-/// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, joined
-/// with what the boundary of the domain asks for.
+/// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, combined
+/// with the condition of the boundary of the domain.
 ///
-/// Builder, updates, prices and checks ask this one type, so they agree.
+/// Builder, updates, prices and checks all use this type, so they agree.
 #[derive(Clone)]
 pub struct RefinementCriterion<'a> {
     domain: &'a DomainOnLattice,
@@ -15,12 +17,12 @@ pub struct RefinementCriterion<'a> {
     rule: RefinementRule,
     paint: &'a PaintLayers,
     vertex_rule: VertexRule,
-    /// What the field has answered by the area rule.
+    /// The field's answers by the area rule so far.
     squares: Option<SettledSquares>,
 }
 
 impl<'a> RefinementCriterion<'a> {
-    /// The criterion of a field over a domain. Without `paint`, the paint layers are blank.
+    /// Creates the criterion of a field over a domain. Without `paint`, the paint layers are blank.
     pub fn new(
         domain: &'a DomainOnLattice,
         field: &'a SizeField,
@@ -31,26 +33,37 @@ impl<'a> RefinementCriterion<'a> {
         Self { domain, field, rule, paint, vertex_rule: VertexRule::default(), squares: None }
     }
 
-    /// As [`Self::new`] by the area rule.
+    /// Creates the criterion of a field over a domain by the area rule, with the pixels of `paint`.
     pub fn by_area(domain: &'a DomainOnLattice, field: &'a SizeField, paint: &'a PaintLayers) -> Self {
         Self::new(domain, field, RefinementRule::Area, Some(paint))
     }
 
-    /// The same criterion with the nodes that an earlier slice of the same work has evaluated
+    /// Continues this criterion with the nodes that an earlier slice of the same work has evaluated
     /// ([`Self::into_vertex_rule`]).
     pub fn resumed(self, vertex_rule: VertexRule) -> Self {
         Self { vertex_rule, ..self }
     }
 
-    /// What the vertex rule has evaluated so far.
+    /// Returns the same criterion with what an earlier slice of the same work has found out
+    /// ([`Self::into_squares`]).
+    pub(crate) fn with_squares(self, squares: Option<SettledSquares>) -> Self {
+        Self { squares, ..self }
+    }
+
+    /// Returns what the area rule has found out so far.
+    pub(crate) fn into_squares(self) -> Option<SettledSquares> {
+        self.squares
+    }
+
+    /// Returns the nodes that the vertex rule has evaluated so far.
     pub fn into_vertex_rule(self) -> VertexRule {
         self.vertex_rule
     }
 
-    /// Whether an element's diameter exceeds its target.
+    /// Returns whether an element's diameter exceeds its target.
     ///
     /// # Errors
-    /// By the vertex rule, where h̄ is not a positive, finite length.
+    /// Fails by the vertex rule where h̄ is not a positive, finite length.
     #[inline]
     pub fn exceeds(&mut self, element: &Element) -> Result<bool, InvalidTarget> {
         let Self { domain, field, rule, paint, vertex_rule, squares } = self;
@@ -66,22 +79,23 @@ impl<'a> RefinementCriterion<'a> {
         })
     }
 
-    /// The area rule, for several threads.
-    pub fn shared(&self) -> impl SharedRule {
+    /// Returns the area rule in a form that several threads can share.
+    pub fn shared(&self) -> impl SharedRule<Error = Infallible> {
         || AreaAnswers { criterion: self, squares: SettledSquares::default() }
     }
 
-    /// Whether a triangle, by its corners and level, exceeds its target by the area rule.
+    /// Returns whether a triangle, by its corners and level, exceeds its target by the area rule.
     #[inline]
     pub fn exceeds_at(&self, corners: [LatticePoint; 3], level: u32) -> bool {
         let by_field = || Ok::<_, InvalidTarget>(self.field.asks_for_more(self.paint, corners, level));
         self.domain.exceeds_at(corners, level, by_field).unwrap_or(false)
     }
 
-    /// Whether a triangle, by its corners and level, exceeds its target by the rule of the criterion.
+    /// Returns whether a triangle, given by its corners and level, exceeds its target by the rule of the
+    /// criterion.
     ///
-    /// [`Self::exceeds_at`] is faster by the area rule; this also knows the vertex rule, and counts
-    /// impossible targets as none.
+    /// [`Self::exceeds_at`] is faster by the area rule; this function also knows the vertex rule, and ignores
+    /// impossible targets.
     pub fn asks_to_bisect(&self, corners: [LatticePoint; 3], level: u32) -> bool {
         if self.rule == RefinementRule::Area {
             return self.exceeds_at(corners, level);
@@ -96,14 +110,14 @@ impl<'a> RefinementCriterion<'a> {
         self.domain.exceeds_at(corners, level, by_vertices).unwrap_or(false)
     }
 
-    /// Whether a triangle, by its corners and level, is bisected for the outline of the domain, whatever h̄
-    /// is.
+    /// Returns whether a triangle, given by its corners and level, is bisected because of the outline of the
+    /// domain, whatever h̄ is.
     pub fn outline_asks(&self, corners: [LatticePoint; 3], level: u32) -> bool {
         let never = || Ok::<_, InvalidTarget>(false);
         self.domain.exceeds_at(corners, level, never).unwrap_or(false)
     }
 
-    /// The least h̄ that the rule sees in a triangle, and what decides it.
+    /// Returns the least h̄ that the rule sees in a triangle, and the source of this value.
     pub fn least_within(&self, corners: [LatticePoint; 3]) -> LeastTarget {
         if self.rule == RefinementRule::Area {
             return self.field.least_within(self.paint, corners);
@@ -119,16 +133,18 @@ impl<'a> RefinementCriterion<'a> {
     }
 }
 
-/// Answers of the area rule for one thread.
+/// The answers of the area rule for one thread.
 struct AreaAnswers<'a> {
     criterion: &'a RefinementCriterion<'a>,
     squares: SettledSquares,
 }
 
 impl RuleAnswers for AreaAnswers<'_> {
-    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
+    type Error = Infallible;
+
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Infallible> {
         let RefinementCriterion { domain, field, paint, .. } = self.criterion;
         let by_field = || field.levels_within(&mut self.squares, paint, corners, level);
-        domain.levels_within(corners, level, by_field)
+        Ok(domain.levels_within(corners, level, by_field))
     }
 }

@@ -1,5 +1,4 @@
-//! From a description of what to mesh to the mesh: the one pipeline behind window, command line, benches and
-//! tests.
+//! Makes a mesh from its description: the one pipeline of window, command line, benches and tests.
 //!
 //! A [`MeshSpec`] describes the mesh; a [`MeshBuilder`] makes it in slices. [`RefinementCriterion`] decides
 //! for both, and for updates and checks afterwards, which triangles are too large.

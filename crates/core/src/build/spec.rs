@@ -4,21 +4,21 @@ use crate::geometry::Lattice;
 use crate::layers::SizeFieldSpec;
 use crate::mesh::{Cleaning, Limits};
 
-/// What to mesh: everything that decides the mesh, but for paint.
+/// The description of a mesh: everything that decides the mesh except paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshSpec {
-    /// Ω.
+    /// The domain Ω.
     pub domain: Domain,
-    /// How the mesh meets the boundary of a domain of polygons.
+    /// The treatment of the boundary of a domain of polygons.
     pub boundary: BoundaryTreatment,
     /// The coarse grid and its lattice, over the bounds of the domain.
     pub lattice: Lattice,
     /// h̄, the target diameter.
     pub field: SizeFieldSpec,
-    /// Which points of a triangle count.
+    /// The points of a triangle whose target diameters count.
     pub rule: RefinementRule,
-    /// Which triangles of the domain the [derived mesh](crate::outline::DerivedMesh) keeps.
+    /// The triangles of the domain that the [derived mesh](crate::outline::DerivedMesh) keeps.
     pub cleaning: Cleaning,
-    /// What the mesh may cost.
+    /// Limits of the number of triangles and of their levels.
     pub limits: Limits,
 }

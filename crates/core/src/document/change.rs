@@ -1,18 +1,19 @@
-//! What other settings mean for a mesh. This is the one place that decides it; where a size field differs is
-//! decided by [`SizeFieldSpec::difference`](crate::layers::SizeFieldSpec::difference).
+//! Decides how a mesh follows a change of settings. No other code decides this;
+//! [`SizeFieldSpec::difference`](crate::layers::SizeFieldSpec::difference) finds the areas in which size
+//! fields differ.
 
 use super::Settings;
 use crate::domain::Domain;
 use crate::field::RefinementRule;
 use crate::layers::{Circumstances, PaintLayers};
 
-/// What brings the mesh of some settings in step with others.
+/// The work that brings the mesh of some settings up to date with others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Change {
-    /// Nothing: the mesh is the same, if neither settings have a budget that it exceeds. What is derived from
-    /// it may differ.
+    /// The mesh is the same, if neither settings have a budget that it exceeds. Data derived from it may
+    /// differ.
     Nothing,
-    /// It is updated where the outline of the domain or the size field differ.
+    /// The mesh is updated where the outline of the domain or the size field differ.
     Update {
         /// Whether the outline differs.
         outline: bool,
@@ -27,7 +28,8 @@ pub(super) enum Change {
 }
 
 impl Settings {
-    /// What brings the mesh of earlier settings in step with these, if the painted pixels are the same.
+    /// Returns the work that brings the mesh of earlier settings up to date with these, if the painted pixels
+    /// are the same.
     ///
     /// Both settings are taken apart completely, without `..`: a new setting does not compile until somebody
     /// has decided what it changes.
@@ -92,8 +94,8 @@ impl Settings {
         }
     }
 
-    /// Whether the mesh can follow from another domain to this one in place: only where it is fitted, so that
-    /// triangles outside stay in it, marked.
+    /// Returns whether the mesh can follow from another domain to this one in place: only where it is fitted,
+    /// so that triangles outside stay in it, marked.
     fn can_follow_outline(&self, old: &Domain) -> bool {
         let Domain { bounds, shape: _ } = &self.domain;
         let Domain { bounds: old_bounds, shape: _ } = old;
@@ -103,7 +105,7 @@ impl Settings {
             && self.rule == RefinementRule::Area
     }
 
-    /// Whether the size field asks for the same everywhere.
+    /// Returns whether the size field asks for the same everywhere.
     fn has_same_field(&self, old: &Self, paint: &PaintLayers) -> bool {
         let circumstances = Circumstances { paint, longest: f64::INFINITY, outline_areas: None };
         self.field_spec().difference(&old.field_spec(), &circumstances).is_empty()

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use crate::layers::LayerId;
 
-/// What was edited in a document, to keep a copy of it up to date.
+/// The edits of a document, with which a copy of it is kept up to date.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Edits {
     /// Whether settings changed.
@@ -14,7 +14,7 @@ pub struct Edits {
 }
 
 impl Edits {
-    /// Whether nothing changed.
+    /// Returns whether nothing changed.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }

@@ -38,7 +38,7 @@ impl Example {
     pub const ALL: [Self; 6] =
         [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean, Self::Layers, Self::Path];
 
-    /// Name for menus.
+    /// Returns the name for menus.
     pub fn name(self) -> &'static str {
         match self {
             Self::Threats => "Radar threats",
@@ -50,7 +50,7 @@ impl Example {
         }
     }
 
-    /// A sentence about it.
+    /// Returns a sentence about it.
     pub fn about(self) -> &'static str {
         match self {
             Self::Threats => {
@@ -68,8 +68,8 @@ impl Example {
         }
     }
 
-    /// The document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle; `sea`
-    /// reads the polygons of the Aegean in degrees. Only the examples that need them call these.
+    /// Returns the document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle;
+    /// `sea` reads the polygons of the Aegean in degrees. Only the examples that need them call these.
     pub fn document(
         self,
         slope: impl FnOnce() -> Raster,
@@ -177,12 +177,12 @@ const ROAD: [DVec2; 6] = [
     dvec2(0.84, 0.74),
     dvec2(0.96, 0.96),
 ];
-/// Where the terrain was surveyed coarsely, as shares of its sides.
+/// The coarsely surveyed part of the terrain, as corners in shares of its sides.
 const SURVEY: [DVec2; 4] = [dvec2(0.60, 0.05), dvec2(0.93, 0.05), dvec2(0.97, 0.33), dvec2(0.66, 0.42)];
 /// A landing site, painted, as shares of the sides of the terrain.
 const LANDING: [DVec2; 3] = [dvec2(0.62, 0.86), dvec2(0.68, 0.91), dvec2(0.76, 0.90)];
 
-/// Every kind of layer, on the terrain.
+/// Returns every kind of layer, on the terrain.
 fn layers(slope: Raster) -> Document {
     let bounds = slope.bounds();
     let at = |share: DVec2| bounds.min + share * bounds.size();
@@ -206,7 +206,7 @@ fn layers(slope: Raster) -> Document {
     without_history(&document)
 }
 
-/// The layers, from the bottom to the top; lengths in kilometres. `at` places a share of the sides.
+/// Returns the layers, from the bottom to the top; lengths in kilometres. `at` places a share of the sides.
 fn layers_of_terrain(slope: &RasterSource, at: impl Fn(DVec2) -> DVec2) -> Vec<Layer> {
     let curve = ValueCurve::new(vec![[0.3, 2.0], [0.6, 1.0], [1.0, 0.5]]).expect("a valid curve");
     let reading = RasterReading::Curve(Arc::new(curve));
@@ -244,7 +244,7 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
     (dvec2(0.855, 0.225), 0.15, 0.10, 0.70),
 ];
 
-/// The sea at half a degree, the coast at a fiftieth.
+/// Returns the sea at half a degree, the coast at a fiftieth.
 fn aegean(sea: &[NamedPolygon]) -> Settings {
     let (domain, marks) = BoundaryMarks::domain_of(sea).expect("a valid outline");
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
@@ -269,7 +269,7 @@ fn threats() -> Document {
     without_history(&document)
 }
 
-/// A document as it is, with nothing to undo.
+/// Returns a document as it is, with nothing to undo.
 fn without_history(document: &Document) -> Document {
     let (settings, paint) = (document.settings().clone(), document.paint().clone());
     Document::new(settings, Some(paint)).expect("the settings were valid before")

@@ -44,17 +44,17 @@ use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 pub struct Follower {
     shown: Shown,
     state: FollowState,
-    /// What became of the shown mesh since [`Self::take_change`] was last called.
+    /// The change of the shown mesh since the last call of [`Self::take_change`].
     change: Option<MeshChange>,
     revision: u64,
     /// Why the shown mesh is not the document's, until it is.
     stopped: Option<BuildError>,
 }
 
-/// What is being done, with the data of that work only.
+/// The current work, with the data of that work only.
 #[derive(Clone, Debug)]
 enum FollowState {
-    /// Nothing: field and mesh are up to date with what was last seen of the document.
+    /// No work: field and mesh are up to date with the last seen state of the document.
     InStep,
     /// The shown mesh is updated where h̄ changed.
     Updating {
@@ -65,7 +65,7 @@ enum FollowState {
     Following(Box<Following>),
     /// Another mesh is built beside the shown one.
     Rebuilding(Box<Rebuild>),
-    /// Nothing, as long as the document has this revision.
+    /// No work, as long as the document has this revision.
     GaveUp {
         revision: u64,
         /// Whether the work was cancelled; otherwise it failed, see [`Follower::stopped`].
@@ -73,10 +73,10 @@ enum FollowState {
     },
 }
 
-/// What became of the shown mesh.
+/// A change of the shown mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MeshChange {
-    /// It is another one.
+    /// Another mesh is shown.
     Replaced,
     /// These entries changed.
     Within(Changes),
@@ -86,7 +86,7 @@ impl Follower {
     /// Makes field and mesh of a document, in one go.
     ///
     /// # Errors
-    /// When the document has no mesh.
+    /// Fails when the document has no mesh.
     pub fn new(document: &mut Document) -> Result<Self, BuildError> {
         document.take_repainted();
         let spec = document.settings().mesh_spec()?;
@@ -101,18 +101,18 @@ impl Follower {
         })
     }
 
-    /// The shown mesh: conforming at all times.
+    /// Returns the shown mesh: conforming at all times.
     pub fn mesh(&self) -> &Mesh {
         &self.shown.mesh
     }
 
-    /// The shown mesh as it is, for work that takes longer than a frame. It does not change while it is held;
-    /// the follower continues with a copy.
+    /// Returns the shown mesh as it is, for work that takes longer than a frame. It does not change while it
+    /// is held; the follower continues with a copy.
     pub fn shared_mesh(&self) -> Arc<Mesh> {
         self.shown.mesh.clone()
     }
 
-    /// The domain on the lattice of the shown mesh.
+    /// Returns the domain on the lattice of the shown mesh.
     pub fn domain(&self) -> &DomainOnLattice {
         &self.shown.domain
     }
@@ -122,12 +122,12 @@ impl Follower {
         &self.shown.field
     }
 
-    /// The field as it is, for work that takes longer than a frame.
+    /// Returns the field as it is, for work that takes longer than a frame.
     pub fn shared_field(&self) -> Arc<SizeField> {
         self.shown.field.clone()
     }
 
-    /// The settings that mesh and field were made from.
+    /// Returns the settings that mesh and field were made from.
     pub fn settings(&self) -> &Settings {
         &self.shown.settings
     }
@@ -137,12 +137,12 @@ impl Follower {
         self.revision
     }
 
-    /// What became of the shown mesh since this was last asked.
+    /// Returns the change of the shown mesh since the last call.
     pub fn take_change(&mut self) -> Option<MeshChange> {
         self.change.take()
     }
 
-    /// What is being done.
+    /// Returns the current stage of the work.
     pub fn stage(&self) -> Stage {
         match &self.state {
             FollowState::InStep => Stage::InStep,
@@ -157,13 +157,13 @@ impl Follower {
         }
     }
 
-    /// Why the shown mesh is not that of the document: a limit was reached, or a target is impossible. The
-    /// reason stays until mesh and document agree, also while another edit is tried.
+    /// Returns why the shown mesh is not that of the document: a limit was reached, or a target is
+    /// impossible. The reason stays until mesh and document agree, also while another edit is tried.
     pub fn stopped(&self) -> Option<&BuildError> {
         self.stopped.as_ref()
     }
 
-    /// Whether field and mesh are those of the document as it is.
+    /// Returns whether field and mesh are those of the document as it is.
     pub fn is_in_step(&self, document: &Document) -> bool {
         matches!(self.state, FollowState::InStep)
             && self.shown.settings == *document.settings()
@@ -186,8 +186,8 @@ impl Follower {
     /// settings, so that the mesh keeps moving while a setting is dragged.
     ///
     /// # Errors
-    /// When the document has no mesh. The shown one stays, conforming, and the document is not tried again
-    /// until it changes.
+    /// Fails when the document has no mesh. The shown one stays, conforming, and the document is not tried
+    /// again until it changes.
     pub fn advance(&mut self, document: &mut Document, budget: usize) -> Result<Stage, BuildError> {
         self.take_over_paint(document);
         if !self.gave_up_on(document)
@@ -203,7 +203,7 @@ impl Follower {
         Ok(self.stage())
     }
 
-    /// Whether the document as it is was tried already, and failed or was cancelled.
+    /// Returns whether the document as it is was tried already, and failed or was cancelled.
     fn gave_up_on(&self, document: &Document) -> bool {
         matches!(self.state, FollowState::GaveUp { revision, .. } if revision == document.revision())
     }
@@ -234,7 +234,7 @@ impl Follower {
         Ok(())
     }
 
-    /// The present state, if its work is still of use for the document as it is; otherwise the next.
+    /// Returns the present state, if its work is still of use for the document as it is; otherwise the next.
     fn chosen_state(&mut self, document: &Document) -> Result<FollowState, BuildError> {
         let state = std::mem::replace(&mut self.state, FollowState::InStep);
         let shown = &self.shown;
@@ -262,12 +262,12 @@ impl Follower {
         if goes_on { Ok(state) } else { self.next_state(document) }
     }
 
-    /// The next state on the way to the document as it is, when there is no current work.
+    /// Returns the next state on the way to the document as it is, when there is no current work.
     fn next_state(&mut self, document: &Document) -> Result<FollowState, BuildError> {
         self.next_state_reusing(document, None)
     }
 
-    /// As [`Self::next_state`]; a rebuild uses the memory of `spare` again.
+    /// Returns the result of [`Self::next_state`]; a rebuild reuses the memory of `spare`.
     fn next_state_reusing(
         &mut self,
         document: &Document,
@@ -289,7 +289,7 @@ impl Follower {
         }
     }
 
-    /// One slice of updates of the shown mesh.
+    /// Returns one slice of updates of the shown mesh.
     fn update(
         &mut self,
         mut copy: Option<Box<MeshCopy>>,
@@ -308,7 +308,7 @@ impl Follower {
         self.next_state(document)
     }
 
-    /// One slice of work on other settings; at its end the mesh begins to follow.
+    /// Returns one slice of work on other settings; at its end the mesh begins to follow.
     fn follow(
         &mut self,
         mut following: Box<Following>,
@@ -325,7 +325,7 @@ impl Follower {
         self.next_state(document)
     }
 
-    /// One slice of work on another mesh; at its end that is shown.
+    /// Returns one slice of work on another mesh; at its end that is shown.
     fn rebuild(
         &mut self,
         mut rebuild: Box<Rebuild>,

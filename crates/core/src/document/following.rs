@@ -44,7 +44,7 @@ pub(super) struct Followed {
 }
 
 impl Following {
-    /// The work from the settings of a mesh to others, on the lattice of that mesh.
+    /// Returns the work from the settings of a mesh to others, on the lattice of that mesh.
     pub(super) fn new(
         shown: &Settings,
         wanted: &Settings,
@@ -57,7 +57,7 @@ impl Following {
         Self { settings: wanted.clone(), outline, field }
     }
 
-    /// Whether this is the work for these settings.
+    /// Returns whether this is the work for these settings.
     pub(super) fn is_for(&self, settings: &Settings) -> bool {
         self.settings == *settings
     }
@@ -69,10 +69,10 @@ impl Following {
         }
     }
 
-    /// One slice of work: about `budget` edges or evaluations.
+    /// Returns one slice of work: about `budget` edges or evaluations.
     ///
     /// # Errors
-    /// When a layer has a value that no mesh can meet.
+    /// Fails when a layer has a value that no mesh can meet.
     pub(super) fn advance(&mut self, budget: usize) -> Result<Progress, BuildError> {
         if let Some(outline) = &mut self.outline
             && outline.advance(budget) == Progress::More

@@ -18,7 +18,7 @@ pub(super) enum EntryData {
 }
 
 impl EntryData {
-    /// Bytes of this entry alone, without the data that its settings share with others.
+    /// Returns the bytes of this entry alone, without the data that its settings share with others.
     fn own_bytes(&self) -> usize {
         match self {
             Self::Paint(patches) => patches.iter().map(|(_, patch)| patch.bytes()).sum(),
@@ -39,7 +39,7 @@ pub(super) fn own_bytes(settings: &Settings) -> usize {
     size_of::<Settings>() + settings.name.capacity() + layers
 }
 
-/// Bytes of the names of a layer and of the file that its data come from.
+/// Returns the bytes of the names of a layer and of the file that its data come from.
 fn name_bytes(layer: &Layer) -> usize {
     let file = match &layer.kind {
         LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => source.name.capacity(),
@@ -80,7 +80,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .chain(background)
 }
 
-/// What a layer shares: its mask, its data, and the curve through which its data are read.
+/// Returns the data that a layer shares: its mask, its data, and the curve that converts its data.
 fn shared_by_layer(layer: &Layer) -> impl Iterator<Item = SharedData> + use<> {
     let curve = |reading: &RasterReading| match reading {
         RasterReading::Curve(curve) => Some((Arc::as_ptr(curve).addr(), size_of_val(curve.knots()))),
@@ -101,7 +101,7 @@ fn shared_by_layer(layer: &Layer) -> impl Iterator<Item = SharedData> + use<> {
 /// One gesture, done or undone.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
-    /// Its name, for display only.
+    /// The name of the edit, for display only.
     pub(super) title: &'static str,
     pub(super) data: EntryData,
     /// The version of the document that undo or redo returns to.
@@ -175,22 +175,22 @@ impl History {
         }
     }
 
-    /// What undo would undo, in one or two words.
+    /// Returns a title of one or two words for the edit that undo would undo.
     pub fn undo_title(&self) -> Option<&'static str> {
         self.done.back().map(|entry| entry.title)
     }
 
-    /// What redo would redo, in one or two words.
+    /// Returns a title of one or two words for the edit that redo would redo.
     pub fn redo_title(&self) -> Option<&'static str> {
         self.undone.last().map(|entry| entry.title)
     }
 
-    /// How many gestures can be undone.
+    /// Returns how many gestures can be undone.
     pub fn len(&self) -> usize {
         self.done.len()
     }
 
-    /// Whether nothing can be undone.
+    /// Returns whether nothing can be undone.
     pub fn is_empty(&self) -> bool {
         self.done.is_empty()
     }
@@ -239,7 +239,7 @@ impl Memory {
         }
     }
 
-    /// Bytes in all. Data that the current settings hold too costs nothing extra.
+    /// Returns the bytes in all. Data that the current settings hold too costs nothing extra.
     fn bytes(&self, current: &Settings) -> usize {
         // Two layers may share a raster: it is held once.
         let held: BTreeSet<usize> = shared_data(current).map(|(address, _)| address).collect();
@@ -260,7 +260,7 @@ mod tests {
     use crate::layers::{Quantity, ShapeList, Threat, ThreatLaw, Threats};
     use crate::raster::{Raster, RasterPyramid};
 
-    /// An outline of 4 corners.
+    /// Returns an outline of 4 corners.
     fn outline(side: f64) -> Setting {
         let square = vec![corners(&Rect::new(dvec2(0.0, 0.0), dvec2(side, side)))];
         let region = Arc::new(Region::new(&[square], Rect::UNIT));
@@ -277,7 +277,7 @@ mod tests {
         Setting::Layers(Layer::stack([LayerKind::target(Formula::parse(text).unwrap())]))
     }
 
-    /// What the entries keep alive beyond their own settings, counted from scratch.
+    /// Counts the memory of the shared data that the entries keep alive, from scratch.
     fn counted(document: &Document) -> usize {
         let History { done, undone, memory } = document.history();
         let settings = done.iter().chain(undone).filter_map(|entry| entry.data.settings());

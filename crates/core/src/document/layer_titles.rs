@@ -2,7 +2,7 @@
 
 use crate::layers::{DistanceTo, Layer, LayerKind};
 
-/// What was done to a stack of layers, in one or two words; "layers" if it was several things.
+/// Returns a title of one or two words for the change of a stack of layers; "layers" for several changes.
 pub(super) fn layers_title(before: &[Layer], after: &[Layer]) -> &'static str {
     let has = |layers: &[Layer], layer: &Layer| layers.iter().any(|other| other.id == layer.id);
     let adds = !after.iter().all(|layer| has(before, layer));
@@ -24,7 +24,7 @@ pub(super) fn layers_title(before: &[Layer], after: &[Layer]) -> &'static str {
     }
 }
 
-/// What was done to one layer.
+/// Returns a title for the change of one layer.
 fn layer_title(before: &Layer, after: &Layer) -> &'static str {
     let changes = [
         (before.name != after.name, "rename layer"),

@@ -22,7 +22,7 @@ pub enum NoPaintLayer {
     Locked {
         /// The layer.
         id: LayerId,
-        /// Its name.
+        /// The name of the layer.
         name: String,
     },
     /// The layer is hidden.
@@ -30,7 +30,7 @@ pub enum NoPaintLayer {
     Hidden {
         /// The layer.
         id: LayerId,
-        /// Its name.
+        /// The name of the layer.
         name: String,
     },
 }
@@ -44,13 +44,13 @@ fn noun(quantity: Option<Quantity>) -> &'static str {
 }
 
 impl Settings {
-    /// A layer by its identifier.
+    /// Returns a layer by its identifier.
     pub fn layer(&self, id: LayerId) -> Option<&Layer> {
         self.layers.iter().find(|layer| layer.id == id)
     }
 
-    /// A raster for a paint layer, with nothing painted. Its pixels are square, and lie at the lower left
-    /// corner of the domain.
+    /// Returns a raster for a paint layer, with nothing painted. Its pixels are square, and lie at the lower
+    /// left corner of the domain.
     pub fn blank_raster(&self, id: LayerId) -> TiledRaster {
         let bounds = self.domain.bounds;
         let pixel = DVec2::splat(bounds.size().max_element() / COARSEST_PIXELS);
@@ -78,8 +78,8 @@ impl Settings {
 }
 
 impl Document {
-    /// The risk at a point in world units, 0 to 1: the highest of all visible layers of risk; `None` where
-    /// none has a value, and beyond the domain's rectangle.
+    /// Returns the risk at a point in world units, 0 to 1: the highest of all visible layers of risk; `None`
+    /// where none has a value, and beyond the domain's rectangle.
     pub fn risk_at(&self, point: DVec2) -> Option<f64> {
         if !self.settings.domain.bounds.contains(point) {
             return None;
@@ -93,12 +93,13 @@ impl Document {
         self.clear_layers(&[id], "clear layer");
     }
 
-    /// The layer that brush and eraser were last used on, or that was selected since.
+    /// Returns the layer that brush and eraser were last used on, or that was selected since.
     pub fn active_layer(&self) -> Option<&Layer> {
         self.active.and_then(|id| self.settings.layer(id))
     }
 
-    /// An identifier for a new layer: no layer has it, and no pixels of a deleted layer are kept under it.
+    /// Returns an identifier for a new layer: no layer has it, and no pixels of a deleted layer are kept
+    /// under it.
     pub fn unused_layer_id(&self) -> LayerId {
         let is_used = |id: LayerId| self.settings.layer(id).is_some() || self.paint.get(id).is_some();
         (0..=u32::MAX).map(LayerId).find(|id| !is_used(*id)).expect("there are fewer layers than numbers")
@@ -119,11 +120,11 @@ impl Document {
         }
     }
 
-    /// The layer that a brush with this medium paints on: the active one if it takes the medium, otherwise
-    /// the highest that does.
+    /// Returns the layer that a brush with this medium paints on: the active one if it takes the medium,
+    /// otherwise the highest that does.
     ///
     /// # Errors
-    /// When there is none, or it is locked or hidden.
+    /// Fails when there is none, or it is locked or hidden.
     pub fn layer_for(&self, medium: &Medium) -> Result<LayerId, NoPaintLayer> {
         let wanted = match medium {
             Medium::Risk(_) => Some(Quantity::Risk),

@@ -1,11 +1,10 @@
-//! What the user edits: settings and paint, with the inverse of every edit. A [`Follower`] derives field and
-//! mesh from it; these are never saved.
+//! The document that a person edits: settings and paint, with the inverse of every edit. A [`Follower`]
+//! derives field and mesh from it; these are never saved.
 
 mod background;
 mod change;
 mod edits;
 mod examples;
-mod experiment;
 mod follower;
 mod following;
 mod history;
@@ -19,7 +18,6 @@ mod readings;
 mod rebuild;
 mod recording;
 mod replay;
-mod report_figures;
 mod setting;
 mod settings;
 mod shown;
@@ -29,7 +27,6 @@ mod strokes;
 pub use background::{Background, Picture};
 pub use edits::Edits;
 pub use examples::Example;
-pub use experiment::{Experiment, ExperimentMesh};
 pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use layers::NoPaintLayer;
@@ -39,7 +36,6 @@ pub use pricer::{NoChange, Price, Pricer};
 pub use readings::Readings;
 pub use recording::{Edit, EditError, RecordedEdit, RecordedStroke, Recording};
 pub use replay::{Replay, ReplayedMesh};
-pub use report_figures::{Comparison, ReportFigure};
 pub use setting::{Setting, SettingKind};
 pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Settings, SettingsError};
 pub use stage::Stage;
@@ -78,7 +74,7 @@ pub struct Document {
     last_version: u64,
 }
 
-/// Where the paint changed since [`Document::take_repainted`] was last called.
+/// The areas in which the paint changed since the last call of [`Document::take_repainted`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Repainted {
     /// Within these rectangles, which may overlap; the list may be empty.
@@ -88,10 +84,10 @@ pub enum Repainted {
 }
 
 impl Document {
-    /// A document with the given settings and paint and an empty history. Without paint it is blank.
+    /// Creates a document with the given settings and paint and an empty history. Without paint it is blank.
     ///
     /// # Errors
-    /// When the settings are out of range.
+    /// Fails when the settings are out of range.
     pub fn new(settings: Settings, paint: Option<PaintLayers>) -> Result<Self, SettingsError> {
         let settings = settings.checked()?;
         let paint = paint.unwrap_or_default();
@@ -114,22 +110,22 @@ impl Document {
         })
     }
 
-    /// The current settings.
+    /// Returns the current settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The pixels of the paint layers.
+    /// Returns the pixels of the paint layers.
     pub fn paint(&self) -> &PaintLayers {
         &self.paint
     }
 
-    /// What can be undone and redone.
+    /// Returns the edits that can be undone and redone.
     pub fn history(&self) -> &History {
         &self.history
     }
 
-    /// A counter that grows with every change and never returns to an earlier value.
+    /// Returns a counter that grows with every change and never returns to an earlier value.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -197,7 +193,7 @@ impl Document {
     /// Changes one setting. Changes of the same setting are one gesture until [`Self::end_gesture`].
     ///
     /// # Errors
-    /// When the new settings are out of range. The document then stays as it was.
+    /// Fails when the new settings are out of range. The document then stays as it was.
     pub fn set(&mut self, setting: Setting) -> Result<(), SettingsError> {
         let (kind, title) = (setting.kind(), setting.title(&self.settings));
         let mut settings = self.settings.clone();
@@ -265,8 +261,8 @@ impl Document {
         did
     }
 
-    /// Whether the last gesture changed settings that the mesh follows in place, such as layers or the
-    /// outline. Then its settings do not tell whether they can be met.
+    /// Returns whether the last gesture changed settings that the mesh follows in place, such as layers or
+    /// the outline. Then its settings do not tell whether they can be met.
     pub fn is_followed_in_place(&self) -> bool {
         let Some(EntryData::Settings(before)) = self.last_data() else { return false };
         matches!(self.settings.change_from(before, &self.paint), Change::Update { .. })
@@ -285,17 +281,17 @@ impl Document {
         }
     }
 
-    /// The pixels that changed since the last call.
+    /// Returns the pixels that changed since the last call.
     pub fn take_repainted(&mut self) -> Repainted {
         std::mem::replace(&mut self.repainted, Repainted::Within(Vec::new()))
     }
 
-    /// Whether a stroke or a settings gesture has begun and not ended.
+    /// Returns whether a stroke or a settings gesture has begun and not ended.
     pub fn is_in_gesture(&self) -> bool {
         self.stroke.is_some() || self.open_gesture.is_some()
     }
 
-    /// What was edited since the last call, the current stroke included.
+    /// Returns the edits since the last call, including those of the current stroke.
     pub fn take_edits(&mut self) -> Edits {
         std::mem::take(&mut self.edits)
     }

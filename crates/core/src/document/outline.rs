@@ -41,20 +41,20 @@ pub enum OutlineError {
     TooLarge(GridError),
 }
 
-/// Ranges of x and y, in words.
+/// Returns ranges of x and y, in words.
 pub fn extent(bounds: &Rect) -> String {
     let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(Number);
     format!("x from {x0} to {x1} and y from {y0} to {y1}")
 }
 
 impl Settings {
-    /// The setting that makes polygons the domain, or adds them to the polygons that it is given by. Paint
-    /// and all other settings stay.
+    /// Returns the setting that makes polygons the domain, or adds them to the polygons that it is given by.
+    /// Paint and all other settings stay.
     ///
     /// The bounds grow as far as the polygons need.
     ///
     /// # Errors
-    /// When the polygons are not a domain, lie outside the bounds, or need too large a coarse grid.
+    /// Fails when the polygons are not a domain, lie outside the bounds, or need too large a coarse grid.
     pub fn with_outline(&self, polygons: &[NamedPolygon]) -> Result<Setting, OutlineError> {
         let before = &self.domain;
         if before.formula().is_some() {

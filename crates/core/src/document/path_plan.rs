@@ -1,4 +1,4 @@
-//! Between which places paths are sought, and what they cost.
+//! The plan of paths: their waypoints and their cost.
 
 use std::sync::Arc;
 
@@ -13,9 +13,9 @@ use crate::path::{CostDensity, FormulaCost, PathError, Waypoint, WeightedCost, W
 pub struct PathPlan {
     /// The places of each path, in world units: the start, the places in between in order, and the goal.
     pub routes: Vec<Vec<DVec2>>,
-    /// What paths cost.
+    /// The cost of paths.
     pub cost: PathCost,
-    /// Where paths do not go.
+    /// The regions that paths do not enter.
     pub keep_out: Arc<[KeepOut]>,
 }
 
@@ -24,11 +24,11 @@ pub struct PathPlan {
 pub struct KeepOut {
     /// The name of its file, or of the layer whose mask it is, for a person.
     pub name: String,
-    /// What it covers.
+    /// The area of the region.
     pub mask: Mask,
 }
 
-/// What a path costs per unit of length.
+/// The cost of a path per unit of length.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathCost {
     /// λ + κ · risk.
@@ -44,10 +44,10 @@ impl Default for PathCost {
 }
 
 impl PathCost {
-    /// The cost density over a risk.
+    /// Returns the cost density over a risk.
     ///
     /// # Errors
-    /// When the weights make no cost.
+    /// Fails when the weights make no cost.
     pub fn density(&self, risk: RiskField) -> Result<Arc<dyn CostDensity>, PathError> {
         Ok(match self {
             Self::Weighted(weights) => Arc::new(WeightedCost::new(*weights, risk)?),
@@ -60,8 +60,8 @@ impl PathPlan {
     /// Checks the places and the weights.
     ///
     /// # Errors
-    /// For the first place that is not finite, a route of fewer than two places, and weights that make no
-    /// cost.
+    /// Fails for the first place that is not finite, a route of fewer than two places, and weights that make
+    /// no cost.
     pub fn check(&self) -> Result<(), PathError> {
         for route in &self.routes {
             if route.len() < 2 {
@@ -74,19 +74,19 @@ impl PathPlan {
         self.cost.density(RiskField::default()).map(|_| ())
     }
 
-    /// All places with the number of their route and their number there, from 0.
+    /// Returns all places with the number of their route and their number there, from 0.
     pub fn places(&self) -> impl Iterator<Item = ((usize, usize), DVec2)> + '_ {
         self.routes.iter().enumerate().flat_map(|(route, places)| {
             places.iter().enumerate().map(move |(place, &at)| ((route, place), at))
         })
     }
 
-    /// What the keep-out regions cover, each alone.
+    /// Returns the area of each keep-out region.
     pub fn keep_out_masks(&self) -> Vec<Mask> {
         self.keep_out.iter().map(|region| region.mask.clone()).collect()
     }
 
-    /// Bytes of memory on the heap, without the polygons of keep-out regions.
+    /// Returns the bytes of memory on the heap, without the polygons of keep-out regions.
     pub fn bytes(&self) -> usize {
         let routes: usize =
             self.routes.iter().map(|route| size_of_val(route) + size_of_val(&route[..])).sum();

@@ -1,38 +1,43 @@
-//! What the shown mesh waits for, as far as it makes questions about triangles cheaper.
+//! The changes that the shown mesh does not have yet, as far as knowing them makes tests of triangles
+//! cheaper.
 
 use std::sync::Arc;
 
-use crate::layers::{LayerId, PaintChange, SizeField};
+use crate::layers::{LayerId, PaintChange, SettledSquares, SizeField};
 use crate::mesh::TargetChange;
 
-/// What has changed since the shown mesh was in step.
+/// What has changed since the shown mesh was in step, and what the fields that decide about it have answered.
 #[derive(Clone, Debug, Default)]
-pub(super) enum Pending {
-    /// These layers ask for smaller diameters in places, and nothing else has changed.
-    Finer {
-        /// Without doubles.
-        layers: Vec<LayerId>,
-        /// [`SizeField::of_layers_alone`].
-        field: Arc<SizeField>,
-    },
-    /// Anything.
-    #[default]
-    Any,
+pub(super) struct Pending {
+    /// `Some` if nothing has changed but that these layers ask for smaller diameters in places. Without
+    /// doubles.
+    finer: Option<Vec<LayerId>>,
+    /// [`SizeField::of_layers_alone`] of the layers that asked for less the last time.
+    alone: Option<Alone>,
+    /// Of the field of all layers.
+    squares: Option<SettledSquares>,
+}
+
+/// A field of some layers of another one.
+#[derive(Clone, Debug)]
+struct Alone {
+    layers: Vec<LayerId>,
+    whole: Arc<SizeField>,
+    field: SizeField,
+    squares: Option<SettledSquares>,
 }
 
 impl Pending {
     /// Notes that paint has changed; `was_in_step` says whether the mesh was in step before.
-    pub(super) fn paint(&mut self, was_in_step: bool, changes: &[PaintChange], field: &SizeField) {
+    pub(super) fn paint(&mut self, was_in_step: bool, changes: &[PaintChange], field: &Arc<SizeField>) {
+        let areas = || changes.iter().map(|change| change.area);
+        self.squares.iter_mut().for_each(|squares| field.forget(squares, areas()));
+        if let Some(Alone { field, squares: Some(squares), .. }) = &mut self.alone {
+            field.forget(squares, areas());
+        }
         let is_finer = changes.iter().all(|change| change.change == TargetChange::Finer);
         let layers = is_finer.then(|| changes.iter().map(|change| change.layer).collect());
-        let known = match self {
-            Self::Finer { layers, field } if !was_in_step => Some((layers.len(), field.clone())),
-            _ => None,
-        };
-        self.finer(was_in_step, layers, |layers| match known {
-            Some((count, field)) if count == layers.len() => Some(field),
-            _ => field.of_layers_alone(layers).map(Arc::new),
-        });
+        self.finer(was_in_step, layers, field);
     }
 
     /// Notes that the mesh follows another field, in which only these layers ask for other diameters, all of
@@ -41,44 +46,49 @@ impl Pending {
         &mut self,
         was_in_step: bool,
         layers: Option<Vec<LayerId>>,
-        field: &SizeField,
+        field: &Arc<SizeField>,
     ) {
-        self.finer(was_in_step, layers, |layers| field.of_layers_alone(layers).map(Arc::new));
+        (self.alone, self.squares) = (None, None);
+        self.finer(was_in_step, layers, field);
     }
 
-    /// Notes that something besides the size field has changed.
+    /// Notes that something besides paint has changed.
     pub(super) fn anything(&mut self) {
-        *self = Self::Any;
+        *self = Self::default();
     }
 
-    fn finer(
-        &mut self,
-        was_in_step: bool,
-        more: Option<Vec<LayerId>>,
-        field: impl FnOnce(&[LayerId]) -> Option<Arc<SizeField>>,
-    ) {
-        let earlier = match std::mem::take(self) {
-            _ if was_in_step => Some(Vec::new()),
-            Self::Finer { layers, .. } => Some(layers),
-            Self::Any => None,
-        };
+    fn finer(&mut self, was_in_step: bool, more: Option<Vec<LayerId>>, whole: &Arc<SizeField>) {
+        let earlier = if was_in_step { Some(Vec::new()) } else { self.finer.take() };
+        self.finer = None;
         let (Some(mut layers), Some(more)) = (earlier, more) else { return };
         for layer in more {
             if !layers.contains(&layer) {
                 layers.push(layer);
             }
         }
-        if let Some(field) = field(&layers) {
-            *self = Self::Finer { layers, field };
+        let is_known = |alone: &Alone| alone.layers == layers && Arc::ptr_eq(&alone.whole, whole);
+        if !self.alone.as_ref().is_some_and(is_known) {
+            let field = whole.of_layers_alone(&layers);
+            let (whole, layers) = (whole.clone(), layers.clone());
+            self.alone = field.map(|field| Alone { layers, whole, field, squares: None });
         }
+        self.finer = self.alone.is_some().then_some(layers);
     }
 
-    /// The field that says which triangles of the shown mesh exceed their targets; `whole` is the field of
-    /// all layers.
-    pub(super) fn field<'a>(&'a self, whole: &'a SizeField) -> &'a SizeField {
-        match self {
-            Self::Finer { field, .. } => field,
-            Self::Any => whole,
+    /// Returns what the field of all layers has answered.
+    pub(super) fn squares(&mut self) -> &mut SettledSquares {
+        self.squares.get_or_insert_default()
+    }
+
+    /// Returns the field that says which triangles of the shown mesh exceed their targets, and what it has
+    /// answered; `whole` is the field of all layers.
+    pub(super) fn field<'a>(
+        &'a mut self,
+        whole: &'a SizeField,
+    ) -> (&'a SizeField, &'a mut Option<SettledSquares>) {
+        match (&self.finer, &mut self.alone) {
+            (Some(_), Some(Alone { field, squares, .. })) => (field, squares),
+            _ => (whole, &mut self.squares),
         }
     }
 }

@@ -2,7 +2,7 @@ use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::field::RefinementRule;
 use crate::geometry::{LatticeRect, Rect};
-use crate::layers::{LayerId, PaintChange, PaintLayers, SizeField};
+use crate::layers::{LayerId, PaintChange, PaintLayers, SettledSquares, SizeField};
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Preview, Repaint, StrokePlan};
 
@@ -40,7 +40,7 @@ enum Work {
     Known(Price),
 }
 
-/// What a stroke would do to the number of triangles.
+/// The effect of a stroke on the number of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Price {
     /// The number of new triangles; below zero where triangles are removed. It is zero where as many are
@@ -60,11 +60,11 @@ pub enum Price {
 /// Why a stroke changes no triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoChange {
-    /// It does not reach the domain's rectangle.
+    /// The stroke does not reach the domain's rectangle.
     OutsideField,
     /// The pixels are already painted so; for the eraser: nothing is painted there.
     PaintedAlready,
-    /// Its target diameter is not below that of the coarse grid.
+    /// The target diameter of the stroke is not below the diameter of the coarse grid.
     CoarserThanGrid,
     /// Another layer decides h̄ where the stroke ends.
     LayerDecides(LayerId),
@@ -73,7 +73,7 @@ pub enum NoChange {
 }
 
 impl Price {
-    /// By how many triangles the mesh grows, as far as that is known.
+    /// Returns the number of triangles by which the mesh grows, as far as it is known.
     pub fn change(self) -> i64 {
         match self {
             Self::Change(change) | Self::MoreThan(change) => change,
@@ -104,7 +104,7 @@ impl Pricer {
         self.work = question.map_or(Work::Idle, |question| begin(question, document));
     }
 
-    /// The price of the stroke, once known.
+    /// Returns the price of the stroke, once known.
     pub fn price(&self) -> Option<Price> {
         if let Work::Known(price) = self.work { Some(price) } else { None }
     }
@@ -172,7 +172,7 @@ fn paint_more(
         .iter()
         .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
         .collect();
-    let affected = field.changes_by_paint(&painted, &paint);
+    let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
     match affected.into_iter().map(|area| area.rect).reduce(|a, b| union(&a, &b)) {
         None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
             Work::Known(Price::Nothing(NoChange::OutsideField))
@@ -186,7 +186,7 @@ fn paint_more(
     }
 }
 
-/// Whether a rectangle in world units has a point of the lattice of a field.
+/// Returns whether a rectangle in world units has a point of the lattice of a field.
 fn meets(area: &Rect, field: &SizeField) -> bool {
     area.intersection(&field.lattice().bounds()).is_some()
 }
@@ -227,7 +227,7 @@ fn count_more(
     })
 }
 
-/// Why a stroke that changes pixels changes no triangle, judged where it ends.
+/// Returns why a stroke that changes pixels changes no triangle, judged where it ends.
 fn why_nothing(question: Question, paint: &PaintLayers, follower: &Follower) -> NoChange {
     let decision = follower.field().decision_at(paint, question.plan.to);
     if decision.target >= follower.mesh().diameter(0) {

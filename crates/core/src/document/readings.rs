@@ -17,7 +17,8 @@ pub struct Readings {
 }
 
 impl Readings {
-    /// What decides h̄ at a point in world units, by [`SizeField::quick_decision_at`].
+    /// Returns h̄ at a point in world units and the layer that decides it, by
+    /// [`SizeField::quick_decision_at`].
     pub fn decision_at(&mut self, document: &Document, follower: &Follower, point: DVec2) -> Decision {
         let now = (follower.shared_field(), document.revision());
         let is_same = self.of.as_ref().is_some_and(|of| Arc::ptr_eq(&of.0, &now.0) && of.1 == now.1);

@@ -13,7 +13,8 @@ pub(super) struct Rebuild {
     /// The settings of the document when it began.
     settings: Settings,
     builder: MeshBuilder,
-    /// Where the paint changed since it began: the mesh is updated there once it is shown.
+    /// The areas in which the paint changed since the rebuild began: the mesh is updated there once it is
+    /// shown.
     repainted: Vec<PaintChange>,
 }
 
@@ -22,8 +23,8 @@ pub(super) struct Rebuild {
 const MOST_OUTDATED: usize = 500_000;
 
 impl Rebuild {
-    /// Work for the given settings, described by `spec`, and the present paint. The parts are those that an
-    /// earlier mesh has already.
+    /// Creates the work for the given settings, described by `spec`, and the present paint. The parts are
+    /// those that an earlier mesh has already.
     pub(super) fn new(settings: &Settings, spec: MeshSpec, parts: Parts) -> Self {
         let builder = MeshBuilder::from_parts(spec, parts);
         Self { settings: settings.clone(), builder, repainted: Vec::new() }
@@ -39,13 +40,15 @@ impl Rebuild {
         self.settings == *settings
     }
 
-    /// Whether an error of this work is one of the document as it is: nothing has changed since it began.
+    /// Returns whether an error of this work is one of the document as it is: nothing has changed since it
+    /// began.
     pub(super) fn is_up_to_date(&self, wanted: &Settings) -> bool {
         self.is_for(wanted) && self.repainted.is_empty()
     }
 
-    /// Whether to finish and show the mesh although the document has other settings by now. Then the mesh
-    /// keeps moving while a slider or a handle is dragged; a restart at each move would never get to the end.
+    /// Returns whether to finish and show the mesh although the document has other settings by now. Then the
+    /// mesh keeps moving while a slider or a handle is dragged; a restart at each move would never get to the
+    /// end.
     ///
     /// Not so where the result would be of no interest, as for another domain, or would take too long.
     pub(super) fn is_worth_finishing(&self, document: &Document, shown_triangles: usize) -> bool {
@@ -54,7 +57,7 @@ impl Rebuild {
             && self.builder.triangles() <= 2 * shown_triangles + MOST_OUTDATED
     }
 
-    /// One slice of work: about `budget` edges, pixels or triangles.
+    /// Returns one slice of work: about `budget` edges, pixels or triangles.
     pub(super) fn advance(&mut self, document: &Document, budget: usize) -> Result<Progress, BuildError> {
         self.builder.advance(Some(document.paint()), budget)
     }

@@ -1,4 +1,4 @@
-//! What was done to a document since it was opened, as data with which it can be done again.
+//! The edits of a document since it was opened, as data from which they can be repeated.
 
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ pub struct RecordedStroke {
 pub struct RecordedEdit {
     /// The name in the history, for display only.
     pub title: &'static str,
-    /// What was done.
+    /// The edit.
     pub edit: Edit,
 }
 
@@ -95,28 +95,28 @@ impl Recording {
         Self { settings, paint, edits: Vec::new(), bytes: 0, last_bytes: 0, is_full: false }
     }
 
-    /// The settings before the first edit, without the background picture.
+    /// Returns the settings before the first edit, without the background picture.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The paint before the first edit.
+    /// Returns the paint before the first edit.
     pub fn paint(&self) -> &PaintLayers {
         &self.paint
     }
 
-    /// The edits, the first one first. There are none if the recording is full.
+    /// Returns the edits, the first one first. There are none if the recording is full.
     pub fn edits(&self) -> &[RecordedEdit] {
         &self.edits
     }
 
-    /// Memory of the edits, about.
+    /// Returns the memory of the edits, about.
     #[cfg(test)]
     pub(super) fn bytes(&self) -> usize {
         self.bytes
     }
 
-    /// Whether there were more edits than [`Self::MAX_BYTES`] can hold.
+    /// Returns whether there were more edits than [`Self::MAX_BYTES`] can hold.
     pub fn is_full(&self) -> bool {
         self.is_full
     }
@@ -150,7 +150,7 @@ impl Recording {
         }
     }
 
-    /// Memory that settings need beside the last ones that were recorded.
+    /// Returns the memory that settings need beside the last ones that were recorded.
     fn new_bytes(&self, settings: &Settings) -> usize {
         let last = self.edits.iter().rev().find_map(|edit| match &edit.edit {
             Edit::Settings(settings) => Some(&**settings),
@@ -179,7 +179,7 @@ impl Document {
         self.recording = Some(Recording::new(self.settings.clone(), self.paint.clone()));
     }
 
-    /// The edits since [`Self::record`].
+    /// Returns the edits since [`Self::record`].
     pub fn recording(&self) -> Option<&Recording> {
         self.recording.as_ref()
     }
@@ -187,7 +187,7 @@ impl Document {
     /// Does a recorded edit again.
     ///
     /// # Errors
-    /// When it is not possible in this document, which then stays as it was.
+    /// Fails when it is not possible in this document, which then stays as it was.
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
         match edit {
             Edit::Stroke(stroke) => self.repeat_stroke(stroke)?,

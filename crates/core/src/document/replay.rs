@@ -28,7 +28,7 @@ impl Replay {
     /// Begins with a document and its mesh.
     ///
     /// # Errors
-    /// A sentence for a person, when the settings are out of range or there is no mesh.
+    /// Fails with a sentence for a person when the settings are out of range or there is no mesh.
     pub fn new(settings: Settings, paint: PaintLayers) -> Result<Self, String> {
         let document = Document::new(settings, Some(paint)).map_err(|error| error.to_string())?;
         Self::of_document(document)
@@ -39,7 +39,7 @@ impl Replay {
         Ok(Self { document, follower })
     }
 
-    /// The document as it is.
+    /// Returns the document as it is.
     pub fn document(&self) -> &Document {
         &self.document
     }
@@ -47,7 +47,7 @@ impl Replay {
     /// Does an edit. [`Self::advance`] makes the mesh.
     ///
     /// # Errors
-    /// When it is not possible.
+    /// Fails when it is not possible.
     pub fn apply(&mut self, edit: &Edit) -> Result<(), EditError> {
         self.document.apply(edit)
     }

@@ -53,7 +53,7 @@ pub enum Setting {
     BoundaryMarks(BoundaryMarks),
     /// Points whose triangles and values are followed, in world units.
     Pins(Arc<Vec<DVec2>>),
-    /// Between which places paths are sought, and what they cost.
+    /// The waypoints and the cost of paths.
     Paths(Arc<PathPlan>),
     /// The unit of coordinates and lengths.
     LengthUnit(LengthUnit),
@@ -71,7 +71,7 @@ impl Setting {
         SettingKind(std::mem::discriminant(self))
     }
 
-    /// The name of the change in the history, for display only. `before` are the settings without it.
+    /// Returns the name of the change in the history, for display only. `before` are the settings without it.
     pub fn title(&self, before: &Settings) -> &'static str {
         match self {
             Self::Spacing(_) => "coarse spacing",

@@ -9,14 +9,14 @@ use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
 use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
-use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit};
+use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
 
 /// Everything about a document that is not paint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// What the document is called.
+    /// The name of the document.
     pub name: String,
     /// The unit of coordinates and lengths. It does not change the mesh.
     pub unit: LengthUnit,
@@ -32,13 +32,13 @@ pub struct Settings {
     pub boundary_marks: Arc<BoundaryMarks>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
-    /// Between which places paths are sought, and what they cost. They do not change the mesh.
+    /// The waypoints and the cost of paths. They do not change the mesh.
     pub paths: Arc<PathPlan>,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
-    /// From risk to diameter; its ends bound h̄ everywhere.
+    /// The curve from risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
-    /// What asks for h̄, from the bottom to the top; their identifiers differ.
+    /// The layers that decide h̄, from the bottom to the top; their identifiers differ.
     pub layers: Vec<Layer>,
     /// Largest change of h̄ per unit of length, or `None` for any.
     pub gradation: Option<f64>,
@@ -98,9 +98,9 @@ pub enum SettingsError {
     PaintedOther {
         /// The name of the layer.
         layer: String,
-        /// What its pixels are.
+        /// The quantity of the layer's pixels.
         is: &'static str,
-        /// What they would be read as.
+        /// The quantity that they would be read as.
         read_as: &'static str,
     },
     /// The rasters of all layers are too large together.
@@ -116,7 +116,7 @@ pub enum SettingsError {
     /// The memory budget is too small for any mesh.
     #[error("A memory budget of {} cannot be kept: choose {} at least.", Bytes(*bytes), Bytes(LEAST_MEMORY))]
     Memory {
-        /// As given.
+        /// The number of bytes as given.
         bytes: usize,
     },
 }
@@ -135,7 +135,7 @@ impl Settings {
     /// Checks every number, and returns the settings when all can be met.
     ///
     /// # Errors
-    /// For the first number that cannot be met. A formula is not evaluated here: a value that is not a
+    /// Fails for the first number that cannot be met. A formula is not evaluated here: a value that is not a
     /// positive length is found when the field is sampled.
     pub fn checked(self) -> Result<Self, SettingsError> {
         self.lattice()?;
@@ -191,7 +191,7 @@ impl Settings {
         if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
     }
 
-    /// The pixels of the rasters of all layers. A raster that two layers read counts once.
+    /// Returns the pixels of the rasters of all layers. A raster that two layers read counts once.
     fn raster_pixels(&self) -> u64 {
         let rasters = self.layers.iter().filter_map(|layer| layer.kind.raster_source());
         let sizes: BTreeMap<usize, u64> = rasters
@@ -200,10 +200,10 @@ impl Settings {
         sizes.values().sum()
     }
 
-    /// The coarse grid and its lattice.
+    /// Returns the coarse grid and its lattice.
     ///
     /// # Errors
-    /// When the grid is impossible or too fine.
+    /// Fails when the grid is impossible or too fine.
     pub fn lattice(&self) -> Result<Lattice, GridError> {
         Lattice::covering(self.domain.bounds, self.spacing, MAX_COARSE_TRIANGLES)
     }
@@ -211,7 +211,7 @@ impl Settings {
     /// The gradation of meshes for most solvers: neighbouring triangles differ little in size.
     pub const USUAL_GRADATION: f64 = 0.3;
 
-    /// What the field is made from, but for the paint.
+    /// Returns the description of the size field, without the paint.
     pub fn field_spec(&self) -> SizeFieldSpec {
         let Self { layers, transfer, gradation, .. } = self;
         SizeFieldSpec {
@@ -223,28 +223,34 @@ impl Settings {
         }
     }
 
-    /// The boundary of the domain, if a layer asks for the distance to it.
+    /// Returns the boundary of the domain, if a layer asks for the distance to it.
     fn outline_shapes(&self) -> Option<Shapes> {
         let is_asked = self.layers.iter().any(|layer| layer.visible && layer.is_of_outline());
         let region = if is_asked { self.domain.as_region()? } else { return None };
         Shapes::outline(&region).ok()
     }
 
-    /// What to mesh, but for the paint.
+    /// Returns the description of the mesh, without the paint.
     ///
     /// # Errors
-    /// As [`Self::lattice`].
+    /// Fails as [`Self::lattice`] does.
     pub fn mesh_spec(&self) -> Result<MeshSpec, GridError> {
         Ok(self.mesh_spec_on(self.lattice()?, self.limits()))
     }
 
-    /// What to mesh on the lattice of a coarse grid, where the mesh may cost other than in a window.
+    /// Returns the description of the mesh on the lattice of a coarse grid, with limits that may differ from
+    /// those of the window.
     pub fn mesh_spec_on(&self, lattice: Lattice, limits: Limits) -> MeshSpec {
+        let mut field = self.field_spec();
+        // Without an upper limit, h̄ is the diameter of a coarse triangle where no layer asks for anything.
+        if self.transfer.h_max == f64::MAX {
+            field.unasked = bisection_edge_length(lattice.spacing(), 0);
+        }
         MeshSpec {
             domain: self.domain.clone(),
             boundary: self.boundary,
             lattice,
-            field: self.field_spec(),
+            field,
             rule: self.rule,
             cleaning: self.derived_cleaning(),
             limits,
@@ -257,7 +263,7 @@ impl Settings {
         if is_fitted { self.cleaning } else { Cleaning::NONE }
     }
 
-    /// What the mesh may cost.
+    /// Returns the limits of the size of the mesh.
     pub fn limits(&self) -> Limits {
         let max_memory = Some(MemoryLimit::for_two_meshes(self.max_memory));
         Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
@@ -271,7 +277,7 @@ impl Settings {
     /// [`Self::MAX_TRIANGLES`].
     pub const MAX_MEMORY: usize = 2_600_000_000;
 
-    /// The usual settings for a domain: lengths in proportion to its longer side.
+    /// Returns the usual settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
         let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
         let Transfer { h_min, h_max, shape } = usual.transfer;
@@ -289,7 +295,7 @@ impl Settings {
 }
 
 impl Default for Settings {
-    /// The unit square, 24 coarse cells a side, nothing refined but what is painted.
+    /// Returns the unit square, 24 coarse cells a side, nothing refined but what is painted.
     fn default() -> Self {
         Self {
             name: "Untitled".into(),

@@ -16,7 +16,7 @@ use crate::mesh::{ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, U
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
 pub(super) struct Shown {
-    /// What field and mesh were made from.
+    /// The settings from which field and mesh were made.
     pub(super) settings: Settings,
     pub(super) domain: DomainOnLattice,
     /// Shared with a rebuild that reuses it, and not changed meanwhile.
@@ -24,12 +24,12 @@ pub(super) struct Shown {
     pub(super) mesh: Arc<Mesh>,
     /// Updates of the mesh; idle under the vertex rule.
     updater: Updater,
-    /// What the updates are for.
+    /// The changes that the updates apply.
     pending: Pending,
     upkeep: Upkeep,
 }
 
-/// What brings the shown mesh up to date.
+/// The work that brings the shown mesh up to date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Upkeep {
     /// Updates in place.
@@ -39,14 +39,14 @@ enum Upkeep {
     NewMesh,
 }
 
-/// From this many triangles on a mesh is made again on all cores rather than updated for the most part, which
-/// one core does. Before, both take a few frames, and an update keeps the numbers of triangles.
+/// Number of triangles from which a mesh is made again on all cores, rather than updated for the most part on
+/// one core. For smaller meshes both take a few frames, and an update keeps the numbers of triangles.
 const LARGE: usize = 250_000;
 
 /// Triangles that are looked up to estimate a share of them.
 const SAMPLE: usize = 4096;
 
-/// Whether some areas concern more than half of the triangles of a mesh, by a sample at equal steps.
+/// Returns whether some areas concern more than half of the triangles of a mesh, by a sample at equal steps.
 fn hold_most(areas: &[ChangedArea], mesh: &Mesh) -> bool {
     let triangles = mesh.raw_triangles();
     let sampled = triangles.iter().step_by(triangles.len().div_ceil(SAMPLE).max(1));
@@ -61,7 +61,7 @@ fn hold_most(areas: &[ChangedArea], mesh: &Mesh) -> bool {
 }
 
 impl Shown {
-    /// A mesh that was just built. `repainted` was painted meanwhile.
+    /// Creates a mesh that was just built. `repainted` was painted meanwhile.
     pub(super) fn new(
         settings: Settings,
         built: BuiltMesh,
@@ -84,7 +84,7 @@ impl Shown {
         match self.settings.rule {
             RefinementRule::Area => {
                 self.pending.paint(self.updater.is_done(), changes, &self.field);
-                let areas = self.field.changes_by_paint(changes, paint);
+                let areas = self.field.changes_by_paint(self.pending.squares(), changes, paint);
                 areas.into_iter().for_each(|area| self.updater.add_area(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
@@ -104,12 +104,13 @@ impl Shown {
         }
     }
 
-    /// Whether the mesh waits for updates in place.
+    /// Returns whether the mesh waits for updates in place.
     pub(super) fn has_updates(&self) -> bool {
         self.upkeep == Upkeep::InPlace && !self.updater.is_done()
     }
 
-    /// What brings the shown mesh in step with a document, besides the updates that it still needs.
+    /// Returns the work that brings the shown mesh up to date with a document, besides the updates that it
+    /// still needs.
     ///
     /// A mesh beyond the wanted budgets is made again: only that finds out whether they can be kept.
     pub(super) fn change_to(&self, document: &Document) -> Change {
@@ -135,7 +136,7 @@ impl Shown {
         }
     }
 
-    /// The work that follows an edit in place.
+    /// Returns the work that follows an edit in place.
     pub(super) fn follow(&self, wanted: &Settings, outline: bool, field: bool) -> Following {
         Following::new(&self.settings, wanted, self.mesh.lattice(), outline, field)
     }
@@ -181,7 +182,8 @@ impl Shown {
         self.settings = settings;
     }
 
-    /// The work on another mesh, which reuses what the shown one has already, and the memory of `spare`.
+    /// Returns the work on another mesh, which reuses what the shown one has already, and the memory of
+    /// `spare`.
     pub(super) fn rebuild(&self, wanted: &Settings, spare: Option<Mesh>) -> Result<Rebuild, BuildError> {
         let spec = wanted.mesh_spec()?;
         let same_lattice = spec.lattice == *self.mesh.lattice();
@@ -204,11 +206,15 @@ impl Shown {
         }
         let Self { domain, field, mesh, updater, pending, .. } = self;
         let mesh = Arc::get_mut(mesh).expect("it is not shared, see above");
-        let mut criterion = RefinementCriterion::by_area(domain, pending.field(field), paint);
-        updater.advance(mesh, |element| criterion.exceeds(element), budget).map(|_| ())
+        let (field, squares) = pending.field(field);
+        let criterion = RefinementCriterion::by_area(domain, field, paint);
+        let mut criterion = criterion.with_squares(squares.take());
+        let result = updater.advance(mesh, |element| criterion.exceeds(element), budget);
+        *squares = criterion.into_squares();
+        result.map(|_| ())
     }
 
-    /// What the updates changed since this was last asked, `None` if nothing.
+    /// Returns the changes by updates since the last call, or `None` if there are none.
     pub(super) fn take_changes(&mut self) -> Option<Changes> {
         let changes = self.updater.take_changes()?;
         let mesh = Arc::get_mut(&mut self.mesh).expect("it was not shared when it was changed");

@@ -1,9 +1,9 @@
 use crate::build::BuildError;
 
-/// What a [`Follower`](super::Follower) is doing to bring the mesh in step with its document.
+/// The work of a [`Follower`](super::Follower) that brings the mesh up to date with its document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stage {
-    /// Nothing: field and mesh are those of the document.
+    /// No work: field and mesh are those of the document.
     InStep,
     /// The outline of the domain is indexed on the lattice.
     Indexing,
@@ -19,13 +19,13 @@ pub enum Stage {
         /// Triangles so far.
         triangles: usize,
     },
-    /// Nothing, until the document changes: the mesh is not that of the document. The reason, or `None` where
-    /// the work was cancelled.
+    /// No work until the document changes, although the mesh is not up to date. The error, or `None` if the
+    /// work was cancelled.
     GaveUp(Option<BuildError>),
 }
 
 impl Stage {
-    /// Whether nothing is left to do before the document changes: in step, or given up.
+    /// Returns whether nothing is left to do before the document changes: in step, or given up.
     pub fn is_settled(&self) -> bool {
         matches!(self, Self::InStep | Self::GaveUp(_))
     }

@@ -13,14 +13,14 @@ use crate::paint::{Brush, Medium, Mirror, PathPoint, Stroke};
 pub(super) struct LayerStroke {
     layer: LayerId,
     stroke: Stroke,
-    /// Its path and brush, if it is recorded.
+    /// The path and the brush of the stroke, if it is recorded.
     recorded: Option<RecordedStroke>,
     /// Whether the layer had no pixels before.
     is_first: bool,
 }
 
 impl Document {
-    /// The current stroke, from [`Self::begin_stroke`] until it ends.
+    /// Returns the current stroke, from [`Self::begin_stroke`] until it ends.
     pub fn stroke(&self) -> Option<&Stroke> {
         self.stroke.as_ref().map(|current| &current.stroke)
     }
@@ -81,7 +81,7 @@ impl Document {
         progress
     }
 
-    /// Whether the current stroke is drawn to its last point; true without a stroke.
+    /// Returns whether the current stroke is drawn to its last point; true without a stroke.
     pub fn is_stroke_drawn(&self) -> bool {
         self.stroke().is_none_or(Stroke::is_drawn)
     }

@@ -13,7 +13,7 @@ use crate::mesh::Progress;
 /// Compares two regions in the same frame by their edges.
 ///
 /// An edge that both regions have, in the same direction, has both of them on its left. So a part that
-/// belongs to one region only is enclosed by edges of which the other has no equal, and these edges touch
+/// belongs to one region only is enclosed by edges that the other region does not have, and these edges touch
 /// each other.
 ///
 /// An edit keeps most edges in their order. So equal edges at the beginning are skipped, and equal edges at
@@ -207,7 +207,7 @@ impl Areas {
     }
 }
 
-/// Whether two closed rectangles intersect.
+/// Returns whether two closed rectangles intersect.
 fn touch(a: &Rect, b: &Rect) -> bool {
     a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }

@@ -22,7 +22,7 @@ const MOST_PAIRS: usize = 100_000_000;
 /// Refuses polygons that are too complex to overlay.
 ///
 /// # Errors
-/// The limit that they exceed.
+/// Fails with the limit that they exceed.
 pub(super) fn check_complexity(polygons: &[Polygon], bounds: &Rect) -> Result<(), RegionError> {
     let corners = polygons.iter().flatten().map(Vec::len).sum();
     if corners > MOST_CORNERS {
@@ -56,7 +56,7 @@ pub(super) fn check_complexity(polygons: &[Polygon], bounds: &Rect) -> Result<()
     Ok(())
 }
 
-/// Columns and rows of squares over the unit square.
+/// Returns the columns and rows of squares over the unit square.
 fn squares_for(edges: &[[DVec2; 2]]) -> [f64; 2] {
     let length: DVec2 = edges.iter().map(|[from, to]| (*to - *from).abs()).sum();
     let count = edges.len() as f64;
@@ -101,8 +101,8 @@ fn sorted_into_squares(edges: &[[DVec2; 2]], [columns, rows]: [f64; 2]) -> Vec<(
     entries
 }
 
-/// Whether two edges cross at an inner point of both, up to rounding: this is an estimate and decides no
-/// geometry.
+/// Returns whether two edges cross at an inner point of both, up to rounding: this is an estimate and decides
+/// no geometry.
 fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     let turn = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
     turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0

@@ -39,8 +39,8 @@ impl CutShape {
         }
     }
 
-    /// Rings whose union is the shape. Those of a stroke run anticlockwise; a [`Self::Ring`] keeps its
-    /// direction.
+    /// Returns rings whose union is the shape. The rings of a stroke run anticlockwise; a [`Self::Ring`]
+    /// keeps its direction.
     pub fn rings(&self) -> Vec<Ring> {
         match self {
             Self::Ring(ring) => vec![ring.clone()],
@@ -52,7 +52,7 @@ impl CutShape {
     }
 }
 
-/// The points within `radius` of a segment, anticlockwise.
+/// Returns the points within `radius` of a segment, anticlockwise.
 fn capsule(from: DVec2, to: DVec2, radius: f64) -> Ring {
     let along = (to - from).normalize_or(DVec2::X);
     let half = DISC_CORNERS / 2;
@@ -65,8 +65,8 @@ fn capsule(from: DVec2, to: DVec2, radius: f64) -> Ring {
 }
 
 impl Domain {
-    /// The domain with a shape added or removed, within its bounds; `None` for a domain given by a formula,
-    /// which has no outline to edit.
+    /// Returns the domain with a shape added or removed, within its bounds; `None` for a domain given by a
+    /// formula, which has no outline to edit.
     pub fn reshaped(&self, cut_shape: &CutShape, adds: bool) -> Option<Self> {
         let (region, rings) = (self.as_region()?, cut_shape.rings());
         let region = if adds { region.with(&rings) } else { region.without(&rings) };

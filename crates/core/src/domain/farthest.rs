@@ -17,8 +17,8 @@ struct Measured {
     distance: f64,
 }
 
-/// The largest distance of the points of `edges` from `others`, and a point that has it. The distance is at
-/// least the true maximum and exceeds it by a share of 1e-9 at most, apart from rounding errors. `None`
+/// Returns the largest distance of the points of `edges` from `others`, and a point that has it. The distance
+/// is at least the true maximum and exceeds it by a share of 1e-9 at most, apart from rounding errors. `None`
 /// without edges.
 ///
 /// The distance from one segment is a convex function of the place, so that between two points it is at most
@@ -44,7 +44,7 @@ pub(super) fn farthest(edges: &[[DVec2; 2]], others: &Segments) -> Option<(f64, 
     let best = parts.iter().flatten().copied().reduce(|a, b| if b.distance > a.distance { b } else { a })?;
     let coordinates = edges.iter().flatten().map(|p| p.abs().max_element());
     let largest = coordinates.fold(others.largest_coordinate(), f64::max);
-    let mut search = Search { others, best, upper: best.distance, rounding: ROUNDING * largest };
+    let mut search = FarthestSearch { others, best, upper: best.distance, rounding: ROUNDING * largest };
     parts.iter().for_each(|&part| search.search(part));
     let is_rounding = search.upper <= search.rounding;
     Some((if is_rounding { search.best.distance } else { search.upper }, search.best.point))
@@ -56,7 +56,7 @@ fn measure(point: DVec2, others: &Segments) -> Measured {
 }
 
 /// A search by branch and bound.
-struct Search<'a> {
+struct FarthestSearch<'a> {
     others: &'a Segments,
     /// The farthest point found so far.
     best: Measured,
@@ -66,10 +66,10 @@ struct Search<'a> {
     rounding: f64,
 }
 
-impl Search<'_> {
-    /// Searches a part of an edge. It ends: a part that is not done has ends whose distances from the two
-    /// nearest segments differ by more than the tolerance, so that the place that divides it is at least half
-    /// the tolerance away from both; and shorter parts are done.
+impl FarthestSearch<'_> {
+    /// Searches a part of an edge. The recursion ends: if a part is not done, the distances of its ends from
+    /// the two nearest segments differ by more than the tolerance, so the point that divides it is at least
+    /// half the tolerance away from both ends; and parts shorter than that are done.
     fn search(&mut self, part: [Measured; 2]) {
         let mut parts = vec![part];
         while let Some([a, b]) = parts.pop() {
@@ -92,13 +92,13 @@ impl Search<'_> {
     fn bound(&self, [a, b]: [Measured; 2]) -> f64 {
         let by_nearest_to_a = a.distance.max(self.others.distance(a.nearest, b.point));
         let by_nearest_to_b = b.distance.max(self.others.distance(b.nearest, a.point));
-        // A distance changes by no more than the way.
+        // A distance changes by no more than the distance between the points.
         let by_length = 0.5 * (a.distance + b.distance + a.point.distance(b.point));
         by_nearest_to_a.min(by_nearest_to_b).min(by_length)
     }
 
-    /// A place between two points that is as far from the segment nearest to one as from that nearest to the
-    /// other.
+    /// Returns a place between two points that is as far from the segment nearest to one as from that nearest
+    /// to the other.
     fn equidistant(&self, [a, b]: [Measured; 2]) -> DVec2 {
         let nearer_to_a = |share: f64| {
             let p = a.point.lerp(b.point, share);
@@ -131,7 +131,7 @@ mod tests {
 
     #[test]
     fn the_farthest_point_may_be_between_corners() {
-        // Below a roof: the point under its gap is farthest, at neither an end nor the middle.
+        // A line below a roof: the point under the roof's gap is farthest, at neither an end nor the middle.
         let floor = edges(&[dvec2(0.0, 0.0), dvec2(10.0, 0.0)]);
         let posts = [0.0, 6.0, 10.0].map(|x| [dvec2(x, 0.0), dvec2(x, 1.0)]);
         let (distance, place) = farthest_of(&floor, &posts);

@@ -30,7 +30,7 @@ pub enum BoundaryTreatment {
 }
 
 impl BoundaryTreatment {
-    /// The same treatment at another diameter, in world units, where it has one.
+    /// Returns this treatment with another diameter, in world units; unchanged if it has none.
     pub fn with_diameter(self, diameter: f64) -> Self {
         match self {
             Self::Report => Self::Report,
@@ -39,8 +39,8 @@ impl BoundaryTreatment {
         }
     }
 
-    /// Largest diameter of a triangle that the boundary passes through, in world units; `None` where the
-    /// mesh is not refined along it.
+    /// Returns the largest diameter of a triangle that the boundary passes through, in world units; `None`
+    /// where the mesh is not refined along it.
     pub fn diameter(&self) -> Option<f64> {
         match *self {
             Self::Report => None,
@@ -48,12 +48,12 @@ impl BoundaryTreatment {
         }
     }
 
-    /// Nodes on the outline, and a diameter that is quick and shows the shape.
+    /// Returns the nodes on the outline, and a diameter that is quick and shows the shape.
     pub fn usual(spacing: f64) -> Self {
         Self::OnOutline { diameter: Self::usual_diameter(spacing) }
     }
 
-    /// The diameter of level 7: an eighth of the spacing δ̄. Both are in world units.
+    /// Returns the diameter of level 7: an eighth of the spacing δ̄. Both are in world units.
     pub fn usual_diameter(spacing: f64) -> f64 {
         bisection_edge_length(spacing, 7)
     }
@@ -69,7 +69,7 @@ pub struct DomainOnLatticeBuilder {
 }
 
 impl DomainOnLatticeBuilder {
-    /// The work for a domain on a lattice that covers its bounds.
+    /// Returns the work for a domain on a lattice that covers its bounds.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
         let formula = domain.formula().cloned();
         let indexed = DomainOnLattice {
@@ -89,15 +89,15 @@ impl DomainOnLatticeBuilder {
         self.region.as_mut().map_or(Progress::Done, |region| region.advance(budget))
     }
 
-    /// The domain. Work that is left is done in one go.
+    /// Returns the domain. Work that is left is done in one go.
     pub fn finish(self) -> DomainOnLattice {
         let region = self.region.map(|region| Arc::new(region.finish()));
         DomainOnLattice { region, ..self.indexed }.with_boundary(self.boundary)
     }
 }
 
-/// A domain on the lattice of a mesh: what the coarse grid, the refinement criterion and
-/// [`Mesh::classify`](crate::mesh::Mesh::classify) ask.
+/// A domain on the lattice of a mesh, for the coarse grid, the refinement criterion and
+/// [`Mesh::classify`](crate::mesh::Mesh::classify).
 #[derive(Clone, Debug)]
 pub struct DomainOnLattice {
     bounds: Rect,
@@ -118,7 +118,7 @@ impl DomainOnLattice {
         DomainOnLatticeBuilder::new(domain, boundary, lattice).finish()
     }
 
-    /// The same domain on the same lattice, with another treatment of its boundary.
+    /// Returns this domain on this lattice, with another treatment of its boundary.
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
         let level = |diameter| level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX);
         let fitted = boundary.diameter().filter(|_| self.region.is_some()).map(level);
@@ -126,13 +126,13 @@ impl DomainOnLattice {
         Self { fitted, on_outline, ..self.clone() }
     }
 
-    /// The lattice that the domain is indexed on.
+    /// Returns the lattice that the domain is indexed on.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// Whether no point of an element belongs to the domain itself, whatever the boundary treatment. Of the
-    /// domain of a formula, this is known where interval arithmetic shows it.
+    /// Returns whether no point of an element belongs to the domain itself, whatever the boundary treatment.
+    /// Of the domain of a formula, this is known where interval arithmetic shows it.
     pub fn has_none_of(&self, element: &Element) -> bool {
         match (&self.region, &self.formula) {
             (Some(region), _) => region.lies_outside(element.corners, element.triangle.level()),
@@ -144,7 +144,7 @@ impl DomainOnLattice {
         }
     }
 
-    /// Whether the boundary of the domain itself may pass through an element.
+    /// Returns whether the boundary of the domain itself may pass through an element.
     pub fn may_cut(&self, element: &Element) -> bool {
         match (&self.region, &self.formula) {
             (Some(region), _) => region.outline_crosses(element.corners, element.triangle.level()),
@@ -156,19 +156,21 @@ impl DomainOnLattice {
         }
     }
 
-    /// The region, where nodes along its outline are moved onto it ([`BoundaryTreatment::OnOutline`]).
+    /// Returns the region, where nodes along its outline are moved onto it
+    /// ([`BoundaryTreatment::OnOutline`]).
     pub fn region_on_outline(&self) -> Option<&RegionOnLattice> {
         self.region.as_deref().filter(|_| self.on_outline)
     }
 
-    /// Whether the mesh is fitted to the boundary: refined along it, with the triangles outside marked.
+    /// Returns whether the mesh is fitted to the boundary: refined along it, with the triangles outside
+    /// marked.
     pub fn is_fitted(&self) -> bool {
         self.fitted.is_some()
     }
 
-    /// Whether a node of the coarse grid, in world units, is in the domain: the report's `DomainQ`. A coarse
-    /// triangle stays when its three nodes are. Where the mesh is fitted to the boundary every node counts as
-    /// inside.
+    /// Returns whether a node of the coarse grid, in world units, is in the domain: the report's `DomainQ`. A
+    /// coarse triangle stays when its three nodes are. Where the mesh is fitted to the boundary every node
+    /// counts as inside.
     pub fn admits(&self, node: DVec2) -> bool {
         if self.is_fitted() {
             return true;
@@ -183,15 +185,15 @@ impl DomainOnLattice {
         }
     }
 
-    /// Whether an element's diameter exceeds its target, given whether it exceeds h̄. A triangle outside the
-    /// domain never does; one that the boundary crosses does until it is as small as the boundary treatment
-    /// asks.
+    /// Returns whether an element's diameter exceeds its target, given whether it exceeds h̄. A triangle
+    /// outside the domain never exceeds it; a triangle that the boundary crosses exceeds it until it is as
+    /// small as the boundary treatment requires.
     ///
-    /// Monotone if `by_field` is: a triangle inside one that is outside the domain, or that the boundary does
-    /// not cross, is so too.
+    /// The result is monotone if `by_field` is: the parts of a triangle that is outside the domain, or that
+    /// the boundary does not cross, have the same property.
     ///
     /// # Errors
-    /// Those of `by_field`.
+    /// Fails with the errors of `by_field`.
     #[inline]
     pub fn exceeds<E>(
         &self,
@@ -201,16 +203,17 @@ impl DomainOnLattice {
         self.exceeds_at(element.corners, element.triangle.level(), || by_field(element))
     }
 
-    /// Whether an element lies outside a fitted domain, that is, its centroid does.
+    /// Returns whether the centroid of an element is outside a fitted domain.
     #[inline]
     pub fn excludes(&self, element: &Element) -> bool {
         self.excludes_at(element.corners)
     }
 
-    /// As [`Self::exceeds`], for a triangle by its corners and level; it need not be in the mesh.
+    /// Does the work of [`Self::exceeds`] for a triangle given by its corners and level; it need not be in
+    /// the mesh.
     ///
     /// # Errors
-    /// Those of `by_field`.
+    /// Fails with the errors of `by_field`.
     #[inline]
     pub fn exceeds_at<E>(
         &self,
@@ -225,7 +228,8 @@ impl DomainOnLattice {
         Ok(by_field()? && !region.lies_outside(corners, level))
     }
 
-    /// As [`Self::exceeds_at`], with what is known of all triangles within.
+    /// Does the work of [`Self::exceeds_at`] for all triangles within a triangle at once, as far as it can be
+    /// known.
     pub(crate) fn levels_within(
         &self,
         corners: [LatticePoint; 3],
@@ -244,7 +248,7 @@ impl DomainOnLattice {
         }
     }
 
-    /// As [`Self::excludes`], for a triangle by its corners.
+    /// Does the work of [`Self::excludes`] for a triangle given by its corners.
     #[inline]
     pub fn excludes_at(&self, corners: [LatticePoint; 3]) -> bool {
         match &self.region {

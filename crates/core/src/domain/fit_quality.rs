@@ -15,7 +15,7 @@ use crate::mesh::{Extract, NodeId};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FitQuality {
-    /// The area of the mesh without that of the region.
+    /// The area of the mesh minus the area of the region.
     pub net_area: f64,
     /// The area that only one of the two covers.
     pub misclassified_area: f64,
@@ -32,8 +32,8 @@ pub struct FitQuality {
     pub islands: usize,
     /// The holes of the region that lie wholly under triangles.
     pub lost_islands: Vec<HoleFigures>,
-    /// The holes of the mesh in which no part of a hole of the region lies: mostly inlets whose mouth the
-    /// mesh closes.
+    /// The holes of the mesh that contain no part of a hole of the region: mostly inlets whose mouth the mesh
+    /// closes.
     pub new_holes: Vec<HoleFigures>,
     /// The smallest angle of a triangle, in degrees.
     pub smallest_angle: f64,

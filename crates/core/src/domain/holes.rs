@@ -8,9 +8,9 @@ use super::{Region, Ring, signed_area};
 /// A hole of a region or of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleFigures {
-    /// For a hole of a region one of its corners, for a hole of a mesh a point in it, in world units.
+    /// A point in world units: one of the corners of a hole of a region, or a point in a hole of a mesh.
     pub place: DVec2,
-    /// Its area, without what lies in it of the domain, in square world units.
+    /// The area of the hole without the parts of the domain in it, in square world units.
     pub area: f64,
 }
 
@@ -19,16 +19,16 @@ pub struct HoleFigures {
 pub(super) struct HoleComparison {
     /// The holes of the region that lie wholly under triangles of the mesh, the largest first.
     pub(super) lost: Vec<HoleFigures>,
-    /// The holes of the mesh in which nothing of a hole of the region lies, the largest first.
+    /// The holes of the mesh that contain no part of a hole of the region, the largest first.
     pub(super) new: Vec<HoleFigures>,
 }
 
 /// Compares the holes of a region with those of a mesh, given by the loops of its boundary.
 ///
-/// What neither of them covers falls into connected parts. Each of these lies in one hole of the region, or
-/// outside of it, and in one hole of the mesh, or outside of that. A hole of the region that has no such part
-/// is covered by the mesh; a hole of the mesh that has none of a hole of the region is new. Time is
-/// proportional to n log n for n edges, as long as a horizontal line crosses few of them.
+/// The area that neither of them covers consists of connected parts. Each part is in one hole of the region
+/// or outside it, and in one hole of the mesh or outside it. A hole of the region without such a part is
+/// covered by the mesh. A hole of the mesh is new if none of its parts is in a hole of the region. The time
+/// is proportional to n log n for n edges, as long as a horizontal line crosses few of them.
 pub(super) fn compare_holes(region: &Region, loops: &[Ring]) -> HoleComparison {
     let [of_region, of_mesh] = [Complement::new(region.rings()), Complement::new(loops.iter())];
     let mut is_lost = vec![true; of_region.rings.len()];
@@ -59,11 +59,11 @@ struct Complement<'a> {
     rings: Vec<&'a Ring>,
     /// The area that each ring encloses, in square world units; negative for the ring of a hole.
     areas: Vec<f64>,
-    /// For each ring the hole of the domain that is on its right: for the ring of a hole itself, for an outer
-    /// ring the one that it lies in, if it lies in one.
+    /// For each ring, the hole of the domain on its right: the hole itself for the ring of a hole; for an
+    /// outer ring the hole that contains it, if any.
     holes: Vec<Option<usize>>,
     segments: Option<Segments>,
-    /// For each segment its ring.
+    /// For each segment, the number of its ring.
     owners: Vec<u32>,
 }
 
@@ -86,8 +86,9 @@ impl<'a> Complement<'a> {
         self.areas[ring] < 0.0
     }
 
-    /// From the leftmost point of an outer ring the ring to the left of it is found, and what is on the right
-    /// of that is on the right of both. Rings are visited from left to right, so that it is known.
+    /// Finds the hole on the right of each ring. For an outer ring, it finds the ring to the left of its
+    /// leftmost point; both have the same hole on their right. Rings are visited from left to right, so the
+    /// hole of that ring is already known.
     fn holes_on_the_right(&self) -> Vec<Option<usize>> {
         let leftmost = |ring: &&Ring| {
             let by_x = |a: &&DVec2, b: &&DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
@@ -111,7 +112,7 @@ impl<'a> Complement<'a> {
         holes
     }
 
-    /// The holes, each with the number of its ring.
+    /// Returns the holes, each with the number of its ring.
     fn holes(&self) -> impl Iterator<Item = (usize, Hole<'a>)> {
         let none = || Hole { rings: Vec::new(), area: 0.0 };
         let mut holes: Vec<Hole> = self.rings.iter().map(|_| none()).collect();
@@ -125,7 +126,7 @@ impl<'a> Complement<'a> {
         holes.into_iter().enumerate().filter(|(_, hole)| !hole.rings.is_empty())
     }
 
-    /// The hole that a point of the complement lies in, if it lies in one.
+    /// Returns the hole that contains a point of the complement, or `None`.
     fn hole_of(&self, point: DVec2) -> Option<usize> {
         let segment = self.segments.as_ref()?.first_to_the_left(point, |_| true)?;
         self.holes[self.owners[segment as usize] as usize]
@@ -134,9 +135,9 @@ impl<'a> Complement<'a> {
 
 /// A bounded part of the complement.
 struct Hole<'a> {
-    /// Its own ring, then the outer rings that lie in it.
+    /// The ring of the hole, then the outer rings within it.
     rings: Vec<&'a Ring>,
-    /// Its area, in square world units.
+    /// The area of the hole, in square world units.
     area: f64,
 }
 
@@ -146,8 +147,8 @@ impl Hole<'_> {
     }
 }
 
-/// A point in a polygon: the middle of the longest part of a horizontal line through it, halfway up. `None`
-/// for one without a height.
+/// Returns a point in a polygon: the middle of the longest part of a horizontal line through it, halfway up.
+/// `None` for one without a height.
 fn inner_point(rings: &[impl AsRef<[DVec2]>]) -> Option<DVec2> {
     let heights = rings.first()?.as_ref().iter().map(|p| p.y);
     let [low, high] =

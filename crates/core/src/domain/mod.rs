@@ -52,7 +52,7 @@ pub enum RegionError {
     /// They cover no area.
     #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
     NoArea,
-    /// Their width or height is not finite.
+    /// The width or height of the polygons is not finite.
     #[error("The polygons reach too far: their width and height must be finite numbers.")]
     TooLarge,
     /// Too many corners.
@@ -89,23 +89,23 @@ pub enum RegionError {
 pub enum DomainShape {
     /// All of it.
     Whole,
-    /// Where the formula is neither zero nor NaN.
+    /// The part where the formula is neither zero nor NaN.
     Formula(Formula),
     /// The part that polygons cover.
     Region(Arc<Region>),
 }
 
 impl Domain {
-    /// The whole of a rectangle.
+    /// Returns the whole of a rectangle.
     pub fn rectangle(bounds: Rect) -> Self {
         Self { bounds, shape: DomainShape::Whole }
     }
 
-    /// The domain that polygons cover. Its bounds are their bounding rectangle, so that the mesh meets
-    /// straight sides along it exactly.
+    /// Returns the domain that polygons cover. Its bounds are their bounding rectangle, so that the mesh
+    /// follows straight sides along it exactly.
     ///
     /// # Errors
-    /// When they cover no area, or are too large or too complex.
+    /// Fails when the polygons cover no area, or are too large or too complex.
     pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
         let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
         let bounds = points.reduce(|a, b| a.union(&b)).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
@@ -116,11 +116,11 @@ impl Domain {
         Self::of_region(Region::new(polygons, bounds))
     }
 
-    /// The domain with exactly these polygons in `bounds`, which must be proper, if they are the
+    /// Returns the domain with exactly these polygons in `bounds`, which must be proper, if they are the
     /// [`Region::polygons`] of a region. Other polygons are overlaid as in [`Self::of_polygons`].
     ///
     /// # Errors
-    /// As [`Self::of_polygons`].
+    /// Fails as [`Self::of_polygons`] does.
     pub fn of_stored_polygons(polygons: Vec<Polygon>, bounds: Rect) -> Result<Self, RegionError> {
         check_complexity(&polygons, &bounds)?;
         Self::of_region(Region::stored(polygons, bounds))
@@ -133,7 +133,7 @@ impl Domain {
         Ok(Self { bounds: *region.frame(), shape: DomainShape::Region(Arc::new(region)) })
     }
 
-    /// The region, if the domain is given by polygons.
+    /// Returns the region, if the domain is given by polygons.
     pub fn region(&self) -> Option<&Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region),
@@ -141,7 +141,7 @@ impl Domain {
         }
     }
 
-    /// The region, or the whole rectangle as one; `None` for a formula.
+    /// Returns the region, or the whole rectangle as one; `None` for a formula.
     pub fn as_region(&self) -> Option<Arc<Region>> {
         match &self.shape {
             DomainShape::Region(region) => Some(region.clone()),
@@ -150,7 +150,7 @@ impl Domain {
         }
     }
 
-    /// The formula, if the domain is given by one.
+    /// Returns the formula, if the domain is given by one.
     pub fn formula(&self) -> Option<&Formula> {
         match &self.shape {
             DomainShape::Formula(formula) => Some(formula),
@@ -158,7 +158,7 @@ impl Domain {
         }
     }
 
-    /// The domain with other bounds. Polygons are clipped to them.
+    /// Returns the domain with other bounds. Polygons are clipped to them.
     pub fn with_bounds(&self, bounds: Rect) -> Self {
         let shape = match &self.shape {
             DomainShape::Region(region) if bounds.is_proper() => {

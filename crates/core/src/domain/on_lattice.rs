@@ -42,8 +42,8 @@ pub struct RegionOnLattice {
     pub(super) edges: Vec<OutlineEdge>,
     /// For each smallest square, whether the middle of its left side lies inside.
     pub(super) inside_at_left: Vec<bool>,
-    /// For each smallest square, the end of its part of `edges_of_square`; it begins at the end of the square
-    /// before.
+    /// For each smallest square, the end of its range in `edges_of_square`; the range begins at the end of
+    /// the previous square's range.
     pub(super) ends: Vec<u32>,
     /// Indices into `edges`, square by square.
     pub(super) edges_of_square: Vec<u32>,
@@ -65,7 +65,7 @@ pub(super) enum SquareState {
 }
 
 impl RegionOnLattice {
-    /// The index before any edge is added.
+    /// Returns the index before any edge is added.
     pub(super) fn without_edges(lattice: &Lattice) -> Self {
         Self {
             cells: lattice.cells(),
@@ -78,18 +78,18 @@ impl RegionOnLattice {
         }
     }
 
-    /// Whether a lattice point lies in the closed region.
+    /// Returns whether a lattice point lies in the closed region.
     pub fn contains(&self, p: LatticePoint) -> bool {
         self.holds([p.x, p.y].map(|c| 3 * i64::from(c)))
     }
 
-    /// Whether a triangle of the mesh, given by its corners and level, does not touch the region.
+    /// Returns whether a triangle of the mesh, given by its corners and level, does not touch the region.
     pub fn lies_outside(&self, corners: [LatticePoint; 3], level: u32) -> bool {
         self.side_of(corners, level) == Some(false)
     }
 
-    /// Whether a triangle of the mesh, given by its corners and level, lies in the region; `None` where the
-    /// outline touches it.
+    /// Returns whether a triangle of the mesh, given by its corners and level, lies in the region; `None`
+    /// where the outline touches it.
     pub fn side_of(&self, corners: [LatticePoint; 3], level: u32) -> Option<bool> {
         match self.relation_to(corners, level, &|_| true) {
             Relation::Crossed => None,
@@ -97,13 +97,13 @@ impl RegionOnLattice {
         }
     }
 
-    /// Whether the outline touches a triangle of the mesh, given by its corners and level.
+    /// Returns whether the outline touches a triangle of the mesh, given by its corners and level.
     pub fn outline_crosses(&self, corners: [LatticePoint; 3], level: u32) -> bool {
         self.relation_to(corners, level, &|edge| !edge.on_frame) == Relation::Crossed
     }
 
-    /// Whether the centroid of a triangle lies in the closed region. (Closed, so that a mirrored region has
-    /// the mirrored triangles.)
+    /// Returns whether the centroid of a triangle lies in the closed region. (Closed, so that a mirrored
+    /// region has the mirrored triangles.)
     pub fn has_centroid_of(&self, corners: [LatticePoint; 3]) -> bool {
         self.holds(thrice_centroid(corners))
     }
@@ -134,8 +134,8 @@ impl RegionOnLattice {
         }
     }
 
-    /// Whether an edge that counts touches the triangle within a square of the tree. The recursion is as deep
-    /// as the tree.
+    /// Returns whether an edge that counts touches the triangle within a square of the tree. The recursion is
+    /// as deep as the tree.
     fn crossed_within(
         &self,
         depth: usize,
@@ -158,7 +158,7 @@ impl RegionOnLattice {
         })
     }
 
-    /// Whether a point, given by three times its coordinates, lies in the closed region.
+    /// Returns whether a point, given by three times its coordinates, lies in the closed region.
     fn holds(&self, thrice: [i64; 2]) -> bool {
         let on_edge = || {
             let square = self.square_of(thrice.map(|c| c.div_euclid(3)));
@@ -167,8 +167,9 @@ impl RegionOnLattice {
         self.is_inside(thrice) || on_edge()
     }
 
-    /// Whether a point, given by three times its coordinates, lies inside: by the edges that a path crosses
-    /// from the middle of its square's left side to the point, first horizontally and then vertically.
+    /// Returns whether a point, given by three times its coordinates, lies inside: by the edges that a path
+    /// crosses from the middle of its square's left side to the point, first horizontally and then
+    /// vertically.
     fn is_inside(&self, thrice: [i64; 2]) -> bool {
         let square = self.square_of(thrice.map(|c| c.div_euclid(3)));
         match self.smallest().states[square] {
@@ -184,7 +185,7 @@ impl RegionOnLattice {
         self.inside_at_left[square] ^ (between.count() % 2 == 1)
     }
 
-    /// The middle of a smallest square's left side, in thirds of a lattice step.
+    /// Returns the middle of a smallest square's left side, in thirds of a lattice step.
     fn middle_of_left_side(&self, square: usize) -> [i64; 2] {
         let (bits, columns) = (self.smallest_bits(), self.smallest().columns as usize);
         let (column, row) = ((square % columns) as i64, (square / columns) as i64);
@@ -217,8 +218,8 @@ impl RegionOnLattice {
         LatticeRect { min: corner(square), max: corner(square.map(|n| n + 1)) }
     }
 
-    /// The smallest square that contains a point of the grid; on a side between two squares the upper or
-    /// right one.
+    /// Returns the smallest square that contains a point of the grid; on a side between two squares the upper
+    /// or right one.
     fn square_of(&self, point: [i64; 2]) -> usize {
         let (tree_level, bits) = (self.smallest(), self.smallest_bits());
         let rows = tree_level.states.len() / tree_level.columns as usize;
@@ -232,12 +233,12 @@ impl RegionOnLattice {
 enum Relation {
     /// An edge touches it.
     Crossed,
-    /// None does. Whether the triangle lies inside.
+    /// No edge touches it; the value says whether the triangle is inside.
     Uncrossed(bool),
 }
 
 impl TreeLevel {
-    /// The state of four squares of this level as one square of the level above.
+    /// Returns the state of four squares of this level as one square of the level above.
     pub(super) fn joined(&self, [column, row]: [u32; 2]) -> SquareState {
         let first = (2 * row * self.columns + 2 * column) as usize;
         let above = first + self.columns as usize;
@@ -246,13 +247,13 @@ impl TreeLevel {
     }
 }
 
-/// The height of the middle of a row of squares, in thirds of a step. If a side is one step, no corner has
-/// this height.
+/// Returns the height of the middle of a row of squares, in thirds of a step. If a side is one step, no
+/// corner has this height.
 pub(super) fn middle_of_row(row: i64, bits: u32) -> i64 {
     ((3 * (2 * row + 1)) << bits) / 2
 }
 
-/// Three times the centroid, which is a whole number.
+/// Returns three times the centroid, which is a whole number.
 fn thrice_centroid(corners: [LatticePoint; 3]) -> [i64; 2] {
     let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| i64::from(c(p))).sum();
     [sum(|p| p.x), sum(|p| p.y)]
@@ -270,8 +271,8 @@ mod tests {
     use crate::geometry::Rect;
     use crate::mesh::{Limits, Mesh, Progress, TriangleId};
 
-    /// A star with a hole, with some corners on coarse lattice points, and a strip along the left side of the
-    /// frame.
+    /// Returns a star with a hole, with some corners on coarse lattice points, and a strip along the left
+    /// side of the frame.
     fn region(random: &mut fastrand::Rng) -> Region {
         let ring = |centre: DVec2, radius: f64, points: usize, random: &mut fastrand::Rng| -> Ring {
             let at = |k: usize, random: &mut fastrand::Rng| {

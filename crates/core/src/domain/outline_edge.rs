@@ -5,9 +5,9 @@ use crate::geometry::LatticePoint;
 /// An edge of a region, with the region on its left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OutlineEdge {
-    /// In lattice coordinates.
+    /// The ends of the edge, in lattice coordinates.
     pub(super) ends: [[i64; 2]; 2],
-    /// Whether it lies along a side of the grid.
+    /// Whether the edge is along a side of the grid.
     pub(super) on_frame: bool,
 }
 
@@ -31,8 +31,8 @@ impl TriangleExtents {
 }
 
 impl OutlineEdge {
-    /// Whether the edge touches a closed triangle: no line along a side of the triangle or along the edge
-    /// separates them.
+    /// Returns whether the edge touches a closed triangle: no line along a side of the triangle or along the
+    /// edge separates them.
     pub(super) fn touches(&self, triangle: &TriangleExtents) -> bool {
         let [[ax, ay], [bx, by]] = self.ends;
         let apart = |[low, high]: [i64; 2], a: i64, b: i64| a.max(b) < low || a.min(b) > high;
@@ -49,13 +49,13 @@ impl OutlineEdge {
         !(sides.iter().all(|&s| s > 0) || sides.iter().all(|&s| s < 0))
     }
 
-    /// Its extent along x plus its extent along y, in lattice steps.
+    /// Returns the extent along x plus its extent along y, in lattice steps.
     pub(super) fn length(&self) -> u64 {
         let [[ax, ay], [bx, by]] = self.ends;
         ax.abs_diff(bx) + ay.abs_diff(by)
     }
 
-    /// Whether a point, given by three times its coordinates, lies on the edge.
+    /// Returns whether a point, given by three times its coordinates, lies on the edge.
     pub(super) fn holds(&self, [px, py]: [i64; 2]) -> bool {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         let between = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
@@ -63,14 +63,14 @@ impl OutlineEdge {
         between(ax, bx, px) && between(ay, by, py) && product(bx - ax, py - ay) == product(by - ay, px - ax)
     }
 
-    /// Whether the edge crosses the horizontal line through a point, left of the point and within
+    /// Returns whether the edge crosses the horizontal line through a point, left of the point and within
     /// `left..right`. All numbers are in thirds of a lattice step. An end on the line counts as below it.
     pub(super) fn crosses_between(&self, left: i64, right: i64, [px, py]: [i64; 2]) -> bool {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         if (ay <= py) == (by <= py) {
             return false;
         }
-        // The crossing lies at x = ax + (py − ay) (bx − ax) / (by − ay).
+        // The crossing is at x = ax + (py − ay) (bx − ax) / (by − ay).
         let (rise, run) = (i128::from(by - ay), i128::from(bx - ax));
         let is_left_of = |limit: i64| {
             if (ax < limit) == (bx < limit) {
@@ -83,9 +83,9 @@ impl OutlineEdge {
         is_left_of(px) && is_left_of(right) && (left == i64::MIN || !is_left_of(left))
     }
 
-    /// Whether the edge crosses the vertical line just left of `px` between two heights. All numbers are in
-    /// thirds of a lattice step. To agree with [`Self::crosses_between`], the heights are infinitesimally
-    /// higher than given, by less than the line is left of `px`.
+    /// Returns whether the edge crosses the vertical line just left of `px` between two heights. All numbers
+    /// are in thirds of a lattice step. To agree with [`Self::crosses_between`], the heights are
+    /// infinitesimally higher than given, by less than the line is left of `px`.
     pub(super) fn crosses_beside(&self, px: i64, from: i64, to: i64) -> bool {
         let [[ax, ay], [bx, by]] = self.ends.map(|end| end.map(|c| 3 * c));
         if (ax < px) == (bx < px) {
@@ -117,7 +117,7 @@ impl OutlineEdge {
         }
     }
 
-    /// The smallest and largest x of the part of the edge between two heights, rounded outwards.
+    /// Returns the smallest and largest x of the part of the edge between two heights, rounded outwards.
     fn columns_between(&self, bottom: i64, top: i64) -> (i64, i64) {
         let [[ax, ay], [bx, by]] = self.ends;
         if ay == by {

@@ -1,4 +1,5 @@
-//! Where the outline of a region crosses an edge of the mesh, its nearest point, and its rings.
+//! Finds crossings of the outline of a region with edges of the mesh, its points nearest to others, and its
+//! rings.
 
 use glam::DVec2;
 
@@ -8,8 +9,8 @@ use super::outline_edge::OutlineEdge;
 use crate::geometry::LatticePoint;
 
 impl RegionOnLattice {
-    /// Where the outline crosses the segment from a lattice point inside the region to one outside, as a
-    /// share of its length from `inside`. Of several crossings, the middle one.
+    /// Returns where the outline crosses the segment from a lattice point inside the region to one outside,
+    /// as a share of its length from `inside`. Of several crossings, the middle one.
     ///
     /// Which edges of the outline cross is decided exactly. Edges along the sides of the grid do not count: a
     /// segment meets the outline beside them where it leaves them.
@@ -24,9 +25,9 @@ impl RegionOnLattice {
         crossings.get(crossings.len().saturating_sub(1) / 2).copied().unwrap_or(0.5)
     }
 
-    /// The point of the outline nearest to `p`, if its distance is at most `reach`. Points are in lattice
-    /// coordinates, distances in world units, and `step` is the world length of a lattice step along x and y.
-    /// Edges along the sides of the grid do not count.
+    /// Returns the point of the outline nearest to `p`, if its distance is at most `reach`. Points are in
+    /// lattice coordinates, distances in world units, and `step` is the world length of a lattice step along
+    /// x and y. Edges along the sides of the grid do not count.
     pub fn nearest_on_outline(&self, p: DVec2, reach: f64, step: DVec2) -> Option<DVec2> {
         let margin = DVec2::splat(reach) / step + DVec2::ONE;
         let [low, high] = [p - margin, p + margin].map(|p| [p.x.floor() as i64, p.y.floor() as i64]);
@@ -45,7 +46,7 @@ impl RegionOnLattice {
         nearest.map(|(_, point)| point)
     }
 
-    /// The corners of each ring of the outline in order, those on the sides of the grid included.
+    /// Returns the corners of each ring of the outline in order, those on the sides of the grid included.
     pub fn outline_rings(&self) -> Vec<Vec<LatticePoint>> {
         let point = |[x, y]: [i64; 2]| LatticePoint::new(x as u32, y as u32);
         // The edges of a ring follow one another.
@@ -54,8 +55,8 @@ impl RegionOnLattice {
         rings.map(|edges| edges.iter().map(|edge| point(edge.ends[0])).collect()).collect()
     }
 
-    /// The edges of the outline in the smallest squares that touch a rectangle, each once, in the order of
-    /// the region; those along the sides of the grid are left out.
+    /// Returns the edges of the outline in the smallest squares that touch a rectangle, each once, in the
+    /// order of the region; those along the sides of the grid are left out.
     fn edges_near(&self, low: [i64; 2], high: [i64; 2]) -> impl Iterator<Item = &OutlineEdge> {
         let size = (high[0] - low[0]).max(high[1] - low[1]).max(1) as u64;
         let bits = size.next_power_of_two().trailing_zeros();
@@ -72,7 +73,7 @@ impl RegionOnLattice {
         found.into_iter().map(|n| &self.edges[n as usize]).filter(|edge| !edge.on_frame)
     }
 
-    /// The square of a level of the tree that contains a point, or the nearest one.
+    /// Returns the square of a level of the tree that contains a point, or the nearest one.
     fn square_at(&self, depth: usize, point: [i64; 2]) -> [u32; 2] {
         let tree_level = &self.levels[depth];
         let rows = tree_level.states.len() as u32 / tree_level.columns;

@@ -22,8 +22,8 @@ pub type Polygon = Vec<Ring>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region {
     frame: Rect,
-    /// In square world units. Declared before the polygons, so that it is compared first: regions that differ
-    /// rarely have equal areas.
+    /// The area in square world units. It is declared before the polygons, so that it is compared first:
+    /// regions that differ rarely have equal areas.
     area: f64,
     polygons: Vec<Polygon>,
 }
@@ -33,9 +33,9 @@ pub struct Region {
 impl Eq for Region {}
 
 impl Region {
-    /// The region that the polygons cover within `frame`. They may overlap. A polygon covers what its first
-    /// ring encloses, without what its other rings enclose. A ring may have either direction, cross itself,
-    /// or run around a point several times.
+    /// Returns the region that the polygons cover within `frame`. They may overlap. A polygon covers what its
+    /// first ring encloses, without what its other rings enclose. A ring may have either direction, cross
+    /// itself, or run around a point several times.
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
@@ -53,8 +53,8 @@ impl Region {
         Self::cut_to_frame(&grid, &contours)
     }
 
-    /// The region with exactly these polygons, if they are valid polygons of a region; otherwise the region
-    /// that they cover.
+    /// Returns the region with exactly these polygons, if they are valid polygons of a region; otherwise the
+    /// region that they cover.
     ///
     /// Another overlay would move a corner here and there, where edges nearly touch. So valid polygons are
     /// not overlaid.
@@ -83,48 +83,48 @@ impl Region {
         grid.region(overlay(contours, &[grid.contour(&corners(&grid.frame))], OverlayOperation::BOTH))
     }
 
-    /// The rectangle of which the region is a part, in world units.
+    /// Returns the rectangle that contains the region, in world units.
     pub fn frame(&self) -> &Rect {
         &self.frame
     }
 
-    /// The polygons, which do not overlap.
+    /// Returns the polygons, which do not overlap.
     pub fn polygons(&self) -> &[Polygon] {
         &self.polygons
     }
 
-    /// Whether nothing is covered.
+    /// Returns whether nothing is covered.
     pub fn is_empty(&self) -> bool {
         self.polygons.is_empty()
     }
 
-    /// All rings, those of holes included.
+    /// Returns all rings, including those of holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         self.polygons.iter().flatten()
     }
 
-    /// All edges as [from, to], with the region on the left.
+    /// Returns all edges as [from, to], with the region on the left.
     pub fn edges(&self) -> impl Iterator<Item = [DVec2; 2]> {
         let mut cursor = EdgeCursor::default();
         std::iter::from_fn(move || cursor.next(self))
     }
 
-    /// The number of corners, which is also the number of edges.
+    /// Returns the number of corners, which is also the number of edges.
     pub fn corner_count(&self) -> usize {
         self.rings().map(Vec::len).sum()
     }
 
-    /// Memory of the rings, in bytes.
+    /// Returns the memory of the rings, in bytes.
     pub fn bytes(&self) -> usize {
         self.rings().map(|ring| size_of::<Ring>() + size_of_val(&**ring)).sum()
     }
 
-    /// The number of holes.
+    /// Returns the number of holes.
     pub fn hole_count(&self) -> usize {
         self.polygons.iter().map(|rings| rings.len() - 1).sum()
     }
 
-    /// The area of an overlay of the region with rings in its frame, in square world units.
+    /// Returns the area of an overlay of the region with rings in its frame, in square world units.
     pub(super) fn area_of(&self, rings: &[Ring], rule: OverlayRule, fill: FillRule) -> f64 {
         let grid = Grid::over(&self.frame);
         let operation = OverlayOperation(rule, fill);
@@ -133,9 +133,9 @@ impl Region {
         if area > 0.0 { area } else { 0.0 }
     }
 
-    /// The connected parts of the plane that neither the region nor the domain of some rings covers: those
-    /// that are bounded, and wider than the rounding errors of an overlay. The rings have their domain on
-    /// the left and do not cross each other.
+    /// Returns the bounded connected parts of the plane that neither the region nor the domain of some rings
+    /// covers, except parts that are no wider than the rounding errors of an overlay. The rings have their
+    /// domain on the left and do not cross each other.
     pub(super) fn parts_beside(&self, rings: &[Ring]) -> Vec<Polygon> {
         let grid = Grid::over(&self.frame);
         let mut covered = grid.contours_of(self);
@@ -153,17 +153,17 @@ impl Region {
         parts
     }
 
-    /// The area covered, in square world units.
+    /// Returns the area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.area
     }
 
-    /// The union with the points that at least one of the rings encloses, within the frame.
+    /// Returns the union with the points that at least one of the rings encloses, within the frame.
     pub fn with(&self, rings: &[Ring]) -> Self {
         self.combined(rings, OverlayOperation::EITHER)
     }
 
-    /// The difference from the points that at least one of the rings encloses.
+    /// Returns the difference from the points that at least one of the rings encloses.
     pub fn without(&self, rings: &[Ring]) -> Self {
         self.combined(rings, OverlayOperation::FIRST_ONLY)
     }
@@ -176,7 +176,7 @@ impl Region {
         grid.region(overlay(&grid.contours_of(self), &within, rule))
     }
 
-    /// The region in another frame, clipped to it.
+    /// Returns the region in another frame, clipped to it.
     pub fn reframed(&self, frame: Rect) -> Self {
         Self::new(&self.polygons, frame)
     }
@@ -207,17 +207,17 @@ impl EdgeCursor {
         }
     }
 
-    /// The number of edges after the cursor in its ring.
+    /// Returns the number of edges after the cursor in its ring.
     pub(super) fn left_in_ring(&self, region: &Region) -> usize {
         self.ring_of(region).map_or(0, |ring| ring.len() - self.corner)
     }
 
-    /// The position after the last edge of the ring.
+    /// Returns the position after the last edge of the ring.
     pub(super) fn after_ring(&self, region: &Region) -> Self {
         Self { corner: self.corner + self.left_in_ring(region), ..*self }
     }
 
-    /// An edge after the cursor in its ring; number 0 is the next one.
+    /// Returns an edge after the cursor in its ring; number 0 is the next one.
     pub(super) fn edge_in_ring(&self, region: &Region, number: usize) -> [DVec2; 2] {
         let ring = self.ring_of(region).expect("there is an edge, so there is a ring");
         [ring[self.corner + number], ring[(self.corner + number + 1) % ring.len()]]
@@ -228,18 +228,18 @@ impl EdgeCursor {
     }
 }
 
-/// The corners of a rectangle, anticlockwise.
+/// Returns the corners of a rectangle, anticlockwise.
 pub fn corners(rect: &Rect) -> Ring {
     let Rect { min, max } = *rect;
     vec![min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)]
 }
 
-/// The length of a ring, in world units.
+/// Returns the length of a ring, in world units.
 fn perimeter(ring: &[DVec2]) -> f64 {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
 }
 
-/// Area enclosed by a ring in square world units, positive when it runs anticlockwise.
+/// Returns the area enclosed by a ring in square world units, positive when it runs anticlockwise.
 pub fn signed_area(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else { return 0.0 };
     let ends = ring.iter().skip(1).chain(ring.first());
@@ -259,7 +259,8 @@ impl OverlayOperation {
     const EITHER: Self = Self(OverlayRule::Union, FillRule::EvenOdd);
     /// Points of both; contours of the first may overlap.
     const BOTH: Self = Self(OverlayRule::Intersect, FillRule::NonZero);
-    /// Points of the first only; any contour encloses what it runs around.
+    /// Points of the first set only. A contour encloses all points that it runs around, whatever its
+    /// direction.
     const WITHOUT_HOLES: Self = Self(OverlayRule::Difference, FillRule::NonZero);
     /// Points of the first only.
     const FIRST_ONLY: Self = Self(OverlayRule::Difference, FillRule::EvenOdd);
@@ -325,7 +326,7 @@ impl Grid {
         DVec2::new(place(p.x, min.x, max.x, self.step.x), place(p.y, min.y, max.y, self.step.y))
     }
 
-    /// A square around the frame that does not touch it.
+    /// Returns a square around the frame that does not touch it.
     fn contour_around(&self) -> Contour {
         let (low, high) = (-8, self.steps as i64 + 8);
         [[low, low], [high, low], [high, high], [low, high]].map(|[x, y]| IntPoint::new(x, y)).to_vec()
@@ -379,7 +380,8 @@ mod tests {
         // Two polygons that overlap cover their union, and a part beyond the frame is cut off.
         let region = unit(&[vec![square(centre, 0.25)], vec![square(DVec2::ONE, 0.375)]]);
         assert_eq!(region.area(), 0.25 + 0.140625 - 0.015625);
-        // A ring that runs around twice covers what it runs around, and a hole outside its ring adds nothing.
+        // A ring that runs around twice covers the same area as once, and a hole outside its ring adds
+        // nothing.
         let twice = [square(centre, 0.25), square(centre, 0.25)].concat();
         assert_eq!(unit(&[vec![twice]]).area(), 0.25);
         let outside = vec![square(centre, 0.25), square(dvec2(0.1, 0.1), 0.0625)];

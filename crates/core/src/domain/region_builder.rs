@@ -28,12 +28,12 @@ pub(super) struct RegionOnLatticeBuilder {
     /// How many times the root squares are halved.
     halvings: u32,
     index: RegionOnLattice,
-    step: Step,
+    step: IndexStep,
 }
 
-/// What is being done.
+/// The current step of the work.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum IndexStep {
     /// Corners are moved to the nearest lattice points.
     Moving(EdgeCursor),
     /// The squares that each edge touches are counted, from this edge on.
@@ -50,7 +50,7 @@ impl RegionOnLatticeBuilder {
         Self::within(region, lattice, MOST_ENTRIES)
     }
 
-    /// As [`Self::new`], with at most about `most_entries` entries of edges in squares.
+    /// Creates a builder that makes at most about `most_entries` entries of edges in squares.
     pub(super) fn within(region: &Arc<Region>, lattice: &Lattice, most_entries: u64) -> Self {
         Self {
             region: region.clone(),
@@ -59,29 +59,29 @@ impl RegionOnLatticeBuilder {
             length: 0,
             halvings: 0,
             index: RegionOnLattice::without_edges(lattice),
-            step: Step::Moving(EdgeCursor::default()),
+            step: IndexStep::Moving(EdgeCursor::default()),
         }
     }
 
     /// One slice of work: about `budget` edges or squares.
     pub(super) fn advance(&mut self, budget: usize) -> Progress {
         self.step = match self.step {
-            Step::Moving(cursor) => self.move_corners(cursor, budget),
-            Step::Counting(first) => self.count_squares(first, budget),
-            Step::Sorting(first) => self.sort_edges(first, budget),
-            Step::Filling(first) => self.fill_rows(first, budget),
-            Step::Done => Step::Done,
+            IndexStep::Moving(cursor) => self.move_corners(cursor, budget),
+            IndexStep::Counting(first) => self.count_squares(first, budget),
+            IndexStep::Sorting(first) => self.sort_edges(first, budget),
+            IndexStep::Filling(first) => self.fill_rows(first, budget),
+            IndexStep::Done => IndexStep::Done,
         };
-        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
+        if matches!(self.step, IndexStep::Done) { Progress::Done } else { Progress::More }
     }
 
-    /// The index. Work that is left is done in one go.
+    /// Returns the index. Work that is left is done in one go.
     pub(super) fn finish(mut self) -> RegionOnLattice {
         while self.advance(usize::MAX) == Progress::More {}
         self.index
     }
 
-    fn move_corners(&mut self, mut cursor: EdgeCursor, budget: usize) -> Step {
+    fn move_corners(&mut self, mut cursor: EdgeCursor, budget: usize) -> IndexStep {
         let extent = self.lattice.extent();
         let place = |p: DVec2| {
             let p = self.lattice.nearest(p);
@@ -93,7 +93,7 @@ impl RegionOnLatticeBuilder {
         for _ in 0..budget {
             let Some(edge) = cursor.next(&self.region) else {
                 self.choose_squares();
-                return Step::Counting(0);
+                return IndexStep::Counting(0);
             };
             let ends = edge.map(place);
             if ends[0] != ends[1] {
@@ -102,7 +102,7 @@ impl RegionOnLatticeBuilder {
                 self.index.edges.push(edge);
             }
         }
-        Step::Moving(cursor)
+        IndexStep::Moving(cursor)
     }
 
     /// Chooses the sizes of the largest and the smallest squares of the quadtree.
@@ -128,17 +128,17 @@ impl RegionOnLatticeBuilder {
         self.index.ends = vec![0; columns as usize * rows as usize];
     }
 
-    /// Columns and rows of the smallest squares.
+    /// Returns the columns and rows of the smallest squares.
     fn counts(&self) -> [u32; 2] {
         self.index.cells.map(|n| n << self.halvings)
     }
 
-    /// Binary logarithm of their side in lattice steps.
+    /// Returns the binary logarithm of their side in lattice steps.
     fn bits(&self) -> u32 {
         self.index.root_bits - self.halvings
     }
 
-    fn count_squares(&mut self, first: usize, budget: usize) -> Step {
+    fn count_squares(&mut self, first: usize, budget: usize) -> IndexStep {
         let (counts, bits) = (self.counts(), self.bits());
         let RegionOnLattice { edges, ends, .. } = &mut self.index;
         let end = first.saturating_add(budget).min(edges.len());
@@ -146,7 +146,7 @@ impl RegionOnLatticeBuilder {
             edge.squares_touched(counts, bits, |square| ends[square] += 1);
         }
         if end < edges.len() {
-            return Step::Counting(end);
+            return IndexStep::Counting(end);
         }
         let mut count = 0;
         for end in ends.iter_mut() {
@@ -154,10 +154,10 @@ impl RegionOnLatticeBuilder {
             count += std::mem::replace(end, count);
         }
         self.index.edges_of_square = vec![0; count as usize];
-        Step::Sorting(0)
+        IndexStep::Sorting(0)
     }
 
-    fn sort_edges(&mut self, first: usize, budget: usize) -> Step {
+    fn sort_edges(&mut self, first: usize, budget: usize) -> IndexStep {
         let (counts, bits) = (self.counts(), self.bits());
         let RegionOnLattice { edges, ends, edges_of_square, .. } = &mut self.index;
         let end = first.saturating_add(budget).min(edges.len());
@@ -168,15 +168,15 @@ impl RegionOnLatticeBuilder {
             });
         }
         if end < edges.len() {
-            return Step::Sorting(end);
+            return IndexStep::Sorting(end);
         }
         self.index.levels = vec![TreeLevel { columns: counts[0], states: Vec::with_capacity(ends.len()) }];
-        Step::Filling(0)
+        IndexStep::Filling(0)
     }
 
-    /// Finds the states of the smallest squares along the middle line of each row; at the end, those of
-    /// larger squares from them.
-    fn fill_rows(&mut self, first: u32, budget: usize) -> Step {
+    /// Finds the states of the smallest squares along the middle line of each row, and at the end the states
+    /// of the larger squares.
+    fn fill_rows(&mut self, first: u32, budget: usize) -> IndexStep {
         let [columns, rows] = self.counts();
         let at_once = (budget / columns as usize).clamp(1, rows as usize) as u32;
         let end = first.saturating_add(at_once).min(rows);
@@ -184,10 +184,10 @@ impl RegionOnLatticeBuilder {
             self.fill_row(row);
         }
         if end < rows {
-            return Step::Filling(end);
+            return IndexStep::Filling(end);
         }
         self.join_squares();
-        Step::Done
+        IndexStep::Done
     }
 
     fn fill_row(&mut self, row: u32) {
@@ -208,7 +208,8 @@ impl RegionOnLatticeBuilder {
         }
     }
 
-    /// How many edges cross the middle line of a smallest square, each counted in one square of the row.
+    /// Returns how many edges cross the middle line of a smallest square, each counted in one square of the
+    /// row.
     fn crossings_of_middle(&self, column: u32, row: u32) -> usize {
         let ([columns, _], bits) = (self.counts(), self.bits());
         let left = if column == 0 { i64::MIN } else { 3 * (i64::from(column) << bits) };

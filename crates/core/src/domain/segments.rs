@@ -20,22 +20,23 @@ impl Segments {
         (!list.is_empty()).then(|| Self { tree: BoxTree::new(&boxes), list })
     }
 
-    /// The largest absolute value of a coordinate.
+    /// Returns the largest absolute value of a coordinate.
     pub fn largest_coordinate(&self) -> f64 {
         self.tree.bounds().map_or(0.0, |bounds| bounds.min.abs().max(bounds.max.abs()).max_element())
     }
 
-    /// A segment, by its number in the list.
+    /// Returns a segment, by its number in the list.
     pub fn segment(&self, number: u32) -> [DVec2; 2] {
         self.list[number as usize]
     }
 
-    /// The distance from `p` to one of the segments.
+    /// Returns the distance from `p` to one of the segments.
     pub fn distance(&self, number: u32, p: DVec2) -> f64 {
         p.distance(nearest_on_segment(p, self.segment(number)))
     }
 
-    /// The nearest of the segments that `counts` accepts, with its distance from `p`. Of several, the first.
+    /// Returns the nearest of the segments that `counts` accepts, with its distance from `p`. Of several, the
+    /// first.
     pub fn nearest(&self, p: DVec2, counts: impl Fn(u32) -> bool) -> Option<(u32, f64)> {
         let squared = |number: u32| {
             let distance = || p.distance_squared(nearest_on_segment(p, self.segment(number)));
@@ -56,7 +57,7 @@ impl Segments {
         });
     }
 
-    /// The first segment that a ray from `p` towards lower x meets, of those that `counts` accepts. A
+    /// Returns the first segment that a ray from `p` towards lower x meets, of those that `counts` accepts. A
     /// horizontal segment is met nowhere, and an end belongs to the segment above it: so the ray of a point
     /// beside a closed line meets it an even number of times.
     pub fn first_to_the_left(&self, p: DVec2, counts: impl Fn(u32) -> bool) -> Option<u32> {
@@ -81,7 +82,7 @@ impl Segments {
     }
 }
 
-/// The x at which a ray from `p` towards lower x meets a segment.
+/// Returns the x at which a ray from `p` towards lower x meets a segment.
 fn meets_ray([a, b]: [DVec2; 2], p: DVec2) -> Option<f64> {
     if (a.y <= p.y) == (b.y <= p.y) {
         return None;

@@ -10,7 +10,7 @@ use crate::mesh::{Changes, Mesh, Progress, TriangleId};
 #[derive(Debug, Default)]
 pub struct Ages {
     /// Identifies the triangle that an entry of the mesh had when it was last looked at.
-    known: Vec<Place>,
+    known: Vec<PositionKey>,
     /// The number of the edit that made it.
     born: Arc<Vec<u32>>,
     /// The number of the current edit.
@@ -20,7 +20,7 @@ pub struct Ages {
 }
 
 /// The sum of the corners of a triangle: no other triangle of the bisection forest has the same centroid.
-type Place = u64;
+type PositionKey = u64;
 
 impl Ages {
     /// Counts another edit: triangles that come from now on belong to it.
@@ -55,7 +55,7 @@ impl Ages {
         }
         let end = mesh.raw_triangle_count();
         let gone = self.gone(changes, mesh);
-        self.known.resize(end, Place::MAX);
+        self.known.resize(end, PositionKey::MAX);
         let born = Arc::make_mut(&mut self.born);
         born.resize(end, self.edit);
         for entry in changes.triangles.iter().cloned().flatten() {
@@ -68,19 +68,19 @@ impl Ages {
         }
     }
 
-    /// The triangles that are no longer in their entry, with the edits that made them, in order of place: the
-    /// last entry fills a gap, so some of them are in another entry now.
-    fn gone(&self, changes: &Changes, mesh: &Mesh) -> Vec<(Place, u32)> {
+    /// Returns the triangles that are no longer in their entry, with the edits that made them, in order of
+    /// place: the last entry fills a gap, so some of them are in another entry now.
+    fn gone(&self, changes: &Changes, mesh: &Mesh) -> Vec<(PositionKey, u32)> {
         let (known, end) = (self.known.len(), mesh.raw_triangle_count());
         let changed = changes.triangles.iter().flat_map(|range| range.start..range.end.min(known));
         let replaced = changed.filter(|&entry| self.known[entry] != place(mesh, entry));
-        let mut gone: Vec<(Place, u32)> =
+        let mut gone: Vec<(PositionKey, u32)> =
             replaced.chain(end..known).map(|entry| (self.known[entry], self.born[entry])).collect();
         gone.sort_unstable();
         gone
     }
 
-    /// The ages as they are, for another thread.
+    /// Returns the ages as they are, for another thread.
     pub fn snapshot(&self) -> AgesNow {
         AgesNow { born: self.born.clone(), edit: self.edit }
     }
@@ -94,14 +94,15 @@ pub struct AgesNow {
 }
 
 impl AgesNow {
-    /// How many edits ago a triangle came, 0 for the last one; `None` if it was there before the first.
+    /// Returns how many edits ago a triangle came, 0 for the last one; `None` if it was there before the
+    /// first.
     pub fn of(&self, id: TriangleId) -> Option<u32> {
         let born = *self.born.get(id.index())?;
         (born > 0).then(|| self.edit - born)
     }
 }
 
-fn place(mesh: &Mesh, entry: usize) -> Place {
+fn place(mesh: &Mesh, entry: usize) -> PositionKey {
     let corners = mesh.triangle(TriangleId::from_index(entry)).vertices.map(|vertex| mesh.node(vertex));
     let [x, y] = corners.iter().fold([0u64; 2], |[x, y], at| [x + u64::from(at.x), y + u64::from(at.y)]);
     x << 32 | y
@@ -118,7 +119,7 @@ mod tests {
     use crate::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
     use crate::mesh::{Element, InvalidTarget, Limits, Updater};
 
-    /// The corners of each triangle in the order of its entry.
+    /// Returns the corners of each triangle in the order of its entry.
     fn triangles(mesh: &Mesh) -> Vec<[LatticePoint; 3]> {
         let corners = |entry| {
             let mut corners =

@@ -1,11 +1,7 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
 mod ages;
-mod by_level;
-#[cfg(test)]
-mod fixture;
 mod node;
-mod sampled;
 mod sentences;
 
 use crate::build::RefinementCriterion;
@@ -13,9 +9,7 @@ use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 
 pub use ages::{Ages, AgesNow};
-pub use by_level::{Bisections, LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 pub use node::NodeFacts;
-pub use sampled::PixelTriangles;
 pub use sentences::Words;
 
 /// Why a triangle is in a mesh.
@@ -23,7 +17,7 @@ pub use sentences::Words;
 pub struct Explanation {
     /// The triangle.
     pub triangle: TreeTriangle,
-    /// What made it.
+    /// The cause of its existence.
     pub cause: Cause,
     /// Why [`Cause::required_by`] exceeds its target.
     pub demand: Option<Demand>,
@@ -39,7 +33,8 @@ pub enum Demand {
 }
 
 impl Explanation {
-    /// Why a triangle of the bisection tree is in a mesh that is up to date with a criterion and limits.
+    /// Returns why a triangle of the bisection tree is in a mesh that is up to date with a criterion and
+    /// limits.
     ///
     /// Time grows with the number of levels, not with the mesh.
     pub fn new(
@@ -59,7 +54,8 @@ impl Explanation {
         Self { triangle, cause, demand }
     }
 
-    /// How many bisections lie between the triangle that exceeds its target and the parent of the triangle.
+    /// Returns how many bisections lie between the triangle that exceeds its target and the parent of the
+    /// triangle.
     pub fn steps(&self) -> usize {
         match &self.cause {
             Cause::Compatibility { chain } => chain.len() - 1,
@@ -68,8 +64,8 @@ impl Explanation {
     }
 }
 
-/// Whether a triangle exceeds its target, and may be bisected.
-fn asks_to_bisect(triangle: &TreeTriangle, criterion: &RefinementCriterion<'_>, limits: &Limits) -> bool {
+/// Returns whether a triangle exceeds its target, and may be bisected.
+pub fn asks_to_bisect(triangle: &TreeTriangle, criterion: &RefinementCriterion<'_>, limits: &Limits) -> bool {
     let is_deepest = limits.max_level.is_some_and(|deepest| triangle.level() >= deepest);
     !is_deepest && criterion.asks_to_bisect(triangle.corners(), triangle.level())
 }

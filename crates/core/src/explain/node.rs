@@ -12,7 +12,7 @@ use crate::mesh::{Mesh, NodeId, TreeTriangle};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeFacts {
-    /// Where it is.
+    /// The position of the node.
     pub at: LatticePoint,
     /// The nodes that share an edge with it (Algorithm 13), anticlockwise.
     pub adjacent: Vec<NodeId>,
@@ -25,10 +25,10 @@ pub struct NodeFacts {
 }
 
 impl NodeFacts {
-    /// The facts about a node of a mesh.
+    /// Returns the facts about a node of a mesh.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     pub fn of(mesh: &Mesh, node: NodeId) -> Self {
         let at = mesh.node(node);
         let adjacent = adjacent(mesh, node);
@@ -56,7 +56,7 @@ fn adjacent(mesh: &Mesh, node: NodeId) -> Vec<NodeId> {
     adjacent
 }
 
-/// A triangle whose bisection made the node.
+/// Returns a triangle whose bisection made the node.
 fn maker(mesh: &Mesh, node: NodeId) -> Option<TreeTriangle> {
     let (at, lattice) = (mesh.node(node), mesh.lattice());
     let leaf = TreeTriangle::of(mesh, mesh.triangles_around(node).next()?);
@@ -68,7 +68,8 @@ fn maker(mesh: &Mesh, node: NodeId) -> Option<TreeTriangle> {
     first.parent(lattice)
 }
 
-/// The nodes in the middle of the halves of the triangle and of the one across, as far as they are there.
+/// Returns the nodes in the middle of the halves of the triangle and of the one across, as far as they are
+/// there.
 fn dependents(mesh: &Mesh, parent: &TreeTriangle) -> Vec<LatticePoint> {
     let pair = [Some(*parent), parent.across(mesh)];
     let halves = pair.iter().flatten().flat_map(TreeTriangle::children);
@@ -91,7 +92,7 @@ mod tests {
         let coarse = mesh.nodes().count();
         mesh.refine(&Limits::default(), |element| {
             let near = element.world_corners().iter().any(|x| x.distance(glam::dvec2(0.4, 0.3)) < 0.15);
-            Ok(element.triangle.level() < if near { 7 } else { 2 })
+            element.triangle.level() < if near { 7 } else { 2 }
         })
         .unwrap();
         let adjacency = mesh.adjacency();

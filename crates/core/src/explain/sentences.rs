@@ -8,7 +8,7 @@ use crate::layers::{Layer, LeastTarget};
 use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
 use crate::text::{LengthUnit, short_name, significant};
 
-/// What sentences need to name things.
+/// The names and units that sentences use.
 pub struct Words<'a> {
     /// The mesh of the explanation.
     pub mesh: &'a Mesh,
@@ -19,7 +19,7 @@ pub struct Words<'a> {
 }
 
 impl Words<'_> {
-    /// The explanation, a sentence for each step of the argument.
+    /// Returns the explanation, a sentence for each step of the argument.
     pub fn sentences(&self, explanation: &Explanation) -> Vec<String> {
         let level = explanation.triangle.level();
         match &explanation.cause {
@@ -97,7 +97,7 @@ impl Words<'_> {
         self.unit.after(&significant(length, 4))
     }
 
-    /// A point, as exactly as the domain can be told apart.
+    /// Returns a point, as exactly as the domain can be told apart.
     fn place(&self, point: DVec2) -> String {
         let size = self.mesh.lattice().bounds().size().max_element();
         let decimals = (6.0 - libm::log10(size).floor()).clamp(0.0, 12.0) as usize;

@@ -1,6 +1,7 @@
 //! Bounds of values over a rectangle, and how operations of f64 map them.
 
-/// The values of something over a closed rectangle: each of them is NaN or lies in [`least`, `greatest`].
+/// Bounds of values over a closed rectangle: each value is NaN or in the range from [`least`] to
+/// [`greatest`].
 ///
 /// The operations here bound the *rounded* results of f64 arithmetic. Addition, subtraction,
 /// multiplication, division and the square root round to the nearest number, which keeps order, so the
@@ -11,9 +12,9 @@
 /// [`greatest`]: Self::greatest
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// No value is smaller.
+    /// No value is smaller than this.
     pub least: f64,
-    /// No value is greater.
+    /// No value is greater than this.
     pub greatest: f64,
     /// False where some value might be NaN.
     pub valid: bool,
@@ -23,27 +24,27 @@ impl Bounds {
     /// Any value, NaN too.
     pub const ANYTHING: Self = Self { least: f64::NEG_INFINITY, greatest: f64::INFINITY, valid: false };
 
-    /// Values from `least` to `greatest`, none NaN.
+    /// Returns values from `least` to `greatest`, none NaN.
     pub const fn new(least: f64, greatest: f64) -> Self {
         Self { least, greatest, valid: true }
     }
 
-    /// One value; for NaN, [`Self::ANYTHING`].
+    /// Returns one value; for NaN, [`Self::ANYTHING`].
     pub const fn one(value: f64) -> Self {
         if value.is_nan() { Self::ANYTHING } else { Self::new(value, value) }
     }
 
-    /// Whether every value is the same number. 0 and −0 count as the same.
+    /// Returns whether every value is the same number. 0 and −0 count as the same.
     pub fn is_one(&self) -> bool {
         self.valid && self.least == self.greatest
     }
 
-    /// Whether `value` may be one of the values, also if it is NaN.
+    /// Returns whether `value` may be one of the values, also if it is NaN.
     pub fn contains(&self, value: f64) -> bool {
         if value.is_nan() { !self.valid } else { (self.least..=self.greatest).contains(&value) }
     }
 
-    /// The bounds of the values of both.
+    /// Returns the bounds of the values of both.
     pub fn union(self, other: Self) -> Self {
         Self {
             least: self.least.min(other.least),
@@ -52,7 +53,7 @@ impl Bounds {
         }
     }
 
-    /// The bounds of values that lie in both.
+    /// Returns the bounds of values that lie in both.
     pub fn intersection(self, other: Self) -> Self {
         Self {
             least: self.least.max(other.least),
@@ -66,7 +67,7 @@ impl Bounds {
         Self { valid: self.valid && valid, ..self }
     }
 
-    /// The bounds with each end moved outwards by `count` neighbouring numbers of f64.
+    /// Returns the bounds with each end moved outwards by `count` neighbouring numbers of f64.
     pub fn widened(self, count: u32) -> Self {
         let (mut least, mut greatest) = (self.least, self.greatest);
         for _ in 0..count {
@@ -75,18 +76,18 @@ impl Bounds {
         Self { least, greatest, ..self }
     }
 
-    /// The bounds with each end moved outwards by `margin`.
+    /// Returns the bounds with each end moved outwards by `margin`.
     pub fn expanded(self, margin: f64) -> Self {
         Self { least: self.least - margin, greatest: self.greatest + margin, ..self }
     }
 
-    /// The bounds of the results at the ends of the intervals, of which some may be NaN.
+    /// Returns bounds from the results at the ends of the intervals. Some of these may be NaN.
     pub(super) fn of_results(results: &[f64], valid: bool) -> Self {
         let numbers = results.iter().filter(|result| !result.is_nan()).map(|&result| Self::one(result));
         numbers.reduce(Self::union).unwrap_or(Self::ANYTHING).valid_if(valid)
     }
 
-    /// Whether 0 may be among the values.
+    /// Returns whether 0 may be among the values.
     pub(super) fn has_zero(self) -> bool {
         self.least <= 0.0 && self.greatest >= 0.0
     }
@@ -95,8 +96,8 @@ impl Bounds {
         self.least == f64::NEG_INFINITY || self.greatest == f64::INFINITY
     }
 
-    /// Bounds of a function that never decreases and is computed without a rounding error, or rounded to the
-    /// nearest number.
+    /// Returns bounds of a function that never decreases and is computed without a rounding error, or rounded
+    /// to the nearest number.
     pub(super) fn increasing(self, function: fn(f64) -> f64) -> Self {
         Self { least: function(self.least), greatest: function(self.greatest), valid: self.valid }
     }
@@ -138,8 +139,8 @@ impl Bounds {
     pub(crate) fn times(self, other: Self) -> Self {
         let vanishes = |a: Self, b: Self| a.has_zero() && b.has_infinity();
         let valid = self.valid && other.valid && !vanishes(self, other) && !vanishes(other, self);
-        // A product 0 · ∞ is NaN. The other products bound the rest: beside it there is a product with 0 and
-        // a number, or all products at the ends are infinite.
+        // A product 0 · ∞ is NaN. The other products bound the rest: there is also a product of 0 and a
+        // number, or all products at the ends are infinite.
         let [a, b, c, d] = [self.least, self.greatest, other.least, other.greatest];
         Self::of_results(&[a * c, a * d, b * c, b * d], valid)
     }
@@ -156,13 +157,13 @@ impl Bounds {
         Self::of_results(&[a / c, a / d, b / c, b / d], valid)
     }
 
-    /// The smaller of two values, NaN if either is.
+    /// Returns the smaller of two values, NaN if either is.
     pub(super) fn min(self, other: Self) -> Self {
         let (least, greatest) = (self.least.min(other.least), self.greatest.min(other.greatest));
         Self { least, greatest, valid: self.valid && other.valid }
     }
 
-    /// The larger of two values, NaN if either is.
+    /// Returns the larger of two values, NaN if either is.
     pub(super) fn max(self, other: Self) -> Self {
         let (least, greatest) = (self.least.max(other.least), self.greatest.max(other.greatest));
         Self { least, greatest, valid: self.valid && other.valid }

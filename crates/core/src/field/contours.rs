@@ -19,8 +19,8 @@ pub struct Contour {
 /// pixel at its lower or left end, plus one for an edge that runs upwards.
 type EdgeId = usize;
 
-/// The lines along which h̄ equals one of `diameters`, in world units, from the largest: line `i` separates
-/// the places where level `i` is fine enough from those that need a deeper one.
+/// Returns the lines along which h̄ equals one of `diameters`, in world units, from the largest: line `i`
+/// separates the places where level `i` is fine enough from those that need a deeper one.
 ///
 /// Between the centres of neighbouring pixels the logarithm of h̄ is taken as linear. Values that are not
 /// positive and finite have no lines around them.
@@ -67,7 +67,7 @@ fn cross_cell(values: [f64; 4], diameter: f64, edges: [EdgeId; 4], segments: &mu
     match crossed[..] {
         [a, b] => segments.push([edges[a], edges[b]]),
         [..] if crossed.len() == 4 => {
-            // Two corners across are finer. The mean says whether they are joined.
+            // Two opposite corners are finer. The mean decides whether they are joined.
             let joined = values.iter().sum::<f64>() / 4.0 < diameter;
             let pairs = if joined == finer[0] { [[0, 1], [2, 3]] } else { [[3, 0], [1, 2]] };
             segments.extend(pairs.map(|[a, b]| [edges[a], edges[b]]));
@@ -76,7 +76,7 @@ fn cross_cell(values: [f64; 4], diameter: f64, edges: [EdgeId; 4], segments: &mu
     }
 }
 
-/// Where the line of a diameter crosses an edge, in world units.
+/// Returns where the line of a diameter crosses an edge, in world units.
 fn place_on_edge(target: &Raster, edge: EdgeId, diameter: f64) -> DVec2 {
     let columns = target.size()[0] as usize;
     let (x, y) = ((edge / 2 % columns) as u32, (edge / 2 / columns) as u32);

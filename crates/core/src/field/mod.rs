@@ -1,4 +1,4 @@
-//! What target diameters h̄ are made from: formulas, the curve from risk to diameter, and the report's rule.
+//! The ingredients of target diameters h̄: formulas, the curve from risk to diameter, and the report's rule.
 
 mod bounds;
 mod contours;

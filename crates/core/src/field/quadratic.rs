@@ -19,7 +19,8 @@ use super::Bounds;
 pub struct Quadratic {
     /// The coefficients of 1, u, v, u², uv and v².
     coefficients: [f64; 6],
-    /// Not negative; infinite where the function may not be a finite number.
+    /// The largest distance from the polynomial: not negative, and infinite if the function may not be a
+    /// finite number.
     rest: f64,
 }
 
@@ -33,7 +34,7 @@ impl Quadratic {
     /// A function of which nothing is known.
     pub const UNKNOWN: Self = Self { coefficients: [0.0; 6], rest: f64::INFINITY };
 
-    /// One number everywhere.
+    /// Returns one number everywhere.
     pub const fn constant(value: f64) -> Self {
         if value.is_finite() {
             Self { coefficients: [value, 0.0, 0.0, 0.0, 0.0, 0.0], rest: 0.0 }
@@ -42,14 +43,14 @@ impl Quadratic {
         }
     }
 
-    /// A coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `rest` of it.
+    /// Returns a coordinate: `middle` ± `half` along axis 0 or 1, for numbers within `rest` of it.
     pub fn coordinate(axis: usize, middle: f64, half: f64, rest: f64) -> Self {
         let mut coefficients = [middle, 0.0, 0.0, 0.0, 0.0, 0.0];
         coefficients[1 + axis] = half;
         Self { coefficients, rest }
     }
 
-    /// A function of which bounds are known.
+    /// Returns a function of which bounds are known.
     pub fn of_bounds(Bounds { least, greatest, valid }: Bounds) -> Self {
         if !(valid && least.is_finite() && greatest.is_finite()) {
             return Self::UNKNOWN;
@@ -62,50 +63,51 @@ impl Quadratic {
         Self { rest, ..Self::constant(middle) }
     }
 
-    /// A polynomial and the largest distance from it.
+    /// Creates a polynomial and the largest distance from it.
     pub fn new(coefficients: [f64; 6], rest: f64) -> Self {
         let is_known = rest.is_finite() && coefficients.iter().all(|c| c.is_finite());
         if is_known { Self { coefficients, rest } } else { Self::UNKNOWN }
     }
 
-    /// The largest distance from the polynomial.
+    /// Returns the largest distance from the polynomial.
     pub fn rest(&self) -> f64 {
         self.rest
     }
 
-    /// The value of the polynomial in the middle of the rectangle.
+    /// Returns the value of the polynomial in the middle of the rectangle.
     pub fn middle(&self) -> f64 {
         self.coefficients[0]
     }
 
-    /// Whether the function is known to be one number.
+    /// Returns whether the function is known to be one number.
     pub fn is_constant(&self) -> bool {
         self.rest == 0.0 && self.coefficients[1..].iter().all(|&c| c == 0.0)
     }
 
-    /// The same with a greater distance from the polynomial.
+    /// Returns this model with `rest` added to the distance from the polynomial.
     pub fn loosened(&self, rest: f64) -> Self {
         Self::new(self.coefficients, self.rest + rest)
     }
 
-    /// How much the linear terms, and how much the quadratic ones, can change the value.
+    /// Returns how much the linear terms, and how much the quadratic ones, can change the value.
     fn reach(&self) -> [f64; 2] {
         let [_, a, b, c, d, e] = self.coefficients.map(f64::abs);
         [a + b, c + d + e]
     }
 
-    /// No value is farther from 0.
+    /// Returns an upper bound of the absolute values.
     pub fn size(&self) -> f64 {
         let [linear, bend] = self.reach();
         self.coefficients[0].abs() + linear + bend + self.rest
     }
 
-    /// Bounds over the whole rectangle.
+    /// Returns bounds over the whole rectangle.
     pub fn bounds(&self) -> Bounds {
         self.bounds_over([0.0; 2], [1.0; 2])
     }
 
-    /// Bounds over a part of the rectangle, by its centre and its half sides in the coordinates u and v.
+    /// Returns bounds over a part of the rectangle, by its centre and its half sides in the coordinates u and
+    /// v.
     pub fn bounds_over(&self, [u, v]: [f64; 2], [half_u, half_v]: [f64; 2]) -> Bounds {
         let [c, cu, cv, cuu, cuv, cvv] = self.coefficients;
         // The same polynomial around the centre of the part.
@@ -129,17 +131,17 @@ impl Quadratic {
         Self { coefficients: self.coefficients.map(|c| -c), ..*self }
     }
 
-    /// A sum.
+    /// Returns a sum.
     pub fn plus(&self, other: &Self) -> Self {
         self.weighted(1.0, other, 1.0)
     }
 
-    /// A difference.
+    /// Returns a difference.
     pub fn minus(&self, other: &Self) -> Self {
         self.weighted(1.0, other, -1.0)
     }
 
-    /// A sum with a factor for each of the two.
+    /// Returns a sum with a factor for each of the two.
     fn weighted(&self, factor: f64, other: &Self, other_factor: f64) -> Self {
         let (a, b) = (&self.coefficients, &other.coefficients);
         let coefficients = std::array::from_fn(|n| factor * a[n] + other_factor * b[n]);
@@ -173,7 +175,7 @@ impl Quadratic {
         Self::new(coefficients, rest + 16.0 * EPSILON * size * other_size + TINY)
     }
 
-    /// A product with a number.
+    /// Returns a product with a number.
     fn scaled(&self, factor: f64) -> Self {
         let rest = factor.abs() * self.rest + 4.0 * EPSILON * factor.abs() * self.size() + TINY;
         Self::new(self.coefficients.map(|c| factor * c), rest)
@@ -184,7 +186,7 @@ impl Quadratic {
         self.times(self)
     }
 
-    /// A quotient.
+    /// Returns a quotient.
     pub fn over(&self, other: &Self) -> Self {
         self.times(&other.inverse())
     }
@@ -218,8 +220,8 @@ impl Quadratic {
         self.composed(series, 0.0625 / (least * least * least.sqrt()), 0.0)
     }
 
-    /// A function of f, from its Taylor series at [`Self::middle`]: the value, the derivative, and half the
-    /// second derivative. `third` is at least a sixth of the size of its third derivative over
+    /// Returns a function of f, from its Taylor series at [`Self::middle`]: the value, the derivative, and
+    /// half the second derivative. `third` is at least a sixth of the size of its third derivative over
     /// [`Self::bounds`]; by at most `error` the series is off, beyond a few ulps of each coefficient.
     pub fn composed(&self, [value, slope, bend]: [f64; 3], third: f64, error: f64) -> Self {
         let [_, u, v, uu, uv, vv] = self.coefficients;
@@ -240,7 +242,7 @@ impl Quadratic {
         Self::new(coefficients, rest * (1.0 + 1e-12) + rounding + TINY)
     }
 
-    /// The larger of two.
+    /// Returns the larger of two.
     pub fn max(&self, other: &Self) -> Self {
         let Bounds { least, greatest, valid } = self.minus(other).bounds();
         if !valid {
@@ -260,17 +262,17 @@ impl Quadratic {
         between.plus(&Self::constant(middle)).loosened(middle + rounding)
     }
 
-    /// The smaller of two.
+    /// Returns the smaller of two.
     pub fn min(&self, other: &Self) -> Self {
         self.negated().max(&other.negated()).negated()
     }
 
-    /// The size without sign.
+    /// Returns the size without sign.
     pub fn abs(&self) -> Self {
         self.max(&self.negated())
     }
 
-    /// What holds for both: either may be the value at each point.
+    /// Returns a model that holds for both functions: either may be the value at each point.
     pub fn either(&self, other: &Self) -> Self {
         if self == other {
             return *self;
@@ -281,7 +283,8 @@ impl Quadratic {
         Self::new(middle.coefficients, middle.rest + rest)
     }
 
-    /// This one or what bounds say, whichever leaves less open.
+    /// Returns this model or the one made from `bounds`, whichever has the smaller rest. Calls `bounds` only
+    /// if this model is coarse.
     pub fn or_bounds(self, bounds: impl FnOnce() -> Bounds) -> Self {
         let [linear, bend] = self.reach();
         if self.rest <= linear + bend {

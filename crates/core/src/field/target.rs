@@ -15,13 +15,13 @@ pub enum RefinementRule {
 /// units.
 ///
 /// # Errors
-/// With the point and the value, when no mesh can meet it.
+/// Fails with the point and the value, when no mesh can meet it.
 #[inline]
 pub fn checked_target(value: f64, at: DVec2) -> Result<f64, InvalidTarget> {
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(InvalidTarget { at, value }) }
 }
 
-/// The nearest f32 that is not below `value`: rounding must not ask for one level more.
+/// Returns the nearest f32 that is not below `value`, so that rounding never requires one level more.
 pub fn f32_not_below(value: f64) -> f32 {
     let rounded = value as f32;
     if f64::from(rounded) < value { rounded.next_up() } else { rounded }

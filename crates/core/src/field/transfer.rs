@@ -33,9 +33,9 @@ pub enum TransferError {
     /// The smallest diameter is above the largest.
     #[error("The smallest diameter {} is above the largest, {}: exchange them.", Number(*h_min), Number(*h_max))]
     Reversed {
-        /// As given.
+        /// The smallest diameter as given.
         h_min: f64,
-        /// As given.
+        /// The largest diameter as given.
         h_max: f64,
     },
     /// The exponent is out of range.
@@ -45,7 +45,7 @@ pub enum TransferError {
 
 /// Turns a risk into a target diameter.
 pub trait RiskToDiameter {
-    /// The target diameter in world units for a risk, which is clamped to 0 to 1. NaN gives NaN.
+    /// Returns the target diameter in world units for a risk, which is clamped to 0 to 1. NaN gives NaN.
     fn diameter(&self, risk: f64) -> f64;
 }
 
@@ -53,7 +53,7 @@ impl Transfer {
     /// Checks that the curve falls from a finite `h_max` to a positive `h_min`.
     ///
     /// # Errors
-    /// Names the number that is out of range.
+    /// Fails with the name of the number that is out of range.
     pub fn checked(self) -> Result<Self, TransferError> {
         for (name, value) in [("smallest", self.h_min), ("largest", self.h_max)] {
             if !(value > 0.0 && value.is_finite()) {
@@ -105,9 +105,10 @@ impl TransferTable {
         Self { knots }
     }
 
-    /// A diameter that no risk of at most `greatest` goes below, and one that no risk of at least `least`
-    /// exceeds: those of the knots around. Where few knots are between, those of the curve itself, which the
-    /// table is made from: a search must see that smaller and smaller places have less and less between.
+    /// Returns a diameter that no risk of at most `greatest` goes below, and one that no risk of at least
+    /// `least` exceeds. They are the values at the knots around these risks. If few knots are between them,
+    /// they are the values of the curve itself, from which the table is made: a search needs bounds that get
+    /// closer as its cells get smaller.
     #[inline]
     pub fn enclosing(&self, curve: &Transfer, least: f64, greatest: f64) -> [f64; 2] {
         let place = |risk: f64| risk.clamp(0.0, 1.0) * STEPS as f64;

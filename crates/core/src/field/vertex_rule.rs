@@ -14,11 +14,11 @@ pub struct VertexRule {
 }
 
 impl VertexRule {
-    /// Whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world units; it
-    /// must be the same function in every call.
+    /// Returns whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world
+    /// units; it must be the same function in every call.
     ///
     /// # Errors
-    /// Where h̄ is not a positive, finite length.
+    /// Fails where h̄ is not a positive, finite length.
     #[inline]
     pub fn exceeds(
         &mut self,

@@ -1,10 +1,11 @@
-//! Where the mesh must be looked at again after an edit, on the lattice.
+//! The areas of the lattice in which the mesh must be checked again after an edit.
 
 use super::difference::Circumstances;
+use super::engine::KnownParts;
 use super::engine::cells::Cells;
 use super::extent::joined;
 use super::reach::Reach;
-use super::{Combine, LayerId, PaintLayers, SizeField};
+use super::{Combine, LayerId, PaintLayers, SettledSquares, SizeField};
 use crate::geometry::{LatticeRect, Rect};
 use crate::mesh::{ChangedArea, Falloff, TargetChange};
 use crate::raster::ValueRange;
@@ -19,11 +20,11 @@ const MOST_EMPTY: f64 = 2.0;
 pub struct PaintChange {
     /// The layer.
     pub layer: LayerId,
-    /// Where its pixels changed, in world units.
+    /// The rectangle in which the pixels changed, in world units.
     pub area: Rect,
     /// The range of the values of the pixels before, there and perhaps around it.
     pub before: ValueRange,
-    /// What happened to the diameters that the pixels ask for.
+    /// The change of the target diameters of the pixels.
     pub change: TargetChange,
 }
 
@@ -59,8 +60,8 @@ fn near_changes_joined(painted: &[PaintChange]) -> Vec<PaintChange> {
 }
 
 impl SizeField {
-    /// Where and how h̄ can have changed since it was that of an earlier field on the same lattice, with the
-    /// same paint.
+    /// Returns where and how h̄ can have changed since it was that of an earlier field on the same lattice,
+    /// with the same paint.
     ///
     /// `outline_areas` are rectangles in world units that hold every edge that only one of the two outlines
     /// has, if they are known.
@@ -79,15 +80,15 @@ impl SizeField {
                 let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
                 let least = self.least_diameter(asked[0].min(asked[1]), old);
                 // Another limit of the slope is a step of its own, which changes h̄ everywhere.
-                changes.extend(old.reached(core, least, [old, self], paint, step.change));
+                changes.extend(old.reached(core, least, [old, self], (paint, None), step.change));
             }
         }
         changes.dedup();
         changes
     }
 
-    /// The layers that ask for smaller diameters than in an earlier field, if nothing else differs; see
-    /// [`Self::of_layers_alone`].
+    /// Returns the layers that ask for smaller diameters than in an earlier field, if nothing else differs;
+    /// see [`Self::of_layers_alone`].
     pub fn finer_layers_since(
         &self,
         old: &Self,
@@ -99,20 +100,34 @@ impl SizeField {
         steps.iter().map(|step| step.layer.filter(|_| step.change == TargetChange::Finer)).collect()
     }
 
-    /// Where and how h̄ can have changed after pixels changed. `paint` has the pixels as they are now.
-    pub fn changes_by_paint(&self, painted: &[PaintChange], paint: &PaintLayers) -> Vec<ChangedArea> {
+    /// Returns where and how h̄ can have changed after pixels changed. `paint` has the pixels as they are
+    /// now; `squares` must have been used for this field and these pixels only.
+    pub fn changes_by_paint(
+        &self,
+        squares: &mut SettledSquares,
+        painted: &[PaintChange],
+        paint: &PaintLayers,
+    ) -> Vec<ChangedArea> {
         let changes = match self.spec().gradation {
             Some(_) => near_changes_joined(painted),
             None => painted.to_vec(),
         };
-        changes.iter().flat_map(|painted| self.changes_by_one(painted, paint)).collect()
+        squares.make_room();
+        let cores: Vec<Cells> = changes.iter().filter_map(|painted| self.core(&painted.area)).collect();
+        let changed = |painted| self.changes_by_one(painted, paint, (&cores, &mut squares.known));
+        changes.iter().flat_map(changed).collect()
     }
 
-    /// As [`Self::changes_by_paint`], of one change; nowhere if the field has no such layer.
+    /// Returns the areas of [`Self::changes_by_paint`] for one change; none if the field has no such layer.
     ///
     /// A change to smaller diameters ends, and one to larger diameters begins, with what is asked for now and
     /// before.
-    fn changes_by_one(&self, painted: &PaintChange, paint: &PaintLayers) -> Vec<ChangedArea> {
+    fn changes_by_one(
+        &self,
+        painted: &PaintChange,
+        paint: &PaintLayers,
+        repainted: (&[Cells], &mut KnownParts),
+    ) -> Vec<ChangedArea> {
         let PaintChange { layer, area, before, change } = painted;
         let stack = self.spec().layers.iter();
         let Some(layer) =
@@ -125,21 +140,26 @@ impl SizeField {
             None => Some(*area),
         };
         let Some(core) = area.and_then(|area| self.core(&area)) else { return Vec::new() };
-        if layer.combine != Combine::Finest || !self.spec().is_ordered(self.longest()) {
-            let least = self.least_diameter(0.0, self);
-            return self.reached(core, least, [self, self], paint, TargetChange::Any).collect();
-        }
-        let compiled = self.compiled().iter().find(|compiled| compiled.id == layer.id);
-        let asked_before = compiled.map_or(0.0, |compiled| compiled.diameters_of(*before).least);
-        let asked = match change {
-            TargetChange::Finer => self.least_asked(Some(layer.id), core, paint),
-            TargetChange::Coarser => asked_before,
-            TargetChange::Any => asked_before.min(self.least_asked(Some(layer.id), core, paint)),
+        let is_ordered = layer.combine == Combine::Finest && self.spec().is_ordered(self.longest());
+        let (asked, change) = match change {
+            _ if !is_ordered => (0.0, TargetChange::Any),
+            change => {
+                let compiled = self.compiled().iter().find(|compiled| compiled.id == layer.id);
+                let before = compiled.map_or(0.0, |compiled| compiled.diameters_of(*before).least);
+                let now = || self.least_asked(Some(layer.id), core, paint);
+                let asked = match change {
+                    TargetChange::Finer => now(),
+                    TargetChange::Coarser => before,
+                    TargetChange::Any => before.min(now()),
+                };
+                (asked, *change)
+            }
         };
-        self.reached(core, self.least_diameter(asked, self), [self, self], paint, *change).collect()
+        let least = self.least_diameter(asked, self);
+        self.reached(core, least, [self, self], (paint, Some(repainted)), change).collect()
     }
 
-    /// The least diameter that a layer asks for in some cells, in world units; 0 without a layer, and
+    /// Returns the least diameter that a layer asks for in some cells, in world units; 0 without a layer, and
     /// infinite where it is hidden.
     fn least_asked(&self, layer: Option<LayerId>, core: Cells, paint: &PaintLayers) -> f64 {
         let Some(id) = layer else { return 0.0 };
@@ -147,32 +167,32 @@ impl SizeField {
         compiled.map_or(f64::INFINITY, |layer| layer.diameters(paint, &core, self.lattice()).0.least)
     }
 
-    /// A diameter that a layer asks for, no less than the limits of two fields, in world units.
+    /// Returns a diameter that a layer asks for, no less than the limits of two fields, in world units.
     fn least_diameter(&self, asked: f64, other: &Self) -> f64 {
         let limits = [self.spec(), other.spec()].map(|spec| spec.transfer.h_min);
         asked.max(limits[0].min(limits[1]))
     }
 
-    /// The diameter of a coarse triangle, in world units: nothing coarser matters to a mesh.
+    /// Returns the diameter of a coarse triangle, in world units: nothing coarser matters to a mesh.
     pub fn longest(&self) -> f64 {
         self.lengths()[0]
     }
 
-    /// The rectangles that an edit of some cells affects, before and after which no layer that changed asks
-    /// for less than `least` there.
+    /// Returns the rectangles that an edit of some cells affects, before and after which no layer that
+    /// changed asks for less than `least` there.
     fn reached(
         &self,
         core: Cells,
         least: f64,
         fields: [&Self; 2],
-        paint: &PaintLayers,
+        (paint, repainted): (&PaintLayers, Option<(&[Cells], &mut KnownParts)>),
         change: TargetChange,
-    ) -> impl Iterator<Item = ChangedArea> {
+    ) -> impl Iterator<Item = ChangedArea> + use<> {
         let extent = self.lattice().extent();
         let cells = match self.spec().gradation {
             _ if least >= self.longest() => Vec::new(),
             None => vec![core],
-            Some(slope) => Reach { fields, paint, slope }.of(core, least),
+            Some(slope) => Reach { fields, paint, slope, repainted }.of(core, least),
         };
         let closed = move |cells: Cells| LatticeRect::from(cells).expanded(1, extent);
         let falloff = Falloff { core: closed(core), least, slope: self.spec().gradation.unwrap_or(0.0) };
@@ -183,11 +203,11 @@ impl SizeField {
         })
     }
 
-    /// The cells that are told what is at some point of a rectangle in world units.
+    /// Returns the cells that are told what is at some point of a rectangle in world units.
     ///
     /// A function counts in a whole cell with its value at the centre, and lines between pixels are moved to
     /// lattice lines.
-    fn core(&self, area: &Rect) -> Option<Cells> {
+    pub(super) fn core(&self, area: &Rect) -> Option<Cells> {
         let lattice = self.lattice();
         let around = Rect::new(area.min - lattice.step(), area.max + lattice.step());
         Some(Cells::of(&lattice.rect_around(&around)?))
@@ -241,7 +261,7 @@ mod tests {
             let spec = SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation };
             let field = SizeField::new(spec, &lattice);
             let (core, change) = (field.core(&edited).unwrap(), TargetChange::Any);
-            let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], &paint, change).collect();
+            let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], (&paint, None), change).collect();
             let least = areas.iter().map(|area| area.rect.min.x).min();
             let most = areas.iter().map(|area| area.rect.max.x).max();
             f64::from(most.unwrap() - least.unwrap()) * lattice.step().x

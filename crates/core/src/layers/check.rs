@@ -21,7 +21,7 @@ pub struct InvalidLayer {
     pub at: DVec2,
     /// The value there.
     pub value: f64,
-    /// What is allowed.
+    /// The rule for values of the layer.
     pub rule: &'static str,
 }
 
@@ -32,7 +32,7 @@ pub struct InvalidLayer {
 /// layer asks for nothing.
 #[derive(Clone, Debug, Default)]
 pub struct LayerCheck {
-    /// What is left: the number of a layer among the visible ones, and cells.
+    /// The cells that are left to check, each with the number of a layer among the visible ones.
     left: Vec<(usize, Cells)>,
 }
 
@@ -40,15 +40,15 @@ pub struct LayerCheck {
 const FINEST_LOG: u32 = 10;
 
 impl LayerCheck {
-    /// Work that checks all visible layers of a field.
+    /// Creates the work that checks all visible layers of a field.
     pub fn new(field: &SizeField) -> Self {
         let all = Cells::all(field.lattice().extent());
         let analytic = |n: &usize| field.compiled()[*n].analytic().is_some();
         Self { left: (0..field.compiled().len()).rev().filter(analytic).map(|n| (n, all)).collect() }
     }
 
-    /// Work that checks the visible layers of a field that differ from all visible ones of `checked`, which
-    /// were found valid on the same lattice.
+    /// Returns the work that checks the visible layers of a field that differ from all visible ones of
+    /// `checked`, which were found valid on the same lattice.
     pub fn of_changed(field: &SizeField, checked: &[Layer]) -> Self {
         let mut check = Self::new(field);
         let visible: Vec<&Layer> = field.spec().layers.iter().filter(|layer| layer.visible).collect();
@@ -57,7 +57,7 @@ impl LayerCheck {
         check
     }
 
-    /// Whether nothing is left.
+    /// Returns whether nothing is left.
     pub fn is_done(&self) -> bool {
         self.left.is_empty()
     }
@@ -65,7 +65,7 @@ impl LayerCheck {
     /// About `budget` evaluations.
     ///
     /// # Errors
-    /// The first invalid value.
+    /// Fails with the first invalid value.
     pub fn advance(&mut self, field: &SizeField, budget: usize) -> Result<Progress, InvalidLayer> {
         for _ in 0..budget {
             let Some((number, cells)) = self.left.pop() else { return Ok(Progress::Done) };

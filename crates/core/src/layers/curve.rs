@@ -56,10 +56,10 @@ pub enum CurveError {
 }
 
 impl ValueCurve {
-    /// The curve through knots [value, target diameter], in increasing order of value.
+    /// Returns the curve through knots [value, target diameter], in increasing order of value.
     ///
     /// # Errors
-    /// When there is no knot, a number is not valid, or the values do not increase.
+    /// Fails when there is no knot, a number is not valid, or the values do not increase.
     pub fn new(knots: Vec<[f64; 2]>) -> Result<Self, CurveError> {
         if knots.is_empty() {
             return Err(CurveError::Empty);
@@ -80,8 +80,8 @@ impl ValueCurve {
         Ok(Self { knots })
     }
 
-    /// The straight line over a range of values, from the first of two target diameters, in world units, to
-    /// the second; one knot where the range is one value. `None` if a number is not valid.
+    /// Returns the straight line over a range of values, from the first of two target diameters, in world
+    /// units, to the second; one knot where the range is one value. `None` if a number is not valid.
     pub fn over(values: ValueRange, [at_least, at_greatest]: [f64; 2]) -> Option<Self> {
         let mut knots = vec![[f64::from(values.least), at_least]];
         if !values.is_one() {
@@ -90,8 +90,8 @@ impl ValueCurve {
         Self::new(knots).ok()
     }
 
-    /// The same function with another knot, halfway between the two neighbours that are furthest apart in
-    /// value. `None` if there is no number between any two.
+    /// Returns this function with one more knot, halfway between the two neighbours that are furthest
+    /// apart in value. `None` if there is no number between any two.
     pub fn with_another_knot(&self) -> Option<Self> {
         let halfway = |place: usize| 0.5 * self.knots[place - 1][0] + 0.5 * self.knots[place][0];
         // Half the distance: the distance itself may overflow.
@@ -103,32 +103,32 @@ impl ValueCurve {
         Self::new(knots).ok()
     }
 
-    /// The curve with another knot [value, target diameter] at a place, counted from 0.
+    /// Returns the curve with another knot [value, target diameter] at a place, counted from 0.
     ///
     /// # Errors
-    /// When a number is not valid, or the values do not increase.
+    /// Fails when a number is not valid, or the values do not increase.
     pub fn with_knot(&self, place: usize, knot: [f64; 2]) -> Result<Self, CurveError> {
         let mut knots = self.knots.clone();
         knots[place] = knot;
         Self::new(knots)
     }
 
-    /// The curve without the knot at a place, counted from 0.
+    /// Returns the curve without the knot at a place, counted from 0.
     ///
     /// # Errors
-    /// When it is the only one.
+    /// Fails when it is the only one.
     pub fn without_knot(&self, place: usize) -> Result<Self, CurveError> {
         let mut knots = self.knots.clone();
         knots.remove(place);
         Self::new(knots)
     }
 
-    /// The knots as [value, target diameter], in increasing order of value.
+    /// Returns the knots as [value, target diameter], in increasing order of value.
     pub fn knots(&self) -> &[[f64; 2]] {
         &self.knots
     }
 
-    /// The target diameter for a value, in world units; NaN for NaN.
+    /// Returns the target diameter for a value, in world units; NaN for NaN.
     pub fn diameter(&self, value: f64) -> f64 {
         if value.is_nan() {
             return value;
@@ -143,7 +143,7 @@ impl ValueCurve {
         (d0 * (1.0 - share) + d1 * share).clamp(d0.min(d1), d0.max(d1))
     }
 
-    /// Bounds of the target diameter for the values from `least` to `greatest`.
+    /// Returns bounds of the target diameter for the values from `least` to `greatest`.
     pub fn bounds(&self, least: f64, greatest: f64) -> Bounds {
         if least.is_nan() || greatest.is_nan() {
             return Bounds::ANYTHING;

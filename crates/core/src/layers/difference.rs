@@ -1,4 +1,5 @@
-//! What an edit of a size field changes. This is the one place that decides it.
+//! What an edit changes: of a size field, and of the risk that paths follow. This is the one place that
+//! decides it.
 //!
 //! h̄ before gradation is a function of what each layer asks for at the same point, and a monotone one: where
 //! a layer asks for a smaller diameter than before, h̄ does not grow. In a layer in which the finest counts,
@@ -14,7 +15,10 @@
 //! specifications are taken apart completely, without `..`: a new field does not compile until somebody has
 //! decided what it changes.
 
+use std::sync::Arc;
+
 use super::extent::{Extent, ExtentContext};
+use super::risk::{RiskField, RiskLayer, RiskSource};
 use super::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
 };
@@ -25,16 +29,16 @@ use crate::mesh::TargetChange::{self, Any, Coarser, Finer};
 /// One step from a specification of a size field to another.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SpecChange {
-    /// Where h̄ before gradation can differ.
+    /// The area in which h̄ before gradation can differ.
     pub area: Extent,
-    /// In which direction.
+    /// The direction of the change.
     pub change: TargetChange,
     /// The layer that changes, if it is one in which the finest counts: h̄ changes only where that is what it
     /// asks for before or after.
     pub layer: Option<LayerId>,
 }
 
-/// What both specifications of an edit have in common, and how their outlines differ.
+/// The common settings of both specifications of an edit, and the difference of their outlines.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Circumstances<'a> {
     /// The painted pixels.
@@ -47,7 +51,7 @@ pub(crate) struct Circumstances<'a> {
 }
 
 impl SizeFieldSpec {
-    /// The steps from an earlier specification to this one; none where the mesh is the same.
+    /// Returns the steps from an earlier specification to this one; none where the mesh is the same.
     pub(crate) fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
         let new = self;
         let Self { layers, transfer, unasked, outline, gradation } = new;
@@ -73,9 +77,9 @@ impl SizeFieldSpec {
 }
 
 impl SizeFieldSpec {
-    /// Whether h̄ is nowhere larger than where no layer asks for anything, as far as it matters to a mesh
-    /// with coarse triangles of the diameter `longest`, in world units. Otherwise a layer that asks for more
-    /// can let h̄ grow.
+    /// Returns whether h̄ is nowhere larger than where no layer asks for anything, as far as it matters to a
+    /// mesh with coarse triangles of the diameter `longest`, in world units. Otherwise a layer that asks for
+    /// more can let h̄ grow.
     pub(super) fn is_ordered(&self, longest: f64) -> bool {
         self.unasked >= self.transfer.h_max.min(longest)
     }
@@ -106,12 +110,12 @@ impl Limits {
     }
 }
 
-/// A limit of the slope as a number.
+/// Returns a limit of the slope as a number.
 fn slope(gradation: Option<f64>) -> f64 {
     gradation.unwrap_or(f64::INFINITY)
 }
 
-/// The direction of a change of numbers with which h̄ grows; `None` where none differs.
+/// Returns the direction of a change of numbers with which h̄ grows; `None` where none differs.
 fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChange> {
     let all = |holds: fn(&f64, &f64) -> bool| new.iter().zip(&old).all(|(new, old)| holds(new, old));
     if all(|new, old| new == old) {
@@ -125,7 +129,7 @@ fn direction<const N: usize>(new: [f64; N], old: [f64; N]) -> Option<TargetChang
     }
 }
 
-/// What happens to h̄ where a layer ceases to ask for something.
+/// Returns the change of h̄ where a layer no longer has a target.
 fn when_lost(combine: Combine) -> TargetChange {
     match combine {
         Combine::Finest => Coarser,
@@ -134,7 +138,7 @@ fn when_lost(combine: Combine) -> TargetChange {
     }
 }
 
-/// What happens to h̄ where a layer begins to ask for something.
+/// Returns the change of h̄ where a layer gets a target.
 fn when_gained(combine: Combine) -> TargetChange {
     match combine {
         Combine::Finest => Finer,
@@ -201,7 +205,8 @@ impl Steps<'_> {
         }
     }
 
-    /// The same layers in another order. Where only the finest counts, order does not matter.
+    /// Adds the changes by another order of equal layers. Where only the finest layer counts, the order does
+    /// not matter.
     fn add_new_order(&mut self, new: &[&Layer], old: &[&Layer]) {
         let is_same = |(new, old): &(&&Layer, &&Layer)| new.id == old.id;
         let first = new.iter().zip(old).take_while(is_same).count();
@@ -271,7 +276,7 @@ impl Steps<'_> {
     fn add_threats(&mut self, layer: &Layer, new: &Threats, old: &Threats) {
         let is_finest = layer.combine == Combine::Finest;
         let [mut finer, mut coarser] = [Vec::new(), Vec::new()];
-        for (before, after) in changed_threats(new.list(), old.list()) {
+        for (before, after) in changed_threats(new, old) {
             let [gains, loses] = match (before, after) {
                 (Some(before), Some(after)) => {
                     let differs_in_peak = Threat { peak: before.peak, ..*after } == *before;
@@ -282,8 +287,6 @@ impl Steps<'_> {
                 }
                 (before, after) => [after.is_some(), before.is_some()],
             };
-            let reach =
-                |threat: Option<&Threat>| threat.filter(|threat| threat.peak > 0.0).map(Threat::reach);
             finer.extend(reach(after).filter(|_| gains));
             coarser.extend(reach(before).filter(|_| loses));
         }
@@ -316,11 +319,55 @@ impl Steps<'_> {
     }
 }
 
+impl RiskField {
+    /// Rectangles in world units on the closed union of which the risk can differ from that of another
+    /// stack. `None` where it can differ anywhere.
+    pub fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
+        let (Self { layers }, Self { layers: before }) = (self, other);
+        if layers.len() != before.len() {
+            return None;
+        }
+        let areas = layers.iter().zip(before).map(|(layer, before)| risk_areas(layer, before));
+        areas.collect::<Option<Vec<_>>>().map(|areas| areas.concat())
+    }
+}
+
+/// Where two states of a layer of risk can have other risks.
+fn risk_areas(new: &RiskLayer, old: &RiskLayer) -> Option<Vec<Rect>> {
+    let RiskLayer { combine, mask, source } = new;
+    let RiskLayer { combine: old_combine, mask: old_mask, source: old_source } = old;
+    if combine != old_combine || mask != old_mask {
+        return None;
+    }
+    let is_same = match (source, old_source) {
+        (RiskSource::Paint(new), RiskSource::Paint(old)) => return new.areas_that_differ(old),
+        (RiskSource::Threats(new), RiskSource::Threats(old)) => {
+            let changed = changed_threats(new, old).into_iter();
+            return Some(
+                changed.flat_map(|(before, after)| reach(before).into_iter().chain(reach(after))).collect(),
+            );
+        }
+        (RiskSource::Raster(new), RiskSource::Raster(old)) => Arc::ptr_eq(new, old),
+        (RiskSource::Formula(new), RiskSource::Formula(old)) => new == old,
+        (
+            RiskSource::Paint(_) | RiskSource::Threats(_) | RiskSource::Raster(_) | RiskSource::Formula(_),
+            _,
+        ) => false,
+    };
+    is_same.then(Vec::new)
+}
+
+/// Where a threat is felt, if there is one.
+fn reach(threat: Option<&Threat>) -> Option<Rect> {
+    threat.filter(|threat| threat.peak > 0.0).map(Threat::reach)
+}
+
 /// The threats of two lists that differ: those before and after, at the same place of the list.
-fn changed_threats<'a>(
-    new: &'a [Threat],
-    old: &'a [Threat],
-) -> Vec<(Option<&'a Threat>, Option<&'a Threat>)> {
+fn changed_threats<'a>(new: &'a Threats, old: &'a Threats) -> Vec<(Option<&'a Threat>, Option<&'a Threat>)> {
+    if new.shares_list_with(old) {
+        return Vec::new();
+    }
+    let (new, old) = (new.list(), old.list());
     if new.len() == old.len() {
         let pairs = old.iter().zip(new).filter(|(before, after)| before != after);
         return pairs.map(|(before, after)| (Some(before), Some(after))).collect();
@@ -333,8 +380,8 @@ fn changed_threats<'a>(
     left.chain(new[..new.len() - last].iter().map(|after| (None, Some(after)))).collect()
 }
 
-/// The direction of a change of the values of a layer, `None` where they are equal. The transfer curve, the
-/// outline, threats and paint are not looked at here.
+/// Returns the direction of a change of the values of a layer, `None` where they are equal. The transfer
+/// curve, the outline, threats and paint are not looked at here.
 fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<TargetChange> {
     if new == old {
         return None;
@@ -374,7 +421,7 @@ fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<T
     }
 }
 
-/// The direction of a change of a formula: known where both are constant.
+/// Returns the direction of a change of a formula: known where both are constant.
 fn formula_change(quantity: Quantity, [new, old]: [&Formula; 2], combine: Combine) -> TargetChange {
     let (Quantity::Diameter, Some(new), Some(old)) = (quantity, new.constant(), old.constant()) else {
         return Any;

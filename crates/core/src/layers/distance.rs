@@ -21,12 +21,12 @@ pub struct ShapeList {
 }
 
 impl ShapeList {
-    /// Whether there is nothing to be near to.
+    /// Returns whether there is nothing to be near to.
     pub fn is_empty(&self) -> bool {
         self.segments().next().is_none()
     }
 
-    /// Memory, in bytes.
+    /// Returns the memory, in bytes.
     fn bytes(&self) -> usize {
         let points = |points: &Vec<DVec2>| size_of_val(points) + size_of_val(&**points);
         let rings = |polygon: &Polygon| size_of_val(polygon) + polygon.iter().map(points).sum::<usize>();
@@ -53,7 +53,7 @@ struct Indexed {
     list: ShapeList,
     segments: Vec<[DVec2; 2]>,
     tree: BoxTree,
-    /// What the polygons cover, if the distance within them is 0.
+    /// The area of the polygons, if the distance within them is 0.
     filled: Option<Mask>,
 }
 
@@ -89,7 +89,8 @@ impl Shapes {
     /// outline.
     ///
     /// # Errors
-    /// When there is no shape, a coordinate is not finite, or polygons that are to be filled are too complex.
+    /// Fails when there is no shape, a coordinate is not finite, or polygons that are to be filled are too
+    /// complex.
     pub fn new(list: ShapeList, filled: bool) -> Result<Self, ShapesError> {
         let segments: Vec<[DVec2; 2]> = list.segments().collect();
         if let Some(p) = segments.iter().flatten().find(|p| !p.is_finite()) {
@@ -109,32 +110,32 @@ impl Shapes {
         Ok(Self(Arc::new(Indexed { list, segments, tree, filled })))
     }
 
-    /// The outline of a region: the distance is that to its boundary, on both sides.
+    /// Returns the outline of a region: the distance is that to its boundary, on both sides.
     ///
     /// # Errors
-    /// When the region is empty.
+    /// Fails when the region is empty.
     pub fn outline(region: &Region) -> Result<Self, ShapesError> {
         Self::new(ShapeList { polygons: region.polygons().to_vec(), ..ShapeList::default() }, false)
     }
 
-    /// The shapes as they were given.
+    /// Returns the shapes as they were given.
     pub fn list(&self) -> &ShapeList {
         &self.0.list
     }
 
-    /// The address of the data that clones share, and their memory in bytes.
+    /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
         let Indexed { list, segments, tree, filled } = &*self.0;
         let filled = filled.as_ref().map_or(0, |mask| mask.shared_data().1);
         (Arc::as_ptr(&self.0).addr(), list.bytes() + size_of_val(&**segments) + tree.bytes() + filled)
     }
 
-    /// The smallest rectangle that holds all shapes.
+    /// Returns the smallest rectangle that holds all shapes.
     pub fn extent(&self) -> Rect {
         self.0.tree.bounds().unwrap_or(Rect::new(DVec2::ZERO, DVec2::ZERO))
     }
 
-    /// The distance from a point to the nearest shape, in world units.
+    /// Returns the distance from a point to the nearest shape, in world units.
     pub fn distance(&self, p: DVec2) -> f64 {
         if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
             return 0.0;
@@ -144,7 +145,7 @@ impl Shapes {
         self.0.tree.nearest(p, squared).map_or(f64::INFINITY, |(_, squared)| squared.sqrt())
     }
 
-    /// The point of the shapes that is nearest to a point, both in world units.
+    /// Returns the point of the shapes that is nearest to a point, both in world units.
     pub fn nearest(&self, p: DVec2) -> DVec2 {
         if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
             return p;
@@ -154,7 +155,7 @@ impl Shapes {
         found.map_or(p, |(number, _)| on(number))
     }
 
-    /// Bounds of the distance over a closed rectangle in world units.
+    /// Returns bounds of the distance over a closed rectangle in world units.
     ///
     /// The distance changes at most as much as the point moves: from the centre by half a diagonal.
     pub fn bounds(&self, rect: &Rect) -> Bounds {
@@ -190,7 +191,7 @@ mod tests {
         ShapeList { points, lines, polygons }
     }
 
-    /// The distance to a segment from places along it, closer and closer to the nearest.
+    /// Returns the distance to a segment from places along it, closer and closer to the nearest.
     fn referee_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..80 {

@@ -1,4 +1,4 @@
-//! Where a layer can ask for something.
+//! The area in which a layer can have a target diameter.
 
 use super::{
     Combine, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, SizeFieldSpec, Threats,
@@ -15,7 +15,7 @@ pub enum Extent {
     Within(Vec<Rect>),
 }
 
-/// What decides the extent of a layer, besides the layer.
+/// The data besides the layer that decide its extent.
 #[derive(Clone, Copy, Debug)]
 pub struct ExtentContext<'a> {
     /// The size field that the layer belongs to.
@@ -30,12 +30,12 @@ pub struct ExtentContext<'a> {
 const MOST_RECTS: usize = 64;
 
 impl Extent {
-    /// A part of the plane with these rectangles, of which many are joined.
+    /// Returns a part of the plane with these rectangles, of which many are joined.
     pub fn of(rects: impl IntoIterator<Item = Rect>) -> Self {
         Self::Within(joined(rects.into_iter().collect(), MOST_RECTS))
     }
 
-    /// The rectangles of the part of the plane in `bounds`.
+    /// Returns the rectangles of the part of the plane in `bounds`.
     pub fn rects_within(self, bounds: Rect) -> Vec<Rect> {
         match self {
             Self::Everywhere => vec![bounds],
@@ -43,7 +43,7 @@ impl Extent {
         }
     }
 
-    /// The part that lies in the bounds of a mask, if there is one.
+    /// Returns the part that lies in the bounds of a mask, if there is one.
     pub fn within_mask(self, mask: Option<&Mask>) -> Self {
         let Some(mask) = mask else { return self };
         match self {
@@ -56,7 +56,7 @@ impl Extent {
     }
 }
 
-/// At most so many rectangles: near ones are joined.
+/// Joins near rectangles until there are at most `most`.
 pub fn joined(mut rects: Vec<Rect>, most: usize) -> Vec<Rect> {
     let bounds = rects.iter().copied().reduce(|a, b| a.union(&b));
     let Some(bounds) = bounds.filter(|_| rects.len() > most) else { return rects };
@@ -66,8 +66,8 @@ pub fn joined(mut rects: Vec<Rect>, most: usize) -> Vec<Rect> {
 }
 
 impl ExtentContext<'_> {
-    /// A diameter from which on it makes no difference to the mesh what a layer in which the finest counts
-    /// asks for, in world units. Infinite where no such layer may be left out.
+    /// Returns a diameter from which on it makes no difference to the mesh what a layer in which the finest
+    /// counts asks for, in world units. Infinite where no such layer may be left out.
     fn ceiling(&self) -> f64 {
         let ceiling = self.spec.transfer.h_max.min(self.longest);
         if self.spec.unasked >= ceiling { ceiling } else { f64::INFINITY }
@@ -75,7 +75,7 @@ impl ExtentContext<'_> {
 }
 
 impl Layer {
-    /// Whether its values are risks, so that the transfer curve matters.
+    /// Returns whether its values are risks, so that the transfer curve matters.
     pub(super) fn is_of_risk(&self) -> bool {
         match &self.kind {
             LayerKind::Paint(quantity) | LayerKind::Formula { quantity, formula: _ } => {
@@ -87,12 +87,12 @@ impl Layer {
         }
     }
 
-    /// Whether it asks for the distance to the boundary of the domain.
+    /// Returns whether it asks for the distance to the boundary of the domain.
     pub fn is_of_outline(&self) -> bool {
         matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline, .. })
     }
 
-    /// Where the layer, if it is visible, can ask for something that matters to the mesh.
+    /// Returns where the layer, if it is visible, can ask for something that matters to the mesh.
     pub(super) fn extent(&self, context: &ExtentContext) -> Extent {
         self.extent_of_kind(context).within_mask(self.mask.as_ref())
     }
@@ -131,8 +131,8 @@ impl Layer {
         }
     }
 
-    /// The distance from which on the layer asks for too large a diameter to matter, in world units: below
-    /// zero where it never matters, infinite where it always can.
+    /// Returns the distance from which on the layer asks for too large a diameter to matter, in world units:
+    /// below zero where it never matters, infinite where it always can.
     pub(super) fn range_below_ceiling(&self, at_zero: f64, slope: f64, context: &ExtentContext) -> f64 {
         let ceiling = context.ceiling();
         if self.combine != Combine::Finest || ceiling == f64::INFINITY || slope.is_nan() || slope <= 0.0 {
@@ -144,7 +144,7 @@ impl Layer {
 }
 
 impl Threats {
-    /// The rectangles beyond which there is no risk, in world units.
+    /// Returns the rectangles beyond which there is no risk, in world units.
     fn reaches(&self) -> impl Iterator<Item = Rect> {
         self.list().iter().filter(|threat| threat.peak > 0.0).map(super::Threat::reach)
     }

@@ -15,7 +15,7 @@ pub struct LayerId(pub u32);
 pub struct Layer {
     /// Which layer it is.
     pub id: LayerId,
-    /// What a person calls it.
+    /// The name that a person gave the layer.
     pub name: String,
     /// A hidden layer asks for nothing.
     pub visible: bool,
@@ -23,9 +23,9 @@ pub struct Layer {
     pub locked: bool,
     /// How it is combined with the layers below.
     pub combine: Combine,
-    /// Where it counts; everywhere without a mask.
+    /// The area in which the layer counts; everywhere without a mask.
     pub mask: Option<Mask>,
-    /// What it asks for.
+    /// The kind of the layer, with its settings.
     pub kind: LayerKind,
 }
 
@@ -34,7 +34,7 @@ pub struct Layer {
 pub enum Combine {
     /// The smaller target diameter counts.
     Finest,
-    /// Nothing below the layer gets finer than it asks for.
+    /// The layers below do not make h̄ smaller than the target of this layer.
     Floor,
     /// The layer alone counts, wherever it asks for anything.
     Replace,
@@ -45,7 +45,7 @@ impl Combine {
     pub const ALL: [Self; 3] = [Self::Finest, Self::Floor, Self::Replace];
 }
 
-/// What the values of a layer mean.
+/// The meaning of the values of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Risk, 0 to 1; the transfer curve turns it into a target diameter.
@@ -55,7 +55,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The value of paint where nothing is painted: it asks for nothing.
+    /// Returns the value of paint where nothing is painted: it asks for nothing.
     pub fn blank(self) -> f32 {
         match self {
             Self::Risk => 0.0,
@@ -64,14 +64,14 @@ impl Quantity {
     }
 }
 
-/// What a layer asks for.
+/// The kind of a layer, which decides its target diameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LayerKind {
-    /// What is painted; the document holds the pixels.
+    /// Paint, whose pixels are in the document.
     Paint(Quantity),
     /// A formula in x and y.
     Formula {
-        /// What its value means.
+        /// The meaning of the formula's value.
         quantity: Quantity,
         /// The formula.
         formula: Formula,
@@ -80,14 +80,14 @@ pub enum LayerKind {
     Raster {
         /// The raster.
         source: RasterSource,
-        /// What its values mean.
+        /// The meaning of the raster's values.
         reading: RasterReading,
     },
     /// Threats, combined as independent probabilities.
     Threats(Threats),
     /// h̄ grows with the distance.
     Distance {
-        /// What the distance is to.
+        /// The target of the distance.
         to: DistanceTo,
         /// The target diameter at distance 0, in world units.
         at_zero: f64,
@@ -107,7 +107,7 @@ pub enum LayerKind {
     },
 }
 
-/// What a distance is to.
+/// The target of a distance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DistanceTo {
     /// The boundary of the domain, on both sides.
@@ -129,7 +129,7 @@ pub enum DistanceTo {
 }
 
 impl DistanceTo {
-    /// The shapes, unless it is the outline.
+    /// Returns the shapes, unless it is the outline.
     pub fn shapes(&self) -> Option<&Shapes> {
         match self {
             Self::Outline => None,
@@ -137,7 +137,7 @@ impl DistanceTo {
         }
     }
 
-    /// How far from the shapes the distance begins, in world units.
+    /// Returns how far from the shapes the distance begins, in world units.
     pub fn reach(&self) -> f64 {
         if let Self::Corridor { width, .. } = self { 0.5 * width } else { 0.0 }
     }
@@ -166,7 +166,7 @@ fn have_equal_pixels(a: &Raster, b: &Raster) -> bool {
     a.bounds() == b.bounds() && a.size() == b.size() && a.values().iter().zip(b.values()).all(is_equal)
 }
 
-/// What the values of a raster mean.
+/// The meaning of the values of a raster.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RasterReading {
     /// Risk, 0 to 1.
@@ -178,7 +178,7 @@ pub enum RasterReading {
 }
 
 impl Layer {
-    /// What a new document has: a diameter everywhere, in world units, and paint of both kinds over it.
+    /// Returns the layers of a new document: `base`, and paint of both kinds over it.
     pub fn usual(base: LayerKind) -> Vec<Self> {
         let mut layers =
             Self::stack([base, LayerKind::Paint(Quantity::Diameter), LayerKind::Paint(Quantity::Risk)]);
@@ -186,19 +186,20 @@ impl Layer {
         layers
     }
 
-    /// A visible layer in which the finest counts.
+    /// Creates a visible layer in which the finest counts.
     pub fn new(id: LayerId, name: impl Into<String>, kind: LayerKind) -> Self {
         let combine = Combine::Finest;
         Self { id, name: name.into(), visible: true, locked: false, combine, mask: None, kind }
     }
 
-    /// A stack of layers, from the bottom to the top, named after their kinds and numbered from 0.
+    /// Returns a stack of layers, from the bottom to the top, named after their kinds and numbered from 0.
     pub fn stack(kinds: impl IntoIterator<Item = LayerKind>) -> Vec<Self> {
         let layer = |(id, kind): (u32, LayerKind)| Self::new(LayerId(id), kind.label(), kind);
         (0..).zip(kinds).map(layer).collect()
     }
 
-    /// The risk that the layer has at a point in world units, if it is one of risk with a value there.
+    /// Returns the risk that the layer has at a point in world units, if it is one of risk with a value
+    /// there.
     pub fn risk_at(&self, paint: &PaintLayers, point: DVec2) -> Option<f64> {
         if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
             return None;
@@ -216,29 +217,29 @@ impl Layer {
         }
     }
 
-    /// What is painted on the layer, if it is a paint layer.
+    /// Returns the quantity that is painted on the layer, if it is a paint layer.
     pub fn paints(&self) -> Option<Quantity> {
         if let LayerKind::Paint(quantity) = self.kind { Some(quantity) } else { None }
     }
 }
 
 impl LayerKind {
-    /// A formula for the target diameter.
+    /// Returns a formula for the target diameter.
     pub fn target(formula: Formula) -> Self {
         Self::Formula { quantity: Quantity::Diameter, formula }
     }
 
-    /// The same target diameter everywhere, in world units.
+    /// Returns a layer with one target diameter everywhere, in world units.
     pub fn constant(diameter: f64) -> Self {
         Self::target(Formula::constant_of(diameter))
     }
 
-    /// A formula for the risk.
+    /// Returns a formula for the risk.
     pub fn risk(formula: Formula) -> Self {
         Self::Formula { quantity: Quantity::Risk, formula }
     }
 
-    /// The raster that the layer reads, if it reads one.
+    /// Returns the raster that the layer reads, if it reads one.
     pub fn raster_source(&self) -> Option<&RasterSource> {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(source),
@@ -246,7 +247,7 @@ impl LayerKind {
         }
     }
 
-    /// What a new layer of this kind is called: after its file, if it has one.
+    /// Returns the name of a new layer of this kind: that of its file, if it has one.
     pub fn name(&self) -> String {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => source.name.clone(),
@@ -255,7 +256,7 @@ impl LayerKind {
         }
     }
 
-    /// What a person calls layers of this kind.
+    /// Returns the name of this kind of layer for people.
     pub fn label(&self) -> &'static str {
         match self {
             Self::Paint(Quantity::Risk) => "Painted risk",

@@ -7,7 +7,7 @@ use crate::geometry::LatticePoint;
 /// The least h̄ in a closed triangle, and what decides it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastTarget {
-    /// In world units.
+    /// The target diameter in world units.
     pub target: f64,
     /// A point of the triangle that has it, in world units.
     pub at: DVec2,
@@ -19,7 +19,7 @@ pub struct LeastTarget {
 }
 
 impl SizeField {
-    /// The least h̄ in the closed triangle with these corners: what the area rule compares with ℓ_b.
+    /// Returns the least h̄ in the closed triangle with these corners: what the area rule compares with ℓ_b.
     pub fn least_within(&self, paint: &PaintLayers, corners: [LatticePoint; 3]) -> LeastTarget {
         let least::Least { target, at, from } = least::least_within(self, paint, corners);
         // A point on the rim of a pixel may belong to its neighbour.

@@ -40,10 +40,10 @@ impl PartialEq for Mask {
 }
 
 impl Mask {
-    /// The mask of polygons, in world units.
+    /// Returns the mask of polygons, in world units.
     ///
     /// # Errors
-    /// When they cover no area, or are too large or too complex.
+    /// Fails when they cover no area, or are too large or too complex.
     pub fn new(polygons: &[Polygon]) -> Result<Self, RegionError> {
         let corners = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
         let domain = match corners.reduce(|a, b| a.union(&b)) {
@@ -60,33 +60,33 @@ impl Mask {
         Ok(Self(Arc::new(Indexed { region: region.clone(), edges, tree })))
     }
 
-    /// The polygons as a region. Clones of a mask share it.
+    /// Returns the polygons as a region. Clones of a mask share it.
     pub fn region(&self) -> &Arc<Region> {
         &self.0.region
     }
 
-    /// The polygons, which do not overlap.
+    /// Returns the polygons, which do not overlap.
     pub fn polygons(&self) -> &[Polygon] {
         self.0.region.polygons()
     }
 
-    /// The address of the data that clones share, and their memory in bytes.
+    /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
         let Indexed { region, edges, tree } = &*self.0;
         (Arc::as_ptr(&self.0).addr(), region.bytes() + size_of_val(&**edges) + tree.bytes())
     }
 
-    /// The area covered, in square world units.
+    /// Returns the area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.0.region.area()
     }
 
-    /// The smallest rectangle that holds the mask.
+    /// Returns the smallest rectangle that holds the mask.
     pub fn bounds(&self) -> Rect {
         *self.0.region.frame()
     }
 
-    /// Whether the mask covers a point. On an edge either answer is possible, always the same one.
+    /// Returns whether the mask covers a point. On an edge either answer is possible, always the same one.
     ///
     /// Costs about the number of edges at the height of the point.
     pub fn contains(&self, p: DVec2) -> bool {
@@ -126,7 +126,8 @@ impl Mask {
     }
 }
 
-/// Whether an edge crosses the ray from `p` to the right. An end at the height of `p` counts as below.
+/// Returns whether an edge crosses the ray from `p` to the right. An end at the height of `p` counts as
+/// below.
 fn is_right_of([a, b]: [DVec2; 2], p: DVec2) -> bool {
     if (a.y <= p.y) == (b.y <= p.y) {
         return false;
@@ -138,8 +139,8 @@ fn is_right_of([a, b]: [DVec2; 2], p: DVec2) -> bool {
     (high - low).perp_dot(p - low) > 0.0
 }
 
-/// Whether an edge whose box meets a rectangle may meet the rectangle too: the corners of the rectangle are
-/// not strictly on one side of the edge.
+/// Returns whether an edge whose box meets a rectangle may meet the rectangle too: the corners of the
+/// rectangle are not strictly on one side of the edge.
 fn may_meet([a, b]: [DVec2; 2], rect: &Rect) -> bool {
     let sides = [rect.min, rect.max, DVec2::new(rect.min.x, rect.max.y), DVec2::new(rect.max.x, rect.min.y)]
         .map(|corner| (b - a).perp_dot(corner - a));
@@ -162,7 +163,7 @@ mod tests {
         (0..corners).map(corner).collect()
     }
 
-    /// Whether a point is inside a ring: by its winding angle, unlike the code that is tested.
+    /// Returns whether a point is inside a ring: by its winding angle, unlike the code that is tested.
     fn winds_around(ring: &[DVec2], p: DVec2) -> bool {
         let angles = (0..ring.len()).map(|n| (ring[n] - p).angle_to(ring[(n + 1) % ring.len()] - p));
         angles.sum::<f64>().abs() > 3.0

@@ -122,7 +122,7 @@ fn field(layers: Vec<Layer>, h_max: f64, lattice: &Lattice) -> SizeField {
     SizeField::new(spec, lattice)
 }
 
-/// A triangle that bisection makes, with its level.
+/// Returns a triangle that bisection makes, with its level.
 fn random_triangle(random: &mut fastrand::Rng, lattice: &Lattice) -> ([LatticePoint; 3], u32) {
     let level = random.u32(6..18);
     let leg = i64::from(lattice.cell_steps() >> (level / 2));

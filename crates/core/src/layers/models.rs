@@ -14,7 +14,7 @@ use crate::geometry::{Lattice, Rect};
 pub struct ModelId(u64);
 
 impl ModelId {
-    /// One that no function has yet.
+    /// Returns one that no function has yet.
     pub fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
@@ -28,12 +28,12 @@ pub struct Place {
     /// The middle, and half of the sides.
     pub middle: DVec2,
     pub half: DVec2,
-    /// What rounding changes in the coordinates.
+    /// Bound of the effect of rounding on the coordinates.
     pub rest: DVec2,
 }
 
 impl Place {
-    /// A rectangle that holds all points of the place.
+    /// Returns a rectangle that holds all points of the place.
     pub fn rect(&self) -> Rect {
         let half = self.half * (1.0 + 1e-12) + 1e-15 * self.middle.abs();
         Rect::new(self.middle - half, self.middle + half)
@@ -73,8 +73,8 @@ struct Kept {
 }
 
 thread_local! {
-    /// At the place that a hash of function and square gives. A model is the same whenever it is made, so an
-    /// answer does not depend on which models are kept.
+    /// The kept models, at the index from a hash of function and square. A model is the same whenever it is
+    /// made, so an answer does not depend on which models are kept.
     static KEPT: RefCell<Vec<Kept>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -84,7 +84,7 @@ thread_local! {
     pub(super) static MADE: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
 }
 
-/// Bounds of a function at the centres of the cells in a rectangle.
+/// Returns bounds of a function at the centres of the cells in a rectangle.
 ///
 /// ```text
 ///   +---------------+     Models of squares around the rectangle are tried from the widest down, until
@@ -138,8 +138,8 @@ pub fn bounds(
     }
 }
 
-/// How often a square is halved until its rest, which shrinks with the third power of the side, has shrunk
-/// by a factor: at least once.
+/// Returns how often a square is halved until its rest, which shrinks with the third power of the side, has
+/// shrunk by a factor: at least once.
 fn halvings(factor: f64) -> u32 {
     let exponent = (factor.to_bits() >> 52 & 0x7ff) as u32;
     (exponent.saturating_sub(1023) / 3).max(1)
@@ -167,8 +167,8 @@ fn kept(function: ModelId, square: Square, model: impl FnOnce() -> Quadratic) ->
 }
 
 impl Square {
-    /// A rectangle, by its middle and half of its sides in cells, in the coordinates of a model of the
-    /// square. `None` where it extends beyond the rim.
+    /// Returns a rectangle, by its middle and half of its sides in cells, in the coordinates of a model of
+    /// the square. `None` where it extends beyond the rim.
     fn part(&self, middle: [f64; 2], half: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
         let side = (1u64 << self.bits) as f64;
         let reach = (0.5 + RIM) * side;

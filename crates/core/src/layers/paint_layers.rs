@@ -20,24 +20,24 @@ impl PartialEq for PaintLayers {
 }
 
 impl PaintLayers {
-    /// Without pixels on any layer.
+    /// Returns paint without pixels on any layer.
     pub fn blank() -> &'static Self {
         static BLANK: PaintLayers = PaintLayers { rasters: BTreeMap::new() };
         &BLANK
     }
 
-    /// The pixels of a layer, if it has any.
+    /// Returns the pixels of a layer, if it has any.
     #[inline]
     pub fn get(&self, id: LayerId) -> Option<&TiledRaster> {
         self.rasters.get(&id).map(|raster| &**raster)
     }
 
-    /// The pixels of a layer, to change them. They are copied only while a clone shares them.
+    /// Returns the pixels of a layer, to change them. They are copied only while a clone shares them.
     pub fn get_mut(&mut self, id: LayerId) -> Option<&mut TiledRaster> {
         self.rasters.get_mut(&id).map(Arc::make_mut)
     }
 
-    /// The pixels of a layer, to change them; a layer without any begins with `blank`.
+    /// Returns the pixels of a layer, to change them; a layer without any begins with `blank`.
     pub fn get_or_insert(&mut self, id: LayerId, blank: impl FnOnce() -> TiledRaster) -> &mut TiledRaster {
         Arc::make_mut(self.rasters.entry(id).or_insert_with(|| Arc::new(blank())))
     }
@@ -52,22 +52,22 @@ impl PaintLayers {
         self.rasters.remove(&id)
     }
 
-    /// The layers with pixels, in the order of their identifiers.
+    /// Returns the layers with pixels, in the order of their identifiers.
     pub fn iter(&self) -> impl Iterator<Item = (LayerId, &TiledRaster)> {
         self.rasters.iter().map(|(&id, raster)| (id, &**raster))
     }
 
-    /// The layers on which something is painted, in the order of their identifiers.
+    /// Returns the layers on which something is painted, in the order of their identifiers.
     fn painted(&self) -> impl Iterator<Item = (LayerId, &TiledRaster)> {
         self.iter().filter(|(_, raster)| !raster.is_blank())
     }
 
-    /// Whether nothing is painted on any layer.
+    /// Returns whether nothing is painted on any layer.
     pub fn is_blank(&self) -> bool {
         self.painted().next().is_none()
     }
 
-    /// Memory of the pixels, in bytes.
+    /// Returns the memory of the pixels, in bytes.
     pub fn bytes(&self) -> usize {
         self.rasters.values().map(|raster| raster.bytes()).sum()
     }

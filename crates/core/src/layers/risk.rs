@@ -53,7 +53,7 @@ const PIXEL_MARGIN: f64 = 1e-9;
 const FINEST_SCALE: i32 = -60;
 
 impl RiskField {
-    /// The risk of a stack, from the bottom to the top, with the painted pixels of its layers.
+    /// Returns the risk of a stack, from the bottom to the top, with the painted pixels of its layers.
     pub fn new(layers: &[Layer], paint: &PaintLayers) -> Self {
         let of = |layer: &Layer| {
             let source = match &layer.kind {
@@ -72,25 +72,9 @@ impl RiskField {
         Self { layers: layers.iter().filter(|layer| layer.visible).filter_map(of).collect() }
     }
 
-    /// Whether no layer holds a risk.
+    /// Returns whether no layer holds a risk.
     pub fn is_empty(&self) -> bool {
         self.layers.is_empty()
-    }
-
-    /// Rectangles in world units on the closed union of which the risk can differ from that of another stack.
-    /// `None` where it can differ anywhere.
-    pub fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
-        if self.layers.len() != other.layers.len() {
-            return None;
-        }
-        let mut areas = Vec::new();
-        for (layer, before) in self.layers.iter().zip(&other.layers) {
-            if layer.combine != before.combine || layer.mask != before.mask {
-                return None;
-            }
-            areas.extend(layer.source.areas_that_differ(&before.source)?);
-        }
-        Some(areas)
     }
 
     /// The risk at a point in world units.
@@ -110,7 +94,7 @@ impl RiskField {
         })
     }
 
-    /// Bounds of the risk over a closed rectangle in world units; they may be wider than the values.
+    /// Returns bounds of the risk over a closed rectangle in world units; they may be wider than the values.
     pub fn range(&self, rectangle: &Rect) -> Bounds {
         self.layers.iter().fold(Bounds::one(0.0), |below, layer| {
             let mut risks = layer.source.range(rectangle);
@@ -137,17 +121,17 @@ impl Risks {
         Self { least, greatest, present }
     }
 
-    /// Whether the layer has a risk at every point.
+    /// Returns whether the layer has a risk at every point.
     pub fn is_everywhere(&self) -> bool {
         self.present == Share::All
     }
 
-    /// Whether the layer has no risk at any point.
+    /// Returns whether the layer has no risk at any point.
     pub fn is_nowhere(&self) -> bool {
         self.present == Share::None
     }
 
-    /// The bounds of the result, from those of the layers below.
+    /// Returns the bounds of the result, from those of the layers below.
     pub fn over(&self, below: Bounds, combine: Combine) -> Bounds {
         let Self { least, greatest, present } = *self;
         let own = Bounds::new(least, greatest);
@@ -165,18 +149,6 @@ impl Risks {
 }
 
 impl RiskSource {
-    fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
-        match (self, other) {
-            (Self::Paint(new), Self::Paint(old)) => new.areas_that_differ(old),
-            (Self::Raster(new), Self::Raster(old)) if Arc::ptr_eq(new, old) => Some(Vec::new()),
-            (Self::Formula(new), Self::Formula(old)) if new == old => Some(Vec::new()),
-            (Self::Threats(new), Self::Threats(old)) => {
-                Some(Threats::changed_area(old, new).into_iter().collect())
-            }
-            _ => None,
-        }
-    }
-
     /// `None` where the layer has no risk.
     fn at(&self, point: DVec2, place: &Rect) -> Option<f64> {
         match self {
@@ -242,7 +214,7 @@ impl ValueRanges for WithGaps<'_> {
     }
 }
 
-/// The range of the pixels that touch a closed rectangle in world units, and of some around it.
+/// Returns the range of the pixels that touch a closed rectangle in world units, and of some around it.
 fn range_within(raster: &impl ValueRanges, rectangle: &Rect, grid: &PixelGrid, gap: f32) -> ValueRange {
     let whole = raster.whole_range().union(ValueRange::one(gap));
     if whole.is_one() {
@@ -278,7 +250,7 @@ struct Descent<'a, R> {
 }
 
 impl<R: ValueRanges> Descent<'_, R> {
-    /// The first and the last column and row of squares of a side in pixels that touch the rectangle.
+    /// Returns the first and the last column and row of squares of a side in pixels that touch the rectangle.
     fn places(&self, side: f64) -> [[i64; 2]; 2] {
         let margin = PIXEL_MARGIN * side.min(1.0);
         let first = self.min.map(|v| (((v - margin) / side).ceil() as i64).saturating_sub(1));
@@ -356,7 +328,7 @@ mod tests {
         (layers, paint)
     }
 
-    /// The risk by definition: each layer asked by itself.
+    /// Returns the risk by definition: each layer asked by itself.
     fn by_definition(layers: &[Layer], paint: &PaintLayers, p: DVec2) -> f64 {
         let mut result = 0.0;
         for layer in layers {

@@ -12,12 +12,13 @@ use crate::geometry::Rect;
 
 const ZERO: Bounds = Bounds::new(0.0, 0.0);
 
-/// What rounding can change a bound by, as a share of it.
+/// Bound of the effect of rounding on a bound, as a share of it.
 const ROUNDING: f64 = 1e-12;
 
 impl RiskField {
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the risk
-    /// may jump, or a derivative is not known. At kinks the bounds hold the derivatives on all sides.
+    /// Returns bounds of the derivatives along x and y over a closed rectangle in world units. `None` where
+    /// the risk may jump, or a derivative is not known. At kinks the bounds hold the derivatives on all
+    /// sides.
     pub fn derivatives(&self, rectangle: &Rect) -> Option<[Bounds; 2]> {
         let (mut value, mut slopes) = (ZERO, [ZERO; 2]);
         for layer in &self.layers {
@@ -30,7 +31,8 @@ impl RiskField {
             if risks.is_nowhere() {
                 continue;
             }
-            // Where threats have no risk, theirs counts as 0: no other way than of what is below.
+            // The risk of threats falls continuously to 0 at their ranges, where the result is that of the
+            // layers below.
             let is_continuous =
                 matches!(layer.source, RiskSource::Threats(_)) && layer.combine == Combine::Finest;
             if !(risks.is_everywhere() || is_continuous) {
@@ -71,8 +73,8 @@ impl RiskSource {
 }
 
 impl Threats {
-    /// Bounds of the derivatives of the combined risk along x and y over a closed rectangle in world units:
-    /// Σ ∂pᵢ Π (1 − pⱼ) over all other threats j.
+    /// Returns bounds of the derivatives of the combined risk along x and y over a closed rectangle in world
+    /// units: Σ ∂pᵢ Π (1 − pⱼ) over all other threats j.
     pub(super) fn slopes(&self, rect: &Rect) -> [Bounds; 2] {
         let mut near = Vec::new();
         let _ = self.visit_meeting(rect, |threat| {
@@ -102,9 +104,9 @@ impl Threats {
         slopes.map(|slope| slope.expanded(margin * slope.least.abs().max(slope.greatest.abs())))
     }
 
-    /// Directions along which the combined risk does not grow, among them all those in which it falls most,
-    /// in a closed rectangle in world units: away from the threats. `None` where they are too different, or
-    /// there is no threat.
+    /// Returns the directions along which the combined risk does not grow, among them all those in which it
+    /// falls most, in a closed rectangle in world units: away from the threats. `None` where they are too
+    /// different, or there is no threat.
     pub(super) fn outward(&self, rect: &Rect) -> Option<Cone> {
         let mut all = None;
         let is_cut = self.visit_meeting(rect, |threat| {
@@ -120,7 +122,7 @@ impl Threats {
 }
 
 impl Threat {
-    /// Bounds of the derivatives of the risk along x and y over a closed rectangle in world units.
+    /// Returns bounds of the derivatives of the risk along x and y over a closed rectangle in world units.
     ///
     /// With s = (r/R)², ∂p/∂x = −2 (x/R) / R · peak · |law′(s)|.
     fn slopes(&self, rect: &Rect) -> [Bounds; 2] {
@@ -137,8 +139,8 @@ impl Threat {
 }
 
 impl ThreatLaw {
-    /// Bounds of how fast the share of the peak falls with s, the square of distance / range, between two
-    /// values of s.
+    /// Returns bounds of how fast the share of the peak falls with s, the square of distance / range, between
+    /// two values of s.
     fn fall(self, least: f64, greatest: f64) -> Bounds {
         if least >= 1.0 {
             return ZERO;

@@ -16,9 +16,9 @@ impl SizeField {
             .map_or_else(|| Raster::filled(bounds, size, 0.0), |(h, _)| h)
     }
 
-    /// As [`Self::sampled`], with the layers that decide h̄ at the pixels, row by row from the lowest: `None`
-    /// where no layer asks for anything. Gradation carries the layer along with its diameter. The work ends
-    /// without a result once it no longer `goes_on`.
+    /// Samples the field as [`Self::sampled`] does, and returns also the layers that decide h̄ at the pixels,
+    /// row by row from the lowest: `None` where no layer asks for anything. Gradation carries the layer along
+    /// with its diameter. The work ends without a result once it no longer `goes_on`.
     pub fn sampled_while(
         &self,
         paint: &PaintLayers,
@@ -71,8 +71,8 @@ fn limit_slope(raster: &mut Raster, layers: &mut [Option<LayerId>], slope: f64) 
     }
 }
 
-/// The value of the eikonal equation from the smaller neighbours along both axes, and the neighbour that
-/// lowers it most; `step` is the largest change per pixel.
+/// Returns the value of the eikonal equation from the smaller neighbours along both axes, and the neighbour
+/// that lowers it most; `step` is the largest change per pixel.
 fn from_neighbours(raster: &Raster, x: u32, y: u32, step: DVec2) -> (f64, [u32; 2]) {
     let [columns, rows] = raster.size();
     let value = |inside: bool, x: u32, y: u32| match inside {

@@ -1,14 +1,16 @@
 //! Answers of the area rule for whole squares of triangles.
 
 use super::engine::cells::Cells;
-use super::engine::gradation::graded_bounds;
-use super::engine::{KnownSquares, LEVELS};
+use super::engine::gradation::{GradedBounds, graded_bounds};
+use super::engine::parts::{PartId, Square};
+use super::engine::{KnownParts, LEVELS};
+use super::size_field::Nearby;
 use super::{PaintLayers, SizeField};
 use crate::field::Transfer;
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{Lattice, LatticePoint, Rect};
 use crate::mesh::LevelsWithin;
 
-/// What a size field asks for in squares of the lattice, as far as it was asked.
+/// A cache of the answers of a size field in squares of the lattice.
 ///
 /// ```text
 ///   +-----------+     A triangle and the dyadic square around it, in which its sibling and its descendants
@@ -25,34 +27,60 @@ use crate::mesh::LevelsWithin;
 /// The answers are those of one field and of paint that does not change.
 #[derive(Clone, Debug)]
 pub struct SettledSquares {
-    /// At the place that a hash of the key says; another square there is forgotten.
-    squares: Vec<Square>,
-    /// For gradation.
-    pub(super) known: KnownSquares,
+    /// The squares, at the index from a hash; a new square replaces another one there.
+    squares: Vec<Settled>,
+    /// The known parts for gradation.
+    pub(super) known: KnownParts,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Square {
-    key: u64,
-    /// What is known of all triangles within.
+#[derive(Clone, Debug)]
+struct Settled {
+    /// `None` before the first use.
+    square: Option<Square>,
+    /// The known answers for all triangles within the square.
     levels: LevelsWithin,
+    /// No point of a cell that touches a triangle within asks for less, in world units.
+    least_asked: f64,
+    /// The parts of the lattice from which gradation can carry to triangles within.
+    sources: Vec<PartId>,
 }
 
-/// The number of squares that are kept: 8 KB.
+/// The number of squares that are kept, at least 32 KB.
 const KEPT_BITS: u32 = 9;
 /// Triangles are asked about themselves where the dyadic square around them has fewer than 2³ steps.
 const LEAST_BITS: u32 = 3;
-/// Triangles that are asked about one by one first look at squares 2⁴ times as wide.
+/// Triangles that are asked about one by one first look at squares 2⁴ times as wide, and squares look for
+/// sources among those of one that is so much wider.
 const WIDER_BITS: u32 = 4;
+
+impl Settled {
+    const EMPTY: Self =
+        Self { square: None, levels: LevelsWithin::UNKNOWN, least_asked: 0.0, sources: Vec::new() };
+}
 
 impl Default for SettledSquares {
     fn default() -> Self {
-        let empty = Square { key: u64::MAX, levels: LevelsWithin::UNKNOWN };
-        Self { squares: vec![empty; 1 << KEPT_BITS], known: KnownSquares::default() }
+        Self { squares: vec![Settled::EMPTY; 1 << KEPT_BITS], known: KnownParts::default() }
+    }
+}
+
+impl SettledSquares {
+    /// Forgets everything if a lot is known.
+    pub(super) fn make_room(&mut self) {
+        if self.known.make_room() {
+            self.squares.fill(Settled::EMPTY);
+        }
     }
 }
 
 impl SizeField {
+    /// Lets squares that were used for this field forget what they know of places at which pixels have
+    /// changed: `areas` are rectangles in world units.
+    pub(crate) fn forget(&self, squares: &mut SettledSquares, areas: impl Iterator<Item = Rect>) {
+        squares.squares.iter_mut().for_each(|square| square.square = None);
+        areas.filter_map(|area| self.core(&area)).for_each(|cells| squares.known.forget(&cells));
+    }
+
     /// [`SizeField::asks_for_more`], faster for many triangles nearby. `squares` must have been used for this
     /// field and these pixels only.
     #[inline]
@@ -63,16 +91,22 @@ impl SizeField {
         corners: [LatticePoint; 3],
         level: u32,
     ) -> bool {
+        let Some(square) = self.square_around(corners, level) else {
+            squares.make_room();
+            return self.asks_with(&mut squares.known, paint, corners, level, None);
+        };
         // Most triangles of a mesh are far from any change of h̄: one answer serves hundreds of them.
-        let settled = [WIDER_BITS, 0].into_iter().find_map(|wider| {
-            let levels = self.settled(squares, paint, corners, level, wider);
-            levels.exceeds(level)
-        });
-        settled.unwrap_or_else(|| self.asks_with(&mut squares.known, paint, corners, level))
+        let wider = square.around((square.bits + WIDER_BITS).min(u32::BITS - 1));
+        let place = self.settled(squares, paint, wider);
+        squares.squares[place].levels.exceeds(level).unwrap_or_else(|| {
+            let place = self.settled(squares, paint, square);
+            let settled = squares.squares[place].levels.exceeds(level);
+            settled.unwrap_or_else(|| self.asks_within(squares, place, paint, corners, level))
+        })
     }
 
-    /// What the area rule says of a triangle and of all triangles within. `squares` must have been used for
-    /// this field and these pixels only.
+    /// Returns the answers of the area rule for a triangle and for all triangles within it. `squares` must
+    /// have been used for this field and these pixels only.
     #[inline]
     pub fn levels_within(
         &self,
@@ -81,50 +115,81 @@ impl SizeField {
         corners: [LatticePoint; 3],
         level: u32,
     ) -> LevelsWithin {
-        let settled = self.settled(squares, paint, corners, level, 0);
-        settled.decided_at(level, || self.asks_with(&mut squares.known, paint, corners, level))
+        let Some(square) = self.square_around(corners, level) else {
+            squares.make_room();
+            return LevelsWithin::UNKNOWN
+                .decided_at(level, || self.asks_with(&mut squares.known, paint, corners, level, None));
+        };
+        let place = self.settled(squares, paint, square);
+        let levels = squares.squares[place].levels;
+        levels.decided_at(level, || self.asks_within(squares, place, paint, corners, level))
     }
 
-    /// What is known of all triangles in the square around one of this level, or in one that is 2^wider times
-    /// as wide.
-    #[inline]
-    fn settled(
+    /// Returns the answer for a triangle in a square that has not settled it.
+    fn asks_within(
         &self,
         squares: &mut SettledSquares,
+        place: usize,
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
-        wider: u32,
-    ) -> LevelsWithin {
-        let bits = self.square_bits().get(level as usize).map_or(0, |&bits| u32::from(bits));
-        if bits == 0 {
-            return LevelsWithin::UNKNOWN;
-        }
-        let bits = (bits + wider).min(u32::BITS - 1);
-        let [a, b, c] = corners;
-        let [x, y] = [a.x.min(b.x).min(c.x) >> bits, a.y.min(b.y).min(c.y) >> bits];
-        let key = u64::from(bits) << 58 | u64::from(x) << 29 | u64::from(y);
-        let place = key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS);
-        let SettledSquares { squares, known } = squares;
-        let square = &mut squares[place as usize];
-        if square.key != key {
-            *square = Square { key, levels: self.levels_in_square(known, paint, bits, [x, y]) };
-        }
-        square.levels
+    ) -> bool {
+        let Settled { least_asked, sources, .. } = &squares.squares[place];
+        let nearby = Nearby { least_asked: *least_asked, sources };
+        self.asks_with(&mut squares.known, paint, corners, level, Some(nearby))
     }
 
-    /// What is known of all triangles in a dyadic square of 2^bits steps.
+    /// Returns the dyadic square around a triangle, unless that has few lattice steps.
+    #[inline]
+    fn square_around(&self, [a, b, c]: [LatticePoint; 3], level: u32) -> Option<Square> {
+        let bits = self.square_bits().get(level as usize).map_or(0, |&bits| u32::from(bits));
+        let [column, row] = [a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y)].map(|v| v.unbounded_shr(bits));
+        (bits > 0).then_some(Square { bits, column, row })
+    }
+
+    /// Returns the place of what is known of all triangles in a square.
+    #[inline]
+    fn settled(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) -> usize {
+        let place = place_of(square);
+        if squares.squares[place].square != Some(square) {
+            self.settle(squares, paint, square);
+        }
+        place
+    }
+
+    /// Finds out about all triangles in a square.
     #[cold]
-    fn levels_in_square(
+    fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) {
+        squares.make_room();
+        let found = match self.spec().gradation {
+            None => self.settle_from(&[], &mut squares.known, paint, square),
+            Some(_) => {
+                let bits = square.bits + WIDER_BITS;
+                if bits >= Square::whole(self.lattice().extent()).bits {
+                    let whole = squares.known.whole(self);
+                    self.settle_from(&[whole], &mut squares.known, paint, square)
+                } else {
+                    let wider = self.settled(squares, paint, square.around(bits));
+                    let SettledSquares { squares, known } = squares;
+                    self.settle_from(&squares[wider].sources, known, paint, square)
+                }
+            }
+        };
+        squares.squares[place_of(square)] = found;
+    }
+
+    /// Finds the same, from the sources of a wider square.
+    fn settle_from(
         &self,
-        known: &mut KnownSquares,
+        sources: &[PartId],
+        known: &mut KnownParts,
         paint: &PaintLayers,
-        bits: u32,
-        [x, y]: [u32; 2],
-    ) -> LevelsWithin {
+        square: Square,
+    ) -> Settled {
+        let Square { bits, column, row } = square;
         let extent = self.lattice().extent();
         let (min, limit) =
-            ([i64::from(x) << bits, i64::from(y) << bits], [extent.x, extent.y].map(i64::from));
+            ([i64::from(column) << bits, i64::from(row) << bits], [extent.x, extent.y].map(i64::from));
         // Cells beside the square touch triangles on its border.
         let cells = Cells {
             min: min.map(|v| (v - 1).max(0)),
@@ -133,24 +198,32 @@ impl SizeField {
         let ([least, greatest], _) = self.asked_diameters(paint, &cells);
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
-        let [least, greatest] = match self.spec().gradation {
-            None => [least, greatest],
+        let bounds = match self.spec().gradation {
+            None => GradedBounds { least, greatest, sources: Vec::new() },
             Some(slope) => {
                 let is_level =
                     |[low, high]: [f64; 2]| self.first_level_within(low) == self.first_level_within(high);
-                graded_bounds(self, paint, known, &cells, slope, [least, greatest], is_level)
+                graded_bounds(self, paint, known, (&cells, sources), slope, [least, greatest], is_level)
             }
         };
-        LevelsWithin {
-            exceed_below: self.first_level_within(greatest),
-            satisfied_from: self.first_level_within(least),
-        }
+        let levels = LevelsWithin {
+            exceed_below: self.first_level_within(bounds.greatest),
+            satisfied_from: self.first_level_within(bounds.least),
+        };
+        Settled { square: Some(square), levels, least_asked: least, sources: bounds.sources }
     }
 
-    /// The first level whose triangles are no longer than a diameter in world units.
+    /// Returns the first level whose triangles are no longer than a diameter in world units.
     fn first_level_within(&self, diameter: f64) -> u32 {
         self.lengths().partition_point(|&length| length > diameter) as u32
     }
+}
+
+/// Returns the place at which a square is kept.
+#[inline]
+fn place_of(Square { bits, column, row }: Square) -> usize {
+    let key = u64::from(bits) << 58 | u64::from(column) << 29 | u64::from(row);
+    (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS)) as usize
 }
 
 /// The logarithm of the side of the squares for triangles of each level. 0 where triangles are asked about

@@ -1,19 +1,20 @@
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
+use super::engine::parts::PartId;
 use super::engine::reading::{Answer, lengths};
 use super::engine::search::any_cell;
-use super::engine::{CompiledLayer, KnownSquares, LEVELS, gradation};
+use super::engine::{CompiledLayer, KnownParts, LEVELS, gradation};
 use super::{Combine, Layer, LayerId, PaintLayers, Shapes, settled};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 use crate::mesh::Element;
 
-/// What a size field is made from, except for the painted pixels.
+/// The description of a size field, without the painted pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SizeFieldSpec {
-    /// From the bottom to the top.
+    /// The layers, from the bottom to the top.
     pub layers: Vec<Layer>,
-    /// From risk to diameter; its ends bound h̄ everywhere.
+    /// The curve from risk to diameter; its ends bound h̄ everywhere.
     pub transfer: Transfer,
     /// h̄ where no layer asks for a diameter, in world units.
     pub unasked: f64,
@@ -47,8 +48,17 @@ pub struct SizeField {
     is_minimum: bool,
 }
 
+/// What is known of all triangles in a square.
+#[derive(Clone, Copy)]
+pub(super) struct Nearby<'a> {
+    /// No point of a cell that touches one of them asks for less, in world units.
+    pub least_asked: f64,
+    /// The parts of the lattice from which gradation can carry to them.
+    pub sources: &'a [PartId],
+}
+
 impl SizeField {
-    /// The field of a spec on a lattice.
+    /// Returns the field of a spec on a lattice.
     pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
         let visible = spec.layers.iter().filter(|layer| layer.visible);
         let mut layers: Vec<_> = visible
@@ -63,7 +73,7 @@ impl SizeField {
         Self { lattice: *lattice, lengths, square_bits, layers, is_minimum, spec }
     }
 
-    /// The field of some layers alone.
+    /// Returns the field of some layers alone.
     ///
     /// Let nothing have changed since a triangle met its target, except that these layers ask for smaller
     /// diameters in places. Then the triangle exceeds its target exactly if it exceeds that of these layers
@@ -93,37 +103,37 @@ impl SizeField {
         })
     }
 
-    /// The same, with functions asked by their own bounds only.
+    /// Returns this field without models of its functions: searches use bounds only.
     #[cfg(test)]
     pub(super) fn without_models(self) -> Self {
         let layers = self.layers.into_iter().map(CompiledLayer::without_models).collect();
         Self { layers, ..self }
     }
 
-    /// What the field is made from.
+    /// Returns the description of the field.
     pub fn spec(&self) -> &SizeFieldSpec {
         &self.spec
     }
 
-    /// The lattice that it answers for.
+    /// Returns the lattice that it answers for.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The visible layers, from the bottom to the top.
+    /// Returns the visible layers, from the bottom to the top.
     pub(super) fn compiled(&self) -> &[CompiledLayer] {
         &self.layers
     }
 
-    /// Binary logarithm of the side of the squares, in lattice steps, that searches divide at lines between
-    /// pixels: those that are about as large as the largest pixels.
+    /// Returns the binary logarithm of the side of the squares, in lattice steps, that searches divide at
+    /// lines between pixels: those that are about as large as the largest pixels.
     pub(super) fn pixel_bits(&self, paint: &PaintLayers) -> u32 {
         let bits = self.layers.iter().filter_map(|layer| layer.pixel_bits(paint, &self.lattice));
         bits.max().map_or(0, |bits| bits + 1)
     }
 
-    /// Whether an element's diameter exceeds its target by the area rule: whether h̄ is below it at some
-    /// point of the closed triangle (Eqs. 12 and 13 of \[Report\], over all points).
+    /// Returns whether an element's diameter exceeds its target by the area rule: whether h̄ is below it at
+    /// some point of the closed triangle (Eqs. 12 and 13 of \[Report\], over all points).
     #[inline]
     pub fn exceeds(&self, paint: &PaintLayers, element: &Element) -> bool {
         self.asks_for_more(paint, element.corners, element.triangle.level())
@@ -132,18 +142,19 @@ impl SizeField {
     /// [`Self::exceeds`] of a triangle by its corners and its level.
     #[inline]
     pub fn asks_for_more(&self, paint: &PaintLayers, corners: [LatticePoint; 3], level: u32) -> bool {
-        self.asks_with(&mut KnownSquares::few(), paint, corners, level)
+        self.asks_with(&mut KnownParts::default(), paint, corners, level, None)
     }
 
     /// [`Self::asks_for_more`], where many triangles nearby are asked about. `known` must have been used for
-    /// this field and these pixels only.
+    /// this field and these pixels only; `nearby` is what is known of a square that holds the triangle.
     #[inline]
     pub(super) fn asks_with(
         &self,
-        known: &mut KnownSquares,
+        known: &mut KnownParts,
         paint: &PaintLayers,
         corners: [LatticePoint; 3],
         level: u32,
+        nearby: Option<Nearby>,
     ) -> bool {
         if let Some(asks) = self.limits_decide(level) {
             return asks;
@@ -154,14 +165,16 @@ impl SizeField {
         match self.spec.gradation {
             None => self.any_below(paint, &triangle, around, level),
             Some(slope) => {
-                self.any_below(paint, &triangle, around, level)
-                    || gradation::any_below(self, paint, known, corners, slope, length)
+                let sources = nearby.map(|nearby| nearby.sources);
+                let can_ask = nearby.is_none_or(|nearby| nearby.least_asked < length);
+                (can_ask && self.any_below(paint, &triangle, around, level))
+                    || gradation::any_below(self, paint, known, corners, (slope, length), sources)
             }
         }
     }
 
-    /// The answer for all triangles of a level that no layer can change: no point asks for less than h_min
-    /// or for more than h_max.
+    /// Returns the answer for all triangles of a level that no layer can change: no point asks for less than
+    /// h_min or for more than h_max.
     #[inline]
     pub(super) fn limits_decide(&self, level: u32) -> Option<bool> {
         let Some(&length) = self.lengths.get(level as usize) else { return Some(false) };
@@ -182,7 +195,7 @@ impl SizeField {
         &self.square_bits
     }
 
-    /// Whether a cell that touches the triangle asks for more than the level, before gradation.
+    /// Returns whether a cell that touches the triangle asks for more than the level, before gradation.
     fn any_below(&self, paint: &PaintLayers, triangle: &Octagon, around: Cells, level: usize) -> bool {
         if self.is_minimum {
             // The top layers are painted: they decide most triangles.
@@ -196,8 +209,8 @@ impl SizeField {
         any_cell(triangle, around, &mut ask)
     }
 
-    /// Where the lowest `count` layers together ask for more than a level, and where to divide the cells to
-    /// know more.
+    /// Returns the share of the cells in which the lowest `count` layers together require more than a level,
+    /// and the cut that divides them for a closer answer.
     fn asks(&self, count: usize, paint: &PaintLayers, cells: &Cells, level: usize) -> (Share, Option<Cut>) {
         let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
         let layer = &self.layers[below];

@@ -7,12 +7,12 @@ use super::engine::cells::{Cells, Cut};
 use super::engine::counting::Counting;
 use super::engine::gradation::Accuracy;
 use super::engine::reading::Diameters;
-use super::engine::{CompiledLayer, KnownSquares, gradation};
+use super::engine::{CompiledLayer, KnownParts, gradation};
 use super::{Combine, LayerId, PaintLayers, SettledSquares, SizeField};
 use crate::field::{RefinementRule, Transfer};
 use crate::mesh::level_for_diameter;
 
-/// What decides h̄ at a point.
+/// h̄ at a point, with the layer that decides it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
     /// h̄ in world units.
@@ -22,12 +22,12 @@ pub struct Decision {
     /// The place, in world units, whose diameter limits h̄ here through gradation; the point itself where the
     /// layers decide directly.
     pub from: DVec2,
-    /// What each visible layer asks for at the point, in world units, from the bottom to the top; `None`
-    /// where it asks for nothing.
+    /// The target diameter of each visible layer at the point, in world units, from the bottom to the top;
+    /// `None` for a layer without a target there.
     pub asked: Vec<(LayerId, Option<f64>)>,
 }
 
-/// Whether a mesh can meet a diameter, or infinity stands for none.
+/// Returns whether a mesh can meet a diameter, or infinity stands for none.
 fn is_valid(diameter: f64) -> bool {
     diameter > 0.0
 }
@@ -44,7 +44,7 @@ impl SizeField {
             None => before,
             Some(slope) => {
                 let how = (slope, Accuracy::Close);
-                self.graded(&mut KnownSquares::few(), paint, point, how, before).0
+                self.graded(&mut KnownParts::default(), paint, point, how, before).0
             }
         }
     }
@@ -53,7 +53,7 @@ impl SizeField {
     /// largest slope and the accuracy; `before` is a value that h̄ is known not to exceed.
     pub(super) fn graded(
         &self,
-        known: &mut KnownSquares,
+        known: &mut KnownParts,
         paint: &PaintLayers,
         point: DVec2,
         how: (f64, Accuracy),
@@ -75,7 +75,7 @@ impl SizeField {
         self.invalid_at(paint, point).unwrap_or_else(|| self.target_at(paint, point))
     }
 
-    /// A diameter that a layer asks for at a point in world units and that no mesh can meet.
+    /// Returns a diameter that a layer asks for at a point in world units and that no mesh can meet.
     pub(super) fn invalid_at(&self, paint: &PaintLayers, point: DVec2) -> Option<f64> {
         let asked = self.compiled().iter().map(|layer| layer.diameter_at(paint, point));
         asked.into_iter().find(|diameter| !is_valid(*diameter))
@@ -89,31 +89,32 @@ impl SizeField {
         }
     }
 
-    /// The level that a triangle of the given diameter in world units has.
+    /// Returns the level that a triangle of the given diameter in world units has.
     pub fn level_of_diameter(&self, diameter: f64) -> Option<u32> {
         level_for_diameter(self.lattice().spacing(), diameter)
     }
 
-    /// What decides h̄ at a point in world units.
+    /// Returns h̄ at a point in world units, with the layer that decides it.
     pub fn decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
-        self.decision(&mut KnownSquares::few(), paint, point, Accuracy::Close)
+        self.decision(&mut KnownParts::default(), paint, point, Accuracy::Close)
     }
 
-    /// As [`Self::decision_at`], to be shown under a pointer: with gradation the diameter may be above h̄ by
-    /// 10⁻³ of it where a search for it would take longer than a moment. `squares` must have been used for
-    /// this field and these pixels only.
+    /// Returns the decision of [`Self::decision_at`] fast enough for a pointer. With gradation, the diameter
+    /// may exceed h̄ by 10⁻³ of it where an exact search would take too long. `squares` must have been used
+    /// for this field and these pixels only.
     pub fn quick_decision_at(
         &self,
         squares: &mut SettledSquares,
         paint: &PaintLayers,
         point: DVec2,
     ) -> Decision {
+        squares.make_room();
         self.decision(&mut squares.known, paint, point, Accuracy::Quick)
     }
 
     fn decision(
         &self,
-        known: &mut KnownSquares,
+        known: &mut KnownParts,
         paint: &PaintLayers,
         point: DVec2,
         accuracy: Accuracy,
@@ -155,14 +156,14 @@ impl SizeField {
         (self.limited(target), decides)
     }
 
-    /// A diameter that the layers ask for, within the limits; infinity means that none does.
+    /// Returns a diameter that the layers ask for, within the limits; infinity means that none does.
     fn limited(&self, asked: f64) -> f64 {
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         if asked == f64::INFINITY { self.spec().unasked } else { asked.clamp(h_min, h_max) }
     }
 
-    /// The least and the greatest h̄ of some cells before gradation, and where to divide them to know more.
-    /// No other layers than those `counting` can count there.
+    /// Returns the least and the greatest h̄ of some cells before gradation, and where to divide them to know
+    /// more. No other layers than those `counting` can count there.
     pub(super) fn diameters(
         &self,
         paint: &PaintLayers,
@@ -174,7 +175,8 @@ impl SizeField {
         ([low, high], cut.filter(|_| low < high))
     }
 
-    /// The least and the greatest h̄ before gradation, from the least and the greatest diameter asked for.
+    /// Returns the least and the greatest h̄ before gradation, from the least and the greatest diameter asked
+    /// for.
     pub(super) fn limited_diameters(&self, [least, greatest]: [f64; 2]) -> [f64; 2] {
         let (low, high) = (self.limited(least), self.limited(greatest));
         if greatest == f64::INFINITY && least < f64::INFINITY {
@@ -185,18 +187,18 @@ impl SizeField {
         [low, high]
     }
 
-    /// Those of the visible layers that can count, from the bottom to the top, with their numbers.
+    /// Returns the visible layers that can count, from the bottom to the top, with their numbers.
     pub(super) fn counting(&self, counting: Counting) -> impl Iterator<Item = (usize, &CompiledLayer)> {
         self.compiled().iter().enumerate().filter(move |&(number, _)| counting.has(number))
     }
 
-    /// The least and the greatest diameter that the layers ask for in some cells, infinite where nothing is
-    /// asked for, and where to divide them to know more.
+    /// Returns the least and the greatest diameter that the layers ask for in some cells, infinite where
+    /// nothing is asked for, and where to divide them to know more.
     pub(super) fn asked_diameters(&self, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
         self.asked_by(Counting::ALL, paint, cells)
     }
 
-    /// As [`Self::asked_diameters`], where only the layers of `counting` can count.
+    /// Returns the result of [`Self::asked_diameters`] if only the layers of `counting` can count.
     fn asked_by(&self, counting: Counting, paint: &PaintLayers, cells: &Cells) -> ([f64; 2], Option<Cut>) {
         let (mut least, mut greatest, mut cut) = (f64::INFINITY, f64::INFINITY, None);
         for (_, layer) in self.counting(counting) {

@@ -1,7 +1,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::engine::KnownSquares;
+use super::engine::KnownParts;
 use super::engine::gradation::Accuracy;
 use super::{PaintLayers, SizeField};
 use crate::field::RefinementRule;
@@ -17,7 +17,7 @@ struct TargetsInOrder<'a> {
     rule: RefinementRule,
     /// The last point, and h̄ there.
     last: Option<(DVec2, f64)>,
-    known: KnownSquares,
+    known: KnownParts,
 }
 
 /// The bound is raised by so much that the tolerance of the search cannot hide the result.
@@ -25,7 +25,7 @@ const SLACK: f64 = 1.0 + 2e-6;
 
 impl<'a> TargetsInOrder<'a> {
     fn new(field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
-        Self { field, paint, rule, last: None, known: KnownSquares::default() }
+        Self { field, paint, rule, last: None, known: KnownParts::default() }
     }
 
     /// [`SizeField::target_by_rule`] at a point in world units.
@@ -40,6 +40,7 @@ impl<'a> TargetsInOrder<'a> {
     }
 
     fn valid_at(&mut self, point: DVec2) -> f64 {
+        self.known.make_room();
         let before = self.field.ungraded_at(self.paint, point).0;
         let Some(slope) = self.field.spec().gradation else { return before };
         let bound =
@@ -59,7 +60,7 @@ impl SizeField {
     /// now and then whether to go on.
     ///
     /// # Errors
-    /// Those of `check`.
+    /// Fails with the errors of `check`.
     pub fn targets_at_nodes<E: Send>(
         &self,
         rule: RefinementRule,

@@ -9,7 +9,7 @@ use super::threats::NO_SURVIVAL;
 use crate::field::{Bounds, Quadratic};
 
 impl Threats {
-    /// A model of the combined risk.
+    /// Returns a model of the combined risk.
     pub(super) fn model(&self, place: &Place) -> Quadratic {
         let (mut survival, mut is_felt) = (Survival::default(), false);
         let certain = self.visit_meeting(&place.rect(), |threat| {
@@ -36,20 +36,20 @@ const MOST_CHANGE: f64 = 0.5;
 /// A smaller product may have lost digits.
 const LEAST_PRODUCT: f64 = 1e-290;
 
-/// What is survived of all threats: Π (1 − pᵢ).
+/// The probability to survive all threats: Π (1 − pᵢ).
 ///
 /// Most threats vary little over a place, and there are many: of them, the values in the middle are
 /// multiplied, and the changes of the logarithms ln (1 − pᵢ) from there are added up as polynomials of the
 /// coordinates u and v in the place. This takes one division a threat, and no logarithm. The others are
 /// multiplied as models.
 struct Survival {
-    /// What is survived in the middle of the place.
+    /// The probability to survive in the middle of the rectangle.
     middle: f64,
     /// The coefficients of u, v, u², uv and v² of the logarithm.
     change: [f64; 5],
     /// The largest distance from that polynomial.
     rest: f64,
-    /// Of threats that vary much.
+    /// The product for threats that vary much.
     others: Quadratic,
     /// No value of that is greater.
     most_of_others: f64,
@@ -118,18 +118,18 @@ impl Survival {
         self.rest += rest + cut_off + rounding;
     }
 
-    /// No logarithm is farther from that in the middle.
+    /// Returns an upper bound of the difference of a logarithm from the one in the middle.
     fn most_change(&self) -> f64 {
         self.change.iter().map(|term| term.abs()).sum::<f64>() + self.rest
     }
 
-    /// Whether nothing is survived anywhere in the place.
+    /// Returns whether nothing is survived anywhere in the place.
     fn is_lost(&self) -> bool {
         let most = self.middle * self.most_of_others;
         most < NO_SURVIVAL && 2.0 * most * libm::exp(self.most_change()) < NO_SURVIVAL
     }
 
-    /// As a model.
+    /// Returns the series as a model.
     fn model(&self) -> Quadratic {
         let [u, v, uu, uv, vv] = self.change;
         let logarithm = Quadratic::new([0.0, u, v, uu, uv, vv], self.rest);

@@ -12,7 +12,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The square of distance / range over a place, as a polynomial of the coordinates u and v in the place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Squared {
-    /// In the middle of the place.
+    /// The value in the middle of the rectangle.
     pub middle: f64,
     /// The coefficients of u and v.
     pub linear: [f64; 2],
@@ -55,13 +55,13 @@ impl Squared {
         }
     }
 
-    /// The square of distance / range as a model.
+    /// Returns the square of distance / range as a model.
     pub fn model(&self) -> Quadratic {
         let ([u, v], [uu, vv]) = (self.linear, self.bend);
         Quadratic::new([self.middle, u, v, uu, 0.0, vv], self.rest)
     }
 
-    /// No value is farther from that in the middle.
+    /// Returns an upper bound of the difference of a value from the one in the middle.
     pub fn step(&self) -> f64 {
         let ([u, v], [uu, vv]) = (self.linear, self.bend);
         (u.abs() + v.abs() + uu + vv + self.rest) * (1.0 + 16.0 * f64::EPSILON)
@@ -89,7 +89,7 @@ impl Series {
         }
     }
 
-    /// Values from this polynomial to `apart` beside it, to either side.
+    /// Returns values from this polynomial to `apart` beside it, to either side.
     fn beside(self, apart: f64) -> Self {
         let half = 0.5 * apart;
         Self { value: self.value + half, rest: self.rest + half.abs(), ..self }
@@ -102,7 +102,7 @@ impl Series {
 }
 
 impl Threat {
-    /// The risk from the square of distance / range; `None` where the threat is not felt.
+    /// Returns the risk from the square of distance / range; `None` where the threat is not felt.
     pub(super) fn series(&self, squared: &Squared) -> Option<Series> {
         let is_felt = squared.least <= 1.0 && self.peak > 0.0;
         is_felt.then(|| self.law.series(squared).times(self.peak))
@@ -119,7 +119,7 @@ impl ThreatLaw {
         }
     }
 
-    /// The share of the peak. Where it varies much, bounds of it: it never rises with the distance.
+    /// Returns the share of the peak. Where it varies much, bounds of it: it never rises with the distance.
     fn series(self, squared: &Squared) -> Series {
         if squared.greatest.is_nan() {
             return Series::constant(0.0).beside(1.0);
@@ -160,7 +160,7 @@ fn radar(squared: &Squared) -> Series {
         .beside(2.0 / 15.0 * (squared.greatest - 1.0).max(0.0))
 }
 
-/// The chord of the radar's share around s = 1/4, where it begins to fall.
+/// Returns the chord of the radar's share around s = 1/4, where it begins to fall.
 ///
 /// ```text
 ///   1 ----.         Between 1/4 and the greatest s the share is convex: it lies below the straight line to

@@ -36,12 +36,12 @@ impl ThreatLaw {
     pub const ALL: [(Self, &str); 3] =
         [(Self::Radar, "radar"), (Self::Gaussian, "gaussian"), (Self::Disc, "disc")];
 
-    /// The name in files.
+    /// Returns the name in files.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(law, _)| *law == self).map_or("radar", |(_, name)| name)
     }
 
-    /// The share of the peak at a distance, from the square of distance / range.
+    /// Returns the share of the peak at a distance, from the square of distance / range.
     pub(super) fn share(self, squared: f64) -> f64 {
         if squared >= 1.0 {
             return 0.0;
@@ -63,7 +63,7 @@ impl ThreatLaw {
 /// A place with a risk around it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Threat {
-    /// Where it is, in world units.
+    /// The position of the threat, in world units.
     pub at: DVec2,
     /// The distance from which on there is no risk, in world units.
     pub range: f64,
@@ -98,7 +98,7 @@ impl Threat {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// The first number that is not valid.
+    /// Fails with the first number that is not valid.
     pub fn check(&self) -> Result<(), ThreatError> {
         let box_is_finite = self.reach().min.is_finite() && self.reach().max.is_finite();
         if !self.at.is_finite() {
@@ -113,12 +113,12 @@ impl Threat {
         Ok(())
     }
 
-    /// The rectangle beyond which there is no risk, in world units.
+    /// Returns the rectangle beyond which there is no risk, in world units.
     pub fn reach(&self) -> Rect {
         Rect::around(self.at, self.range)
     }
 
-    /// The risk at a point in world units.
+    /// Returns the risk at a point in world units.
     pub fn risk_at(&self, p: DVec2) -> f64 {
         self.risk_towards(p - self.at)
     }
@@ -129,7 +129,8 @@ impl Threat {
         self.peak * self.law.share(share.x * share.x + share.y * share.y)
     }
 
-    /// Bounds of the risk over a rectangle. Up to the law, every operation keeps order when it rounds.
+    /// Returns bounds of the risk over a rectangle. Up to the law, every operation keeps order when it
+    /// rounds.
     pub(super) fn bounds(&self, rect: &Rect) -> Bounds {
         let (low, high) = (rect.min - self.at, rect.max - self.at);
         let nearest = DVec2::ZERO.clamp(low, high);
@@ -177,7 +178,7 @@ impl Threats {
     /// Indexes threats.
     ///
     /// # Errors
-    /// The first threat that is not valid, with its number in the list.
+    /// Fails with the first threat that is not valid, with its number in the list.
     pub fn new(threats: Vec<Threat>) -> Result<Self, (usize, ThreatError)> {
         for (number, threat) in threats.iter().enumerate() {
             threat.check().map_err(|error| (number, error))?;
@@ -193,12 +194,12 @@ impl Threats {
         Ok(Self(Arc::new(indexed)))
     }
 
-    /// The threats in the order in which they were given.
+    /// Returns the threats in the order in which they were given.
     pub fn list(&self) -> &[Threat] {
         &self.0.threats
     }
 
-    /// The address of the data that clones share, and their memory in bytes.
+    /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
         let Indexed { threats, tree, survival } = &*self.0;
         let survival: usize = survival.iter().map(|level| size_of_val(&**level)).sum();
@@ -209,10 +210,10 @@ impl Threats {
     /// that clones share are copied first.
     ///
     /// # Errors
-    /// When the threat is not valid; nothing is changed then.
+    /// Fails when the threat is not valid; nothing is changed then.
     ///
     /// # Panics
-    /// When there is no threat of this number.
+    /// Panics when there is no threat of this number.
     pub fn set(&mut self, number: usize, threat: Threat) -> Result<(), ThreatError> {
         threat.check()?;
         let indexed = Arc::make_mut(&mut self.0);
@@ -224,7 +225,7 @@ impl Threats {
         Ok(())
     }
 
-    /// The combined risk at a point in world units, 0 to 1.
+    /// Returns the combined risk at a point in world units, 0 to 1.
     pub fn risk_at(&self, p: DVec2) -> f64 {
         // The product depends on its order to the last bit, so it follows the list.
         let (mut risks, mut survival) = (Vec::with_capacity(64), 1.0);
@@ -252,7 +253,7 @@ impl Threats {
         self.0.tree.visit_meeting(rect, |number| visit(&self.0.threats[number as usize]))
     }
 
-    /// Bounds of the combined risk over a closed rectangle in world units.
+    /// Returns bounds of the combined risk over a closed rectangle in world units.
     ///
     /// Threats that lie in the rectangle with all of their reach are counted by groups, so that a large
     /// rectangle costs about the threats across its sides.
@@ -297,25 +298,14 @@ impl Threats {
         Bounds { least: bounds.least.max(0.0), greatest: bounds.greatest.min(1.0), ..bounds }
     }
 
-    /// The rectangle beyond which two lists have the same risks, `None` where they have the same risks
-    /// everywhere.
-    ///
-    /// What is equal at the beginning and at the end of both lists does not count.
-    pub fn changed_area(old: &Self, new: &Self) -> Option<Rect> {
-        if Arc::ptr_eq(&old.0, &new.0) {
-            return None;
-        }
-        let (old, new) = (old.list(), new.list());
-        let first = old.iter().zip(new).take_while(|(a, b)| a == b).count();
-        let (old, new) = (&old[first..], &new[first..]);
-        let last = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| a == b).count();
-        let changed = old[..old.len() - last].iter().chain(&new[..new.len() - last]);
-        changed.filter(|threat| threat.peak > 0.0).map(Threat::reach).reduce(|a, b| a.union(&b))
+    /// Whether both are clones of one list.
+    pub(super) fn shares_list_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
     }
 }
 
 impl Indexed {
-    /// The product of 1 − peak over a group, from that of its members.
+    /// Returns the product of 1 − peak over a group, from that of its members.
     fn survival_of(&self, group: BoxGroup) -> f64 {
         let members = self.tree.members(group);
         match group.level {
@@ -330,6 +320,7 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
+    use crate::layers::{Layer, LayerKind, PaintLayers, RiskField};
 
     fn threat(random: &mut fastrand::Rng) -> Threat {
         let range = [0.02, 0.1, 0.7][random.usize(..3)] * (0.1 + random.f64());
@@ -342,7 +333,7 @@ mod tests {
         }
     }
 
-    /// The combined risk by the formulas of the documentation, over all threats.
+    /// Returns the combined risk by the formulas of the documentation, over all threats.
     fn referee(threats: &[Threat], p: DVec2) -> f64 {
         let rim = (-4.5f64).exp();
         let survived = threats.iter().map(|t| {
@@ -450,6 +441,13 @@ mod tests {
         assert!(beside_a_rim > 20, "{beside_a_rim}");
     }
 
+    fn areas_that_differ(new: &Threats, old: &Threats) -> Vec<Rect> {
+        let risk = |threats: &Threats| {
+            RiskField::new(&Layer::stack([LayerKind::Threats(threats.clone())]), PaintLayers::blank())
+        };
+        risk(new).areas_that_differ(&risk(old)).unwrap()
+    }
+
     #[test]
     fn a_dragged_threat_gives_the_risks_of_a_new_list() {
         let mut random = fastrand::Rng::with_seed(53);
@@ -462,16 +460,16 @@ mod tests {
             dragged.set(number, list[number]).unwrap();
             let fresh = Threats::new(list.clone()).unwrap();
             assert_eq!(dragged, fresh);
-            let area = Threats::changed_area(&before, &dragged);
+            let areas = areas_that_differ(&dragged, &before);
             for _ in 0..40 {
                 let p = place(&mut random);
                 assert_eq!(dragged.risk_at(p).to_bits(), fresh.risk_at(p).to_bits());
                 if before.risk_at(p) != dragged.risk_at(p) {
-                    assert!(area.is_some_and(|area| area.contains(p)), "{p} changed beyond {area:?}");
+                    assert!(areas.iter().any(|area| area.contains(p)), "{p} changed beyond {areas:?}");
                 }
             }
         }
-        assert_eq!(Threats::changed_area(&dragged, &dragged.clone()), None);
+        assert_eq!(areas_that_differ(&dragged, &dragged.clone()), []);
     }
 
     #[test]
@@ -483,10 +481,10 @@ mod tests {
             let mut fewer = list.clone();
             fewer.remove(removed);
             let fewer = Threats::new(fewer).unwrap();
-            assert_eq!(Threats::changed_area(&all, &fewer), Some(list[removed].reach()));
-            assert_eq!(Threats::changed_area(&fewer, &all), Some(list[removed].reach()));
+            assert_eq!(areas_that_differ(&all, &fewer), [list[removed].reach()]);
+            assert_eq!(areas_that_differ(&fewer, &all), [list[removed].reach()]);
         }
-        assert_eq!(Threats::changed_area(&all, &Threats::new(list).unwrap()), None);
+        assert_eq!(areas_that_differ(&all, &Threats::new(list).unwrap()), []);
     }
 
     #[test]

@@ -6,8 +6,8 @@ use super::{DistanceTo, LayerKind, RasterReading, RasterSource, Shapes, ValueCur
 use crate::field::Transfer;
 
 impl LayerKind {
-    /// A band of the middle third of a raster's values, with the geometric mean of `h_min` and `h_max` as its
-    /// diameter. `None` if no pixel has a finite value.
+    /// Returns a band of the middle third of a raster's values, with the geometric mean of `h_min` and
+    /// `h_max` as its diameter. `None` if no pixel has a finite value.
     pub fn band_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
         let range = source.raster.finite_range()?;
         let [least, greatest] = [range.least, range.greatest].map(f64::from);
@@ -16,7 +16,8 @@ impl LayerKind {
         Some(Self::Band { source, between: [least + third, greatest - third], diameter })
     }
 
-    /// A raster through a curve that is finest at its least value. `None` if no pixel has a finite value.
+    /// Returns a raster through a curve that is finest at its least value. `None` if no pixel has a finite
+    /// value.
     pub fn curve_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
         let curve = ValueCurve::over(source.raster.finite_range()?, [transfer.h_min, transfer.h_max])?;
         Some(Self::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) })
@@ -27,7 +28,7 @@ impl LayerKind {
         Self::Distance { to, at_zero: transfer.h_min, slope, range: f64::INFINITY }
     }
 
-    /// A corridor along lines through a domain of this extent, in world units: a fiftieth of it wide.
+    /// Returns a corridor along lines through a domain of this extent, in world units: a fiftieth of it wide.
     pub fn corridor(lines: Shapes, extent: f64, transfer: &Transfer, slope: f64) -> Self {
         Self::distance_to(DistanceTo::Corridor { lines, width: 0.02 * extent }, transfer, slope)
     }

@@ -11,8 +11,8 @@ pub(super) const COT_30: f64 = 1.732_050_807_568_877_2;
 /// The cotangent of 18.4°.
 const COT_18_4: f64 = 3.006_055_646_788_107_5;
 
-/// Measures angles by their cotangents: without trigonometry, so that every machine finds the same. A smaller
-/// angle has a larger cotangent.
+/// Compares angles by their cotangents: without trigonometry, so that every machine gets the same result. A
+/// smaller angle has a larger cotangent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Angles {
     /// World length of a lattice step along x and y.
@@ -28,15 +28,15 @@ impl Angles {
         self.step
     }
 
-    /// From one point to another, in world units.
+    /// Returns the vector from one point to another, in world units.
     #[inline]
     pub(super) fn vector(&self, from: LatticePoint, to: LatticePoint) -> DVec2 {
         let steps = |from: u32, to: u32| (i64::from(to) - i64::from(from)) as f64;
         DVec2::new(steps(from.x, to.x), steps(from.y, to.y)) * self.step
     }
 
-    /// Whether the angle at `at`, anticlockwise from the direction of `from` to that of `to`, is at least
-    /// 5°. It may be more than 180°, up to 270°.
+    /// Returns whether the angle at `at`, anticlockwise from the direction of `from` to that of `to`, is at
+    /// least 5°. It may be more than 180°, up to 270°.
     #[inline]
     pub(super) fn is_open(&self, at: LatticePoint, from: LatticePoint, to: LatticePoint) -> bool {
         let (a, b) = (self.vector(at, from), self.vector(at, to));
@@ -44,7 +44,7 @@ impl Angles {
         dot < 0.0 || (cross > 0.0 && dot <= COT_5 * cross)
     }
 
-    /// The cotangent of the smallest angle of a triangle; infinite where its corners do not run
+    /// Returns the cotangent of the smallest angle of a triangle; infinite if its corners do not run
     /// anticlockwise.
     #[inline]
     pub(super) fn worst(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
@@ -53,9 +53,9 @@ impl Angles {
         if cross > 0.0 { ab.dot(ac).max(ac.dot(bc)).max(-ab.dot(bc)) / cross } else { f64::INFINITY }
     }
 
-    /// The cotangent of the smallest angle that triangles inside may have: 18.4°, or the smallest one that
-    /// occurs where every node is at home and every cut edge is cut in its middle, if that is smaller. In
-    /// square cells it is arctan ⅓ = 18.43°.
+    /// Returns the cotangent of the smallest angle that triangles inside may have: 18.4°, or the smallest
+    /// angle that occurs where every node is at its home and every cut edge is cut in its middle, if that is
+    /// smaller. In square cells that angle is arctan ⅓ = 18.43°.
     pub(super) fn limit(&self) -> f64 {
         let point = LatticePoint::new;
         // The shapes at even and at odd levels.
@@ -70,8 +70,8 @@ impl Angles {
         COT_18_4.max(homes * (1.0 + 1e-9))
     }
 
-    /// The worst of what cuts through the middles of edges leave of a triangle, where the first corner is
-    /// on the outline or alone on its side.
+    /// Returns the cotangent of the smallest angle of the pieces that cuts through the middles of edges leave
+    /// of a triangle whose first corner is on the outline or alone on its side.
     fn worst_of_cuts(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
         let [ab, bc, ca] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
         let from_corner = self.worst([a, b, bc]).max(self.worst([a, bc, c]));
@@ -79,8 +79,8 @@ impl Angles {
         from_corner.max(self.worst([a, ab, ca])).max(first.min(second))
     }
 
-    /// The worst of the two triangles on either side of the diagonal from the first corner of a
-    /// quadrilateral, and from the second.
+    /// Returns the cotangents of the smallest angles of the two triangles on either side of a diagonal of a
+    /// quadrilateral: first for the diagonal from the first corner, then for the one from the second.
     pub(super) fn diagonals(&self, [a, b, c, d]: [LatticePoint; 4]) -> [f64; 2] {
         [self.worst([a, b, c]).max(self.worst([a, c, d])), self.worst([a, b, d]).max(self.worst([b, c, d]))]
     }

@@ -5,12 +5,12 @@ use crate::domain::RegionOnLattice;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};
 
-/// How many rings of triangles around those that the outline divides may change.
+/// Number of rings of triangles, around those that the outline divides, that may change.
 const RINGS: usize = 4;
 
 /// The triangles of a mesh near the outline of a region, inside and outside.
 ///
-/// Nodes and triangles are numbered by their places on the lattice, not by their entries in the mesh. So
+/// Nodes and triangles are numbered by their positions on the lattice, not by their entries in the mesh. So
 /// everything that is derived from them depends on mesh and outline only, not on the order of edits.
 pub(super) struct Band {
     pub(super) triangles: Triangulation,
@@ -20,13 +20,13 @@ pub(super) struct Band {
     pub(super) node_ids: Vec<NodeId>,
     /// The nodes, in ascending order.
     pub(super) points: Vec<LatticePoint>,
-    /// For each node whether it lies in the closed region.
+    /// For each node, whether it lies in the closed region.
     pub(super) inside: Vec<bool>,
-    /// For each node whether the outline crosses an edge there, between nodes inside and outside.
+    /// For each node, whether the outline crosses an edge there, between nodes inside and outside.
     pub(super) active: Vec<bool>,
 }
 
-/// For each node of a mesh whether it lies in the closed region.
+/// Returns, for each node of a mesh, whether it lies in the closed region.
 pub(super) fn signs(mesh: &Mesh, region: &RegionOnLattice) -> Vec<bool> {
     mesh.raw_nodes().iter().map(|&node| region.contains(node)).collect()
 }
@@ -58,13 +58,14 @@ impl Band {
         }
     }
 
-    /// How the corners of a triangle are marked, beginning with the one at place `i`.
+    /// Returns the marks of the corners of a triangle, beginning with the corner at position `i`.
     pub(super) fn starting_at<T: Copy>(&self, triangle: u32, i: usize, of: &[T]) -> [T; 3] {
         self.triangles.starting_at(triangle, i).map(|v| of[v as usize])
     }
 }
 
-/// For each node of the mesh whether it is a corner of a triangle that has corners inside and outside.
+/// Returns, for each node of the mesh, whether it is a corner of a triangle that has corners inside and
+/// outside.
 fn nodes_at_outline(mesh: &Mesh, signs: &[bool]) -> Vec<bool> {
     let mut active = vec![false; signs.len()];
     for triangle in mesh.raw_triangles() {

@@ -1,4 +1,4 @@
-//! From the mesh to the one with nodes on the outline, step by step.
+//! Derives the mesh with nodes on the outline from the mesh of right-angled triangles, step by step.
 
 use super::angles::Angles;
 use super::band::{Band, signs};
@@ -14,27 +14,27 @@ use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
 
-/// How many rounds of flips and moves improve the angles.
+/// Number of rounds of flips and moves that improve the angles.
 const ROUNDS: usize = 8;
 
-/// How well the nodes of the boundary lie on the outline.
+/// The fit of the nodes of the boundary to the outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OutlineFit {
-    /// Nodes of the boundary along the outline.
+    /// Number of nodes of the boundary along the outline.
     pub nodes: usize,
-    /// Those that lie on it.
+    /// Number of these nodes that lie on the outline.
     pub on_outline: usize,
-    /// Largest distance of the others from it, in world units.
+    /// Largest distance of the other nodes from the outline, in world units.
     pub farthest: f64,
-    /// Sharp corners of the outline that are nodes.
+    /// Number of sharp corners of the outline that are nodes.
     pub corners: usize,
 }
 
-/// What [`OutlineChanges::new`] finds.
+/// The result of [`OutlineChanges::new`].
 pub(super) struct OutlineChanges {
-    /// What is changed in the mesh.
+    /// The changes of the mesh.
     pub patch: MeshPatch,
-    /// How well the boundary lies on the outline.
+    /// The fit of the boundary to the outline.
     pub fit: OutlineFit,
     /// The cotangent of the smallest angle that is accepted beside a corner of the outline; 0 without
     /// corners.
@@ -42,7 +42,7 @@ pub(super) struct OutlineChanges {
 }
 
 impl OutlineChanges {
-    /// Finds what to change so that the nodes of the boundary lie on the outline of a region.
+    /// Finds the changes that put the nodes of the boundary on the outline of a region.
     pub fn new(mesh: &Mesh, region: &RegionOnLattice) -> Self {
         let angles = Angles::new(mesh.lattice().step());
         let signs = signs(mesh, region);
@@ -61,7 +61,7 @@ impl OutlineChanges {
     }
 }
 
-/// Moves nodes onto the outline, all at once; nodes where the domain would touch itself stay.
+/// Moves nodes onto the outline, all at once. Nodes at which the domain would touch itself stay.
 fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Angles) -> Placement {
     let crossings = Crossings::new(band, region, lattice);
     let (mut sides, mut goals) = snapped(band, &crossings, angles);
@@ -79,8 +79,9 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
     }
 }
 
-/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where that does
-/// not help are given up. Returns the cotangent of the smallest angle that is accepted beside the others.
+/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where retreats do
+/// not help are given up. Returns the cotangent of the smallest angle that is accepted beside the other
+/// corners.
 fn retreat(
     mesh: &Mesh,
     band: &Band,
@@ -109,7 +110,7 @@ fn fit(patchwork: &Patchwork, region: &RegionOnLattice, extent: LatticePoint, an
     let mut star = Vec::new();
     for (v, &point) in patchwork.points.iter().enumerate() {
         patchwork.triangles.star(v as u32, &mut star);
-        // Nodes along the frame alone have no triangles outside around them.
+        // Nodes that lie only along the frame have no triangles outside around them.
         let has_outside = star.iter().any(|&(t, _)| !patchwork.inside[t as usize]);
         if star.is_empty() || !patchwork.is_on_boundary(&star) || !(has_outside || patchwork.on_outline[v]) {
             continue;
@@ -125,11 +126,11 @@ fn fit(patchwork: &Patchwork, region: &RegionOnLattice, extent: LatticePoint, an
     fit
 }
 
-/// The distance of a point from the outline, in world units.
+/// Returns the distance of a point from the outline, in world units.
 ///
 /// The outline is searched within a lattice step first, then within four times as much, up to more than the
-/// diagonal of the lattice. It has an edge there: a node that can be off the outline is at an edge that the
-/// outline crosses, and an edge of the outline along a side of the grid crosses none.
+/// diagonal of the lattice. The search finds an edge: a node that can be off the outline is at an edge that
+/// the outline crosses, and an edge of the outline along a side of the grid crosses none.
 fn distance(point: LatticePoint, region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> f64 {
     let (p, step) = (point.as_dvec2(), angles.step());
     let diagonal = (extent.as_dvec2() * step).length();
@@ -139,7 +140,7 @@ fn distance(point: LatticePoint, region: &RegionOnLattice, extent: LatticePoint,
     nearest.next().map_or(0.0, |nearest| ((nearest - p) * step).length())
 }
 
-/// Collects what differs from the mesh.
+/// Collects the differences from the mesh.
 fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
     let mut patch =
         MeshPatch { added: patchwork.points[band.points.len()..].to_vec(), ..MeshPatch::default() };
@@ -157,7 +158,7 @@ fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles
                 let corners = longest_edge_first(patchwork, angles, piece);
                 PatchTriangle { corners: corners.map(|v| node_id(mesh, band, v)), level }
             })),
-            // Far from the outline, or around a part of it that passes between all nodes.
+            // The triangle is far from the outline, or around a part of it that passes between all nodes.
             None => {
                 let inside = signs[triangle.vertices[0].index()];
                 if inside != triangle.is_outside() {
@@ -174,9 +175,10 @@ fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles
 
 /// The pieces inside of each triangle of the band.
 struct PiecesByTriangle {
-    /// For each triangle of the mesh its number in the band, or [`NONE`].
+    /// For each triangle of the mesh, its number in the band, or [`NONE`].
     numbers: Vec<u32>,
-    /// For each triangle of the band the end of its part of `pieces`; it begins at the end of the one before.
+    /// For each triangle of the band, the end of its range in `pieces`; the range begins at the end of the
+    /// previous one.
     ends: Vec<usize>,
     pieces: Vec<u32>,
 }
@@ -195,7 +197,7 @@ impl PiecesByTriangle {
         Self { numbers, ends, pieces }
     }
 
-    /// Those of a triangle of the mesh, if it is in the band.
+    /// Returns the pieces of a triangle of the mesh, or `None` if it is not in the band.
     fn of(&self, id: TriangleId) -> Option<&[u32]> {
         let t = self.numbers[id.index()] as usize;
         let end = *self.ends.get(t)?;
@@ -204,7 +206,7 @@ impl PiecesByTriangle {
     }
 }
 
-/// Whether the pieces of a triangle are what the mesh has.
+/// Returns whether the pieces of a triangle are equal to the triangle of the mesh.
 fn is_unchanged(band: &Band, patchwork: &Patchwork, in_domain: bool, pieces: &[u32]) -> bool {
     let &[piece] = pieces else { return pieces.is_empty() && !in_domain };
     let owner = patchwork.owners[piece as usize];
@@ -214,7 +216,7 @@ fn is_unchanged(band: &Band, patchwork: &Patchwork, in_domain: bool, pieces: &[u
     in_domain && same && corners.iter().all(is_at_home)
 }
 
-/// The corners of a piece, anticlockwise, those of its longest edge first.
+/// Returns the corners of a piece, anticlockwise, beginning with the two ends of its longest edge.
 fn longest_edge_first(patchwork: &Patchwork, angles: &Angles, piece: u32) -> [u32; 3] {
     let turned = [0, 1, 2].map(|i| patchwork.triangles.starting_at(piece, i));
     let length = |[a, b, _]: [u32; 3]| {
@@ -223,7 +225,7 @@ fn longest_edge_first(patchwork: &Patchwork, angles: &Angles, piece: u32) -> [u3
     turned.into_iter().reduce(|a, b| if length(b) > length(a) { b } else { a }).expect("three edges")
 }
 
-/// The node of the mesh, or the added one, that has this number in the band.
+/// Returns the node of the mesh, or the added node, that has this number in the band.
 fn node_id(mesh: &Mesh, band: &Band, v: u32) -> NodeId {
     let added = |v: usize| NodeId::from_index(mesh.raw_nodes().len() + v - band.points.len());
     band.node_ids.get(v as usize).copied().unwrap_or_else(|| added(v as usize))

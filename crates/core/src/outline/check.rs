@@ -1,4 +1,4 @@
-//! Checks a mesh as it leaves the program.
+//! Checks a derived mesh.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -7,13 +7,13 @@ use super::DerivedMesh;
 use super::angles::Angles;
 use crate::mesh::{Extract, NodeId};
 
-/// A rule that a derived mesh breaks. Numbers are those of the extract.
+/// A rule that a derived mesh breaks. Triangles and nodes have the numbers of the extract.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DerivedViolation {
     /// A triangle whose corners do not run anticlockwise.
     Area {
-        /// Its number.
+        /// The number of the triangle.
         triangle: usize,
     },
     /// An angle below the bound, away from sharp corners of the outline.
@@ -23,17 +23,17 @@ pub enum DerivedViolation {
     },
     /// Two triangles have an edge in the same direction.
     Edge {
-        /// The number of the second one.
+        /// The number of the second triangle.
         triangle: usize,
     },
-    /// The triangle says something else about a neighbour than the edges.
+    /// The neighbour that a triangle names is not the one that its edges show.
     Neighbour {
-        /// Its number.
+        /// The number of the triangle.
         triangle: usize,
     },
     /// The domain touches itself in a node.
     Pinched {
-        /// Its number.
+        /// The number of the node.
         node: usize,
     },
 }
@@ -52,7 +52,7 @@ impl fmt::Display for DerivedViolation {
 }
 
 impl DerivedMesh {
-    /// All rules that the mesh breaks, as files get it: `extract` must be the result of [`Self::extract`].
+    /// Returns all rules that the derived mesh breaks; `extract` must be the result of [`Self::extract`].
     pub fn violations(&self, extract: &Extract) -> Vec<DerivedViolation> {
         let mut found = Vec::new();
         let mut owners: HashMap<[usize; 2], usize> = HashMap::with_capacity(3 * extract.triangles().len());

@@ -1,4 +1,4 @@
-//! Sharp corners of the outline become nodes.
+//! Turns sharp corners of the outline into nodes.
 
 use std::f64::consts::SQRT_2;
 
@@ -18,7 +18,8 @@ use crate::mesh::Mesh;
 const COT_12: f64 = 4.704_630_109_478_455;
 /// The cosine of 30°, the smallest turn of a sharp corner.
 const COS_30: f64 = 0.866_025_403_784_438_6;
-/// The smallest ratio of a chord to the outline along it where the outline counts as nearly straight.
+/// Smallest ratio of a chord to the length of outline along it for which the outline counts as nearly
+/// straight.
 const STRAIGHT: f64 = 0.97;
 
 /// A node at a corner of the outline.
@@ -26,35 +27,35 @@ const STRAIGHT: f64 = 0.97;
 pub(super) struct Pin {
     pub(super) node: u32,
     at: LatticePoint,
-    /// Where the node would be on the outline otherwise.
+    /// The position of the node on the outline without the pin.
     former: LatticePoint,
-    /// The cotangent of the smallest angle that is accepted beside it: 12°, or 0.8 times the angle of the
-    /// corner.
+    /// The cotangent of the smallest angle that is accepted beside the pin: 12°, or 0.8 times the angle of
+    /// the corner.
     pub(super) limit: f64,
 }
 
 impl Pin {
-    /// Puts the node at the corner.
+    /// Moves the node to the corner.
     pub(super) fn apply(&self, placement: &mut Placement) {
         placement.goals[self.node as usize] = self.at;
         placement.pinned[self.node as usize] = true;
     }
 
-    /// Gives the corner up.
+    /// Moves the node back to its former position.
     pub(super) fn undo(&self, placement: &mut Placement) {
         placement.goals[self.node as usize] = self.former;
         placement.pinned[self.node as usize] = false;
     }
 }
 
-/// A node on the boundary of the domain, with the leg of the triangles there in world units.
+/// A node on the boundary of the domain, with the leg of its triangles in world units.
 struct Candidate {
     point: LatticePoint,
     node: u32,
     leg: f64,
 }
 
-/// A corner of the outline, as the place of a point in a ring.
+/// A corner of the outline, given by the index of a point in a ring.
 #[derive(Clone, Copy)]
 struct Corner<'a> {
     ring: &'a [LatticePoint],
@@ -66,14 +67,14 @@ impl<'a> Corner<'a> {
         self.ring[self.place]
     }
 
-    /// The next corner along the outline, or the one before.
+    /// Returns the next corner along the outline, or the previous one.
     fn next(self, forwards: bool) -> Self {
         let step = if forwards { 1 } else { self.ring.len() - 1 };
         Self { place: (self.place + step) % self.ring.len(), ..self }
     }
 
-    /// From the corner along the outline, up to the first corner that is at least `reach` away along it, if
-    /// the outline is nearly straight until there.
+    /// Returns the vector from the corner along the outline to the first corner that is at least `reach` away
+    /// along it, if the outline is nearly straight up to there.
     fn side(self, forwards: bool, reach: f64, angles: &Angles) -> Option<DVec2> {
         let (mut end, mut length) = (self.next(forwards), 0.0);
         let mut last = self;
@@ -90,7 +91,7 @@ impl<'a> Corner<'a> {
         }
     }
 
-    /// The cotangent of the smallest angle that is accepted beside the corner, if it is sharp: if the
+    /// Returns the cotangent of the smallest angle that is accepted beside the corner, if it is sharp: if the
     /// outline is nearly straight on both sides, for the leg of a triangle, and turns by more than 30°.
     fn limit_if_sharp(self, leg: f64, angles: &Angles) -> Option<f64> {
         let (to, from) = (self.side(false, leg, angles)?, self.side(true, leg, angles)?);
@@ -102,7 +103,7 @@ impl<'a> Corner<'a> {
         Some(if angle > 0.0 { COT_12.max(1.0 / libm::tan(0.8 * angle)) } else { COT_12 })
     }
 
-    /// Whether the outline turns by more than 30° at the corner itself.
+    /// Returns whether the outline turns by more than 30° at the corner itself.
     fn turns(self, angles: &Angles) -> bool {
         let [before, after] =
             [false, true].map(|forwards| angles.vector(self.at(), self.next(forwards).at()));
@@ -110,10 +111,11 @@ impl<'a> Corner<'a> {
     }
 }
 
-/// For each sharp corner of the outline the nearest node on the boundary, if no corner is nearer to that
-/// node.
+/// Returns, for each sharp corner of the outline, the nearest node on the boundary, if no other corner is
+/// nearer to that node.
 ///
-/// Where the outline leaves the frame its corner is a node without this: a node of the frame moves along it.
+/// Where the outline leaves the frame, its corner is a node anyway: a node of the frame moves along the
+/// frame.
 pub(super) fn pins(
     mesh: &Mesh,
     band: &Band,
@@ -150,7 +152,7 @@ pub(super) fn pins(
     found.into_iter().map(|(_, _, pin)| pin).collect()
 }
 
-/// The nodes on the boundary, in the order of the points where they are now: [`nearest`] searches for these.
+/// Returns the nodes on the boundary, sorted by their present positions; [`nearest`] relies on this order.
 fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate> {
     let mut legs = vec![0.0f64; placement.homes.len()];
     for (t, &id) in band.ids.iter().enumerate() {
@@ -172,8 +174,8 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
     candidates
 }
 
-/// The candidate nearest to a point that may move, and its distance, of those that are at most `reach` away
-/// along x, in world units. The candidates are in the order of their points.
+/// Returns, of the candidates that may move and are at most `reach` away along x (in world units), the
+/// nearest one to a point, with its distance. The candidates must be sorted by their points.
 fn nearest<'a>(
     candidates: &'a [Candidate],
     at: LatticePoint,

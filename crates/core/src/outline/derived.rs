@@ -3,11 +3,11 @@ use super::changes::{OutlineChanges, OutlineFit};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Extract, Mesh, MeshPatch, Removed};
 
-/// A mesh as it leaves the program: with its boundary nodes on the outline where the domain asks for that,
-/// and without the parts and pinches that [`Cleaning`] removes.
+/// A mesh as it is exported: with its boundary nodes on the outline if the domain requires that, and without
+/// the parts and the nodes where the domain touches itself that [`Cleaning`] removes.
 ///
-/// The mesh that it is derived from stays as it is. What differs is a [`MeshPatch`], a pure function of the
-/// mesh and the domain, whatever the order of the mesh's entries.
+/// The mesh that it is derived from does not change. The differences are a [`MeshPatch`], a pure function of
+/// the mesh and the domain, independent of the order of the mesh's entries.
 #[derive(Clone, Debug)]
 pub struct DerivedMesh {
     patch: MeshPatch,
@@ -30,26 +30,26 @@ impl DerivedMesh {
         Self { patch, fit, removed, allows_pinches, corner_limit }
     }
 
-    /// The mesh with the changes, for files and summaries.
+    /// Returns the mesh with the changes, for files and summaries.
     ///
     /// # Panics
-    /// When `mesh` is not the one that the changes were derived from.
+    /// Panics when `mesh` is not the one that the changes were derived from.
     pub fn extract<'a>(&self, mesh: &'a Mesh) -> Extract<'a> {
         mesh.extract_with(&self.patch)
     }
 
-    /// What differs from the mesh.
+    /// Returns the differences from the mesh.
     pub fn patch(&self) -> &MeshPatch {
         &self.patch
     }
 
-    /// How well the boundary lies on the outline; `None` where nodes are not moved there. The figures include
-    /// the parts that were removed.
+    /// Returns the fit of the boundary to the outline, including the parts that were removed; `None` if the
+    /// domain does not require nodes on the outline.
     pub fn fit(&self) -> Option<OutlineFit> {
         self.fit
     }
 
-    /// What was removed.
+    /// Returns the numbers of removed parts and nodes.
     pub fn removed(&self) -> &Removed {
         &self.removed
     }
@@ -58,7 +58,7 @@ impl DerivedMesh {
         self.allows_pinches
     }
 
-    /// The cotangent of the smallest angle that a triangle may have.
+    /// Returns the cotangent of the smallest angle that a triangle may have.
     pub(super) fn largest_cotangent(&self, angles: &Angles) -> f64 {
         angles.limit().max(self.corner_limit)
     }

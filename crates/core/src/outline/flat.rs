@@ -5,12 +5,12 @@ use super::band::Band;
 use super::snap::Side;
 use super::stencil::Placement;
 
-/// Leaves out flat triangles inside with all corners on the outline, where the domain stays in one piece
-/// without them: those with two or three edges on the boundary, and those with one whose opposite corner is
+/// Leaves out flat triangles inside with all corners on the outline, if the domain stays in one piece without
+/// them: triangles with two or three edges on the boundary, and triangles with one whose opposite corner is
 /// not on the boundary. `limit` is the cotangent of the smallest angle that counts as not flat.
 ///
-/// They are left out in rounds, no two with a common node in one round, so that each round sees what the one
-/// before left.
+/// They are left out in rounds. No two triangles of a round have a common node, and each round starts from
+/// the result of the previous one.
 pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles, limit: f64) {
     let all_on = |&t: &u32| placement.keeps[t as usize] && placement.is_all_on(band, t);
     let is_flat = |&t: &u32| angles.worst(placement.points(band.triangles.corners[t as usize])) > limit;
@@ -49,8 +49,8 @@ fn is_droppable(band: &Band, placement: &Placement, triangle: u32) -> bool {
     }
 }
 
-/// For each corner of a triangle with all corners on the outline whether the opposite edge is on the
-/// boundary. `inside` is the class of the triangle.
+/// Returns, for each corner of a triangle with all corners on the outline, whether the opposite edge is on
+/// the boundary. `inside` is the class of the triangle.
 pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, inside: bool) -> [bool; 3] {
     [0, 1, 2].map(|i| {
         let [_, from, to] = band.triangles.starting_at(triangle, i);
@@ -59,13 +59,15 @@ pub(super) fn boundary_edges(band: &Band, placement: &Placement, triangle: u32, 
     })
 }
 
-/// Whether a node on the outline has a triangle of a class around it. What lies beyond the frame is outside.
+/// Returns whether a node on the outline has a triangle of a class around it. The area beyond the frame is
+/// outside.
 pub(super) fn has_sector(band: &Band, placement: &Placement, node: u32, inside: bool) -> bool {
     let mut star = Vec::new();
     sectors(band, placement, node, &mut star).contains(&inside)
 }
 
-/// The classes of the triangles around a node on the outline, anticlockwise, and what lies beyond the frame.
+/// Returns the classes of the triangles around a node on the outline, anticlockwise, with the class outside
+/// at the end if the triangles do not close around the node. Overwrites `star`.
 fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, usize)>) -> Vec<bool> {
     band.triangles.star(node, star);
     let mut sectors = Vec::with_capacity(star.len() + 2);
@@ -87,8 +89,8 @@ fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, u
     sectors
 }
 
-/// The nodes on the outline where the domain would touch itself: more than one fan of triangles inside meets
-/// there.
+/// Returns the nodes on the outline where the domain would touch itself: more than one fan of triangles
+/// inside meets there.
 pub(super) fn pinched(band: &Band, placement: &Placement) -> Vec<u32> {
     let mut star = Vec::new();
     let on = (0..band.points.len() as u32).filter(|&v| placement.sides[v as usize] == Side::On);

@@ -1,4 +1,4 @@
-//! Retreats: nodes go back towards home where an angle would be too small.
+//! Moves nodes back towards their homes where an angle would be too small.
 
 use super::angles::Angles;
 use super::band::Band;
@@ -10,15 +10,16 @@ use super::stencil::{Piece, Placement};
 pub(super) struct Guard<'a> {
     pub(super) band: &'a Band,
     pub(super) angles: &'a Angles,
-    /// The cotangent of the smallest angle inside.
+    /// The cotangent of the smallest angle that is allowed inside.
     pub(super) limit: f64,
-    /// The pinned nodes in ascending order, each with the cotangent of the smallest angle beside it.
+    /// The pinned nodes in ascending order, each with the cotangent of the smallest angle that is allowed
+    /// beside it.
     pub(super) pin_limits: Vec<(u32, f64)>,
 }
 
 impl Guard<'_> {
-    /// Lets nodes retreat, in rounds, until no angle is too small: the nodes of all triangles that fail
-    /// take one step back at once. Returns pinned nodes at which an angle stays too small.
+    /// Lets nodes retreat, in rounds, until no angle is too small: in a round, the nodes of all failing
+    /// triangles take one step back at once. Returns the pinned nodes at which an angle stays too small.
     pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
         let all = 0..self.band.triangles.len() as u32;
         let gaps: Vec<Gap> = all.clone().map(|t| gap(self.band, placement, t)).collect();
@@ -50,7 +51,7 @@ impl Guard<'_> {
         corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
     }
 
-    /// The triangles that have a node of `moved`.
+    /// Returns the triangles that have a node of `moved`.
     fn around(&self, placement: &Placement, moved: &[u32]) -> Vec<u32> {
         let all = 0..self.band.triangles.len() as u32;
         let mut is_moved = vec![false; placement.homes.len()];
@@ -63,7 +64,7 @@ impl Guard<'_> {
         .collect()
     }
 
-    /// The corners of the pieces of a triangle of which an angle is too small.
+    /// Returns the corners of those pieces of a triangle that have an angle that is too small.
     fn failing(&self, placement: &Placement, triangle: u32, gap: Gap) -> Vec<[u32; 3]> {
         let pieces = placement.pieces(self.band, triangle, self.angles);
         let fails = |piece: &Piece| {
@@ -76,8 +77,8 @@ impl Guard<'_> {
         pieces.into_iter().flatten().filter(fails).map(|piece| piece.corners).collect()
     }
 
-    /// The pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below what is
-    /// allowed beside them.
+    /// Returns the pinned nodes of a triangle whose nodes cannot retreat, if its smallest angle is below the
+    /// limit of these nodes.
     fn stuck_pins(&self, placement: &Placement, corners: [u32; 3]) -> Vec<u32> {
         let worst = self.angles.worst(placement.points(corners));
         let limit =

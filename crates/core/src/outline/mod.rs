@@ -1,7 +1,7 @@
 //! A mesh with the nodes of its boundary on the outline of the domain.
 //!
-//! The mesh of right-angled triangles stays what it is. What is shown and exported along the outline is
-//! derived from it: a pure function of the mesh and the outline, whatever the order of the mesh's entries.
+//! The mesh of right-angled triangles does not change. The mesh that is shown and exported is derived from
+//! it: a pure function of the mesh and the outline, independent of the order of the mesh's entries.
 //!
 //! The idea is that of isosurface stuffing \[LabelleShewchuk2007\], with moves as large as half an edge: each
 //! node has a sign, inside or outside. Where the outline crosses an edge between two signs, the end nearer

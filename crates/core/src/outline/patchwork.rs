@@ -7,23 +7,23 @@ use super::stencil::Placement;
 use super::triangulation::{NONE, Triangulation};
 use crate::geometry::LatticePoint;
 
-/// How many times edges are flipped in a row.
+/// Number of passes in which edges are flipped.
 const PASSES: usize = 6;
 
-/// Whether a piece outside may be flat.
+/// The condition for a piece outside to be flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gap {
-    /// It may: nothing comes too close across it.
+    /// The piece may be flat: nothing comes too close across it.
     Harmless,
-    /// The angle at this node may not be small: it lies between two edges of the boundary.
+    /// The angle at this node must not be small: it lies between two edges of the boundary.
     Angle(u32),
-    /// None of its angles may be small.
+    /// None of the angles may be small.
     Full,
 }
 
 impl Gap {
-    /// That of a triangle with all corners on the outline. `boundary` has for each corner whether the
-    /// opposite edge is on the boundary, `used` whether a triangle inside has the corner.
+    /// Returns the condition for a triangle with all corners on the outline. `boundary` has, for each corner,
+    /// whether the opposite edge is on the boundary, and `used` whether a triangle inside has the corner.
     pub(super) fn between(corners: [u32; 3], boundary: [bool; 3], used: [bool; 3]) -> Self {
         let place = |wanted| boundary.iter().position(|&is| is == wanted).expect("counted");
         match boundary.iter().filter(|&&is| is).count() {
@@ -34,7 +34,7 @@ impl Gap {
         }
     }
 
-    /// Whether a triangle with these corners at these points leaves the gap open.
+    /// Returns whether a triangle with these corners at these points satisfies the condition.
     pub(super) fn is_open(self, angles: &Angles, corners: [u32; 3], points: [LatticePoint; 3]) -> bool {
         match self {
             Self::Harmless => true,
@@ -50,19 +50,19 @@ impl Gap {
 /// Pieces inside and outside, which together cover the band.
 pub(super) struct Patchwork {
     pub(super) triangles: Triangulation,
-    /// For each piece whether it is inside.
+    /// For each piece, whether it is inside.
     pub(super) inside: Vec<bool>,
-    /// What flat pieces outside must not do; of no meaning for pieces inside.
+    /// The conditions of flat pieces outside; without meaning for pieces inside.
     gaps: Vec<Gap>,
-    /// For each piece the triangle of the band whose place it takes. A flip leaves it to the two pieces.
+    /// For each piece, the triangle of the band that it replaces. A flip keeps the owners of the two pieces.
     pub(super) owners: Vec<u32>,
-    /// Those of the band, then those in cut edges.
+    /// The nodes of the band, then the nodes in cut edges.
     pub(super) points: Vec<LatticePoint>,
-    /// For each node whether it has been moved onto the outline.
+    /// For each node, whether it was moved onto the outline.
     pub(super) on_outline: Vec<bool>,
-    /// For each node whether it is at a corner of the outline.
+    /// For each node, whether it is at a corner of the outline.
     pub(super) pinned: Vec<bool>,
-    /// For each node whether something around it changed since no better place was found for it.
+    /// For each node, whether anything around it changed since the last search for a better position failed.
     pub(super) may_move: Vec<bool>,
 }
 
@@ -91,42 +91,43 @@ impl Patchwork {
         }
     }
 
-    /// Notes that triangles get other corners, or a corner another place.
+    /// Notes that triangles get other corners, or that a corner moved.
     pub(super) fn note_change(&mut self, triangles: impl IntoIterator<Item = u32>) {
         for t in triangles {
             self.triangles.corners[t as usize].iter().for_each(|&v| self.may_move[v as usize] = true);
         }
     }
 
-    /// The cotangent of the smallest angle of a piece.
+    /// Returns the cotangent of the smallest angle of a piece.
     pub(super) fn worst(&self, angles: &Angles, triangle: u32) -> f64 {
         angles.worst(self.corners(triangle))
     }
 
-    /// Where the corners of a piece lie.
+    /// Returns the positions of the corners of a piece.
     pub(super) fn corners(&self, triangle: u32) -> [LatticePoint; 3] {
         self.triangles.corners[triangle as usize].map(|v| self.points[v as usize])
     }
 
-    /// Whether a piece outside still leaves its gap open, with its corners at these points.
+    /// Returns whether a piece outside satisfies its condition with its corners at these points.
     pub(super) fn leaves_gap(&self, angles: &Angles, triangle: u32, points: [LatticePoint; 3]) -> bool {
         self.gaps[triangle as usize].is_open(angles, self.triangles.corners[triangle as usize], points)
     }
 
-    /// The pieces inside with an angle below 30°.
+    /// Returns the pieces inside that have an angle below 30°.
     pub(super) fn poor<'a>(&'a self, angles: &'a Angles) -> impl Iterator<Item = u32> + 'a {
         let inside = (0..self.inside.len() as u32).filter(|&t| self.inside[t as usize]);
         inside.filter(|&t| self.worst(angles, t) > COT_30)
     }
 
-    /// Whether a node lies where the domain ends: around it there are pieces inside, and pieces outside or
-    /// a side of the frame. `star` is that of the node.
+    /// Returns whether a node is on the boundary of the domain: around it there are pieces inside, and pieces
+    /// outside or a side of the frame. `star` is the star of the node.
     pub(super) fn is_on_boundary(&self, star: &[(u32, usize)]) -> bool {
         let inside = |&&(t, _): &&(u32, usize)| self.inside[t as usize];
         star.iter().any(|at| inside(&at)) && (star.iter().any(|at| !inside(&at)) || self.is_on_frame(star))
     }
 
-    /// Whether an edge of a piece inside along the frame ends at a node, or the band ends there.
+    /// Returns whether an edge of a piece inside along the frame ends at a node, or the band ends there.
+    /// `star` is the star of the node.
     pub(super) fn is_on_frame(&self, star: &[(u32, usize)]) -> bool {
         let ((first, i), (last, j)) = (star[0], star[star.len() - 1]);
         let ends =
@@ -134,8 +135,8 @@ impl Patchwork {
         ends(first, i + 2) || ends(last, j + 1)
     }
 
-    /// Flips edges between pieces inside where the smaller angle of the two becomes larger: the greatest gain
-    /// first, each piece once in a pass.
+    /// Flips edges between pieces inside where the smaller angle of the two becomes larger. The flip with the
+    /// greatest gain comes first, and each piece is flipped once in a pass.
     pub(super) fn flip_edges(&mut self, angles: &Angles) {
         for _ in 0..PASSES {
             let mut flips: Vec<(f64, u32, usize)> = self
@@ -162,7 +163,8 @@ impl Patchwork {
         }
     }
 
-    /// By how much the flip of an edge lowers the larger cotangent of the two pieces, if it does.
+    /// Returns by how much the flip of an edge lowers the larger cotangent of the two pieces, or `None` if it
+    /// does not.
     fn gain_of_flip(&self, angles: &Angles, t: u32, i: usize) -> Option<f64> {
         let across = self.triangles.across[t as usize][i];
         if across == NONE || !self.inside[across as usize] {
@@ -177,7 +179,7 @@ impl Patchwork {
     }
 }
 
-/// What the pieces outside of a triangle of the band must not do.
+/// Returns the condition for the pieces outside of a triangle of the band.
 pub(super) fn gap(band: &Band, placement: &Placement, triangle: u32) -> Gap {
     let corners = band.triangles.corners[triangle as usize];
     if !placement.is_all_on(band, triangle) {

@@ -21,10 +21,11 @@ const DIRECTIONS: [DVec2; 8] = [
     dvec2(0.0, -1.0),
     dvec2(FRAC_1_SQRT_2, -FRAC_1_SQRT_2),
 ];
-/// How many lengths of steps the search tries; the first is a fifth of the mean edge, each is half the last.
+/// Number of step lengths that the search tries. The first is a fifth of the mean edge, each next one half
+/// the previous one.
 const STEP_LENGTHS: usize = 4;
 const FIRST_STEP: f64 = 0.2;
-/// How many rounds of nodes go to the outline at the end.
+/// Number of final rounds that move nodes to the outline.
 const PULL_ROUNDS: usize = 8;
 
 /// Moves nodes of a patchwork.
@@ -44,8 +45,8 @@ struct Move {
 }
 
 impl Smoother<'_> {
-    /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest;
-    /// those on the boundary along the outline. Of neighbours only the one that gains most moves.
+    /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest; nodes
+    /// on the boundary move along the outline. Of adjacent nodes, only the one that gains most moves.
     pub(super) fn smooth(&self, patchwork: &mut Patchwork) {
         let poor = patchwork.poor(self.angles);
         let mut nodes: Vec<u32> = poor.flat_map(|t| patchwork.triangles.corners[t as usize]).collect();
@@ -62,9 +63,9 @@ impl Smoother<'_> {
         self.apply(patchwork, moves);
     }
 
-    /// Moves nodes on the boundary that are off the outline to its nearest point, where the angles around
-    /// them do not fall below 20° or get worse. Of neighbours only the one that is farthest off moves, in
-    /// rounds.
+    /// Moves nodes on the boundary that are off the outline to its nearest point, unless the angles around
+    /// them fall below 20° or get worse. Of adjacent nodes, only the one that is farthest off moves in a
+    /// round.
     pub(super) fn pull(&self, patchwork: &mut Patchwork) {
         let mut star = Vec::new();
         for _ in 0..PULL_ROUNDS {
@@ -149,8 +150,8 @@ impl Smoother<'_> {
         (worst <= now.max(COT_20)).then_some(Move { node, to, gain, on_outline: true })
     }
 
-    /// The cotangent of the smallest angle of the pieces inside around a node, if the node were at `to`;
-    /// `None` where a piece outside would get too flat.
+    /// Returns the cotangent of the smallest angle of the pieces inside around a node, if the node were at
+    /// `to`; `None` if a piece outside would get too flat.
     fn worst_around(&self, patchwork: &Patchwork, star: &[(u32, usize)], to: LatticePoint) -> Option<f64> {
         let mut largest = 0.0f64;
         for &(t, i) in star {
@@ -167,7 +168,7 @@ impl Smoother<'_> {
         Some(largest)
     }
 
-    /// The mean length of the edges at a node, in world units.
+    /// Returns the mean length of the edges at a node, in world units.
     fn mean_edge(&self, patchwork: &Patchwork, star: &[(u32, usize)]) -> f64 {
         let lengths = star.iter().map(|&(t, i)| {
             let [a, b, _] = patchwork.triangles.starting_at(t, i).map(|v| patchwork.points[v as usize]);

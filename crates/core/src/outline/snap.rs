@@ -1,4 +1,4 @@
-//! Which nodes move onto the outline, and where.
+//! Decides which nodes move onto the outline, and to which points.
 
 use super::angles::Angles;
 use super::band::Band;
@@ -6,12 +6,12 @@ use super::triangulation::NONE;
 use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 
-/// On which side of the outline a node lies, once the nodes nearest to it have moved onto it.
+/// The side of the outline on which a node lies, after the nodes nearest to it have moved onto it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Inside,
     Outside,
-    /// On the outline, or on the way there.
+    /// On the outline, or moving onto it.
     On,
 }
 
@@ -21,11 +21,11 @@ impl Side {
     }
 }
 
-/// Where the outline crosses the edges of the band, one point for each edge between a node inside and one
-/// outside.
+/// The points where the outline crosses the edges of the band, one for each edge between a node inside and
+/// one outside.
 pub(super) struct Crossings {
-    /// For each triangle and corner the crossing of the opposite edge, as a share of its length from its
-    /// first end, anticlockwise; NaN where the ends lie on the same side.
+    /// For each triangle and corner, the crossing of the opposite edge, as a share of its length from its
+    /// first end, anticlockwise; NaN if the ends lie on the same side.
     shares: Vec<[f64; 3]>,
     extent: LatticePoint,
 }
@@ -55,28 +55,28 @@ impl Crossings {
         Self { shares, extent: lattice.extent() }
     }
 
-    /// The crossing of the edge opposite the i-th corner of a triangle, as a share of its length from the end
-    /// `node`; NaN where there is none.
+    /// Returns the crossing of the edge opposite the i-th corner of a triangle, as a share of its length from
+    /// the end `node`; NaN if there is none.
     fn share_from(&self, band: &Band, node: u32, (triangle, i): (u32, usize)) -> f64 {
         let [_, from, _] = band.triangles.starting_at(triangle, i);
         let share = self.shares[triangle as usize][i];
         if from == node { share } else { 1.0 - share }
     }
 
-    /// The crossing of the edge opposite the i-th corner of a triangle.
+    /// Returns the crossing of the edge opposite the i-th corner of a triangle as a lattice point.
     pub(super) fn point(&self, band: &Band, triangle: u32, i: usize) -> LatticePoint {
         let [_, from, to] = band.starting_at(triangle, i, &band.points).map(LatticePoint::as_dvec2);
         rounded(from + self.shares[triangle as usize][i] * (to - from), self.extent)
     }
 }
 
-/// The lattice point nearest to real lattice coordinates.
+/// Returns the lattice point nearest to real lattice coordinates.
 pub(super) fn rounded(p: glam::DVec2, extent: LatticePoint) -> LatticePoint {
     let p = (p + 0.5).floor().clamp(glam::DVec2::ZERO, extent.as_dvec2());
     LatticePoint::new(p.x as u32, p.y as u32)
 }
 
-/// What a node sees around it: its edges, anticlockwise.
+/// The link of a node: the edges at it, anticlockwise.
 struct Link {
     /// The nodes at the other ends.
     nodes: Vec<u32>,
@@ -104,7 +104,8 @@ impl Link {
         link
     }
 
-    /// Whether the nodes inside follow one another, and so do those outside. Beyond the frame is outside.
+    /// Returns whether the nodes inside follow one another, and so do the nodes outside. The area beyond the
+    /// frame is outside.
     fn is_divided_once(&self, band: &Band) -> bool {
         let beyond = (!self.closed).then_some(false);
         let signs: Vec<bool> = self.nodes.iter().map(|&v| band.inside[v as usize]).chain(beyond).collect();
@@ -112,8 +113,8 @@ impl Link {
         changes.count() == 2
     }
 
-    /// Whether the node may move along its k-th edge. On the frame it moves along the frame, except where the
-    /// domain does not reach the frame on either side of it.
+    /// Returns whether the node may move along its k-th edge. A node on the frame moves along the frame,
+    /// except where the domain does not reach the frame on either side of it.
     fn admits(&self, band: &Band, crossings: &Crossings, node: u32, k: usize) -> bool {
         let last = self.nodes.len() - 1;
         // The outline may touch the frame in the neighbour only.
@@ -123,9 +124,9 @@ impl Link {
     }
 }
 
-/// For each node of the band its side, and where it moves. Nodes that the outline crosses an edge of,
-/// nearer to them than to the other end, move to the nearest such crossing, all at once; but only where the
-/// outline passes between the nodes around them once.
+/// Returns the side and the goal of each node of the band. A node moves if the outline crosses an edge of it
+/// nearer to it than to the other end: to the nearest such crossing, all nodes at once. It moves only if the
+/// outline passes between the nodes around it once.
 pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
     let mut sides: Vec<Side> = band.inside.iter().map(|&inside| Side::of(inside)).collect();
     let mut goals = band.points.clone();

@@ -1,4 +1,4 @@
-//! What the outline leaves of a triangle of the mesh.
+//! Divides the triangles of the mesh that the outline crosses.
 //!
 //! Nodes are inside (i), outside (o) or on the outline (•). Where an edge still joins a node inside to one
 //! outside, it is cut (×). No other triangle is divided.
@@ -26,33 +26,33 @@ pub(super) struct Piece {
     pub(super) inside: bool,
 }
 
-/// How far nodes are on the way from home to goal, in eighths: at first all the way, then in steps of
+/// Positions of nodes on the way from home to goal, in eighths: at first the whole way, then the steps of the
 /// retreat.
 const SHARES: [i64; 5] = [8, 4, 2, 1, 0];
 
-/// Where the nodes of the band lie, those that cuts add among them, and which triangles are inside.
+/// The positions of the nodes of the band and of the nodes that cuts add, and the sides of the triangles.
 ///
 /// Nodes of the band come first, then those in cut edges.
 pub(super) struct Placement {
-    /// For each node of the band.
+    /// The side of each node of the band.
     pub(super) sides: Vec<Side>,
-    /// Where each node lies on the mesh; for one in a cut edge its middle.
+    /// The position of each node on the mesh; for a node in a cut edge the middle of the edge.
     pub(super) homes: Vec<LatticePoint>,
-    /// Its place on the outline; its home, where it does not move.
+    /// The position of each node on the outline, or its home if it does not move.
     pub(super) goals: Vec<LatticePoint>,
-    /// Its place in [`SHARES`].
+    /// For each node, the index into [`SHARES`].
     retreats: Vec<u8>,
     /// Nodes at corners of the outline, which do not retreat.
     pub(super) pinned: Vec<bool>,
-    /// For each triangle and corner the node in the opposite edge, or [`NONE`].
+    /// For each triangle and corner, the node in the opposite edge, or [`NONE`].
     pub(super) cuts: Vec<[u32; 3]>,
-    /// For each triangle whether it is inside, where all corners are on the outline.
+    /// For each triangle with all corners on the outline, whether it is inside.
     pub(super) keeps: Vec<bool>,
 }
 
 impl Placement {
-    /// All nodes at their goals. `sides` and `goals` are those of the nodes of the band. A triangle with all
-    /// corners on the outline is inside if most of them were.
+    /// Puts all nodes at their goals. `sides` and `goals` are those of the nodes of the band. A triangle with
+    /// all corners on the outline is inside if most of them were.
     pub(super) fn new(
         band: &Band,
         crossings: &Crossings,
@@ -98,7 +98,7 @@ impl Placement {
         }
     }
 
-    /// Where a node lies.
+    /// Returns the position of a node.
     #[inline]
     pub(super) fn point(&self, node: u32) -> LatticePoint {
         let node = node as usize;
@@ -111,14 +111,14 @@ impl Placement {
         LatticePoint::new(along(home.x, goal.x), along(home.y, goal.y))
     }
 
-    /// Whether a node has arrived at its goal on the outline.
+    /// Returns whether a node has arrived at its goal on the outline.
     pub(super) fn is_on_outline(&self, node: u32) -> bool {
         let can_move = self.sides.get(node as usize).is_none_or(|&side| side == Side::On);
         can_move
             && (self.retreats[node as usize] == 0 || self.goals[node as usize] == self.homes[node as usize])
     }
 
-    /// Whether a node can still retreat towards its home.
+    /// Returns whether a node can still retreat towards its home.
     pub(super) fn can_retreat(&self, node: u32) -> bool {
         let n = node as usize;
         !self.pinned[n] && usize::from(self.retreats[n]) + 1 < SHARES.len() && self.goals[n] != self.homes[n]
@@ -128,18 +128,18 @@ impl Placement {
         self.retreats[node as usize] += 1;
     }
 
-    /// Puts all nodes at their goals again.
+    /// Moves all nodes to their goals again.
     pub(super) fn advance_all(&mut self) {
         self.retreats.fill(0);
     }
 
-    /// Whether all corners of a triangle are on the outline.
+    /// Returns whether all corners of a triangle are on the outline.
     pub(super) fn is_all_on(&self, band: &Band, triangle: u32) -> bool {
         band.starting_at(triangle, 0, &self.sides) == [Side::On; 3]
     }
 
-    /// What the outline leaves of a triangle: up to three pieces, of which the quadrilateral's two have the
-    /// diagonal with the better angles.
+    /// Returns the pieces into which the outline divides a triangle: up to three, where a quadrilateral is
+    /// divided by the diagonal with the better angles.
     pub(super) fn pieces(&self, band: &Band, triangle: u32, angles: &Angles) -> [Option<Piece>; 3] {
         let sides = band.starting_at(triangle, 0, &self.sides);
         let count = |side| sides.iter().filter(|&&s| s == side).count();
@@ -171,13 +171,13 @@ impl Placement {
         }
     }
 
-    /// The corners of a piece.
+    /// Returns the corners of a piece.
     pub(super) fn points(&self, corners: [u32; 3]) -> [LatticePoint; 3] {
         corners.map(|v| self.point(v))
     }
 
-    /// Whether the triangle across an edge between two nodes on the outline is inside. `across` is that
-    /// triangle, or [`NONE`].
+    /// Returns whether the triangle across an edge between two nodes on the outline is inside. `across` is
+    /// this triangle, or [`NONE`].
     pub(super) fn is_inside_across(&self, band: &Band, across: u32, edge: [u32; 2]) -> bool {
         if across == NONE {
             return false;

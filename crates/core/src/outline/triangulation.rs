@@ -1,4 +1,4 @@
-//! Triangles in plain numbers with their neighbours.
+//! Triangles as indices, with their neighbours.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ pub(super) struct Triangulation {
     pub(super) corners: Vec<[u32; 3]>,
     /// Triangles across the edges, the i-th opposite the i-th corner, or [`NONE`].
     pub(super) across: Vec<[u32; 3]>,
-    /// For each node one of its triangles, or [`NONE`].
+    /// For each node, one of its triangles, or [`NONE`].
     pub(super) at: Vec<u32>,
 }
 
@@ -48,20 +48,20 @@ impl Triangulation {
         self.corners.len()
     }
 
-    /// The place of a node among the corners of a triangle that has it.
+    /// Returns the position of a node among the corners of a triangle that has it.
     pub(super) fn place(&self, triangle: u32, node: u32) -> usize {
         let [a, b, _] = self.corners[triangle as usize];
         if a == node { 0 } else { 1 + usize::from(b != node) }
     }
 
-    /// The corners of a triangle, beginning with the one at place `i`.
+    /// Returns the corners of a triangle, beginning with the corner at position `i`.
     pub(super) fn starting_at(&self, triangle: u32, i: usize) -> [u32; 3] {
         let corners = self.corners[triangle as usize];
         [corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]]
     }
 
-    /// Puts the triangles around a node into `star`, anticlockwise, each with the node's place in it. Where
-    /// the triangles do not close around the node, the first has no neighbour in clockwise direction.
+    /// Writes the triangles around a node into `star`, anticlockwise, each with the node's position in it. If
+    /// the triangles do not close around the node, the first one has no neighbour in clockwise direction.
     pub(super) fn star(&self, node: u32, star: &mut Vec<(u32, usize)>) {
         star.clear();
         let start = self.at[node as usize];
@@ -92,8 +92,8 @@ impl Triangulation {
         }
     }
 
-    /// Replaces the edge opposite the i-th corner of a triangle, and so the two triangles beside it, by the
-    /// other diagonal of their quadrilateral.
+    /// Replaces the edge opposite the i-th corner of a triangle by the other diagonal of the quadrilateral of
+    /// the two triangles beside it.
     ///
     /// ```text
     ///      c                 c

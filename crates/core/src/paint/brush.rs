@@ -4,19 +4,19 @@ use crate::field::f32_not_below;
 use crate::geometry::nearest_share;
 use crate::mesh::TargetChange;
 
-/// What a brush does to the pixels under it.
+/// The effect of a brush on the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Medium {
-    /// Moves the risk towards this value, 0 to 1: with each stroke by the brush's strength.
+    /// Moves the risk towards this value, 0 to 1. Each stroke moves it by the brush's strength.
     Risk(f64),
-    /// Changes the target diameter to this value, in world units, where the change is of the given kind.
+    /// Changes the target diameter to this value, in world units, if the change is of the given kind.
     Diameter(f64, DiameterChange),
     /// Removes risk and target diameter.
     Eraser,
 }
 
 impl Medium {
-    /// What it does to the diameters that pixels ask for. `h_max` is the largest, in world units.
+    /// Returns the effect on the target diameters of pixels. `h_max` is the largest diameter, in world units.
     pub fn change(&self, h_max: f64) -> TargetChange {
         match *self {
             Self::Risk(aim) if aim >= 1.0 => TargetChange::Finer,
@@ -34,7 +34,7 @@ impl Medium {
 pub enum DiameterChange {
     /// Only to a smaller diameter. Towards the soft rim the new diameter grows to the document's largest.
     Finer,
-    /// Only to a larger diameter: what is not painted stays so.
+    /// Only to a larger diameter. Pixels that are not painted stay so.
     Coarser,
     /// To any other diameter. Towards the soft rim the new diameter approaches the old one.
     Any,
@@ -43,19 +43,19 @@ pub enum DiameterChange {
 /// A round brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Brush {
-    /// What it does to a pixel.
+    /// The effect on a pixel.
     pub medium: Medium,
     /// Radius in world units.
     pub radius: f64,
     /// Fraction of the radius with full coverage, 0 to 1; from there the coverage falls to 0 at the rim.
     pub hardness: f64,
-    /// How far one stroke moves a pixel towards the full effect, 0 to 1.
+    /// Share of the way to the full effect that one stroke moves a pixel, 0 to 1.
     pub strength: f64,
 }
 
 impl Brush {
-    /// Coverage at a distance from the brush's centre, in world units: 1 in the core, 0 at the rim and
-    /// beyond.
+    /// Returns the coverage at a distance from the brush's centre, in world units: 1 in the core, 0 at the
+    /// rim and beyond.
     pub fn coverage(&self, distance: f64) -> f64 {
         let core = self.radius * self.hardness.clamp(0.0, 1.0);
         if distance <= core {
@@ -69,9 +69,10 @@ impl Brush {
         }
     }
 
-    /// Coverage of a pixel at `point` by the segment of a path, times the strength of the path there.
+    /// Returns the coverage of a pixel at `point` by the segment of a path, times the strength of the path.
     ///
-    /// Size and strength change linearly along the segment; those at the place nearest to the pixel count.
+    /// Size and strength change linearly along the segment; their values at the point nearest to the pixel
+    /// count.
     pub(super) fn coverage_of_segment(&self, point: DVec2, [from, to]: [PathPoint; 2]) -> f64 {
         let (share, distance) = nearest_on_path(point, [from.at, to.at]);
         let between = |a: f64, b: f64| a + share * (b - a);
@@ -79,9 +80,10 @@ impl Brush {
         between(from.strength, to.strength) * Self { radius, ..*self }.coverage(distance)
     }
 
-    /// New value of a pixel from the old one, in a raster whose blank pixels have the value `blank`: 0 in a
-    /// raster of risks, infinite in one of diameters. `coverage` is that of the stroke, 0 to 1; `h_max` the
-    /// largest target diameter, in world units. A brush for the other kind of raster changes nothing.
+    /// Returns the new value of a pixel from the old one, in a raster whose blank pixels have the value
+    /// `blank`: 0 in a raster of risks, infinite in one of diameters. `coverage` is the coverage by the
+    /// stroke, 0 to 1; `h_max` is the largest target diameter, in world units. A brush for the other kind of
+    /// raster changes nothing.
     pub(super) fn painted_value(&self, coverage: f32, old: f32, blank: f32, h_max: f64) -> f32 {
         let amount = f64::from(coverage) * self.strength;
         match (self.medium, blank.is_infinite()) {
@@ -94,8 +96,8 @@ impl Brush {
     }
 }
 
-/// A risk moved towards `aim`. A remainder below a hundredth on the way to 0 becomes 0: it would keep the
-/// mesh refined without being visible.
+/// Returns a risk moved towards `aim`. A remainder below a hundredth on the way to 0 becomes 0: it would keep
+/// the mesh refined without being visible.
 fn moved_risk(risk: f32, aim: f64, amount: f64) -> f32 {
     if aim == 0.0 {
         let left = f64::from(risk) * (1.0 - amount);
@@ -120,7 +122,7 @@ fn changed_diameter(old: f32, target: f64, change: DiameterChange, amount: f64, 
     }
 }
 
-/// A diameter moved up towards `target`, on a logarithmic scale.
+/// Returns a diameter moved up towards `target`, on a logarithmic scale.
 fn raised_diameter(old: f32, target: f64, amount: f64, h_max: f64) -> f32 {
     let diameter = f64::from(old);
     let raised = diameter * libm::pow((target / diameter).max(1.0), amount);
@@ -128,7 +130,7 @@ fn raised_diameter(old: f32, target: f64, amount: f64, h_max: f64) -> f32 {
     painted_or_blank(f32_not_below(raised), h_max)
 }
 
-/// What is almost as large as everywhere else becomes blank.
+/// Returns the diameter, or the blank value if it is almost as large as the largest one.
 fn painted_or_blank(diameter: f32, h_max: f64) -> f32 {
     if f64::from(diameter) >= 0.99 * h_max { f32::INFINITY } else { diameter }
 }
@@ -136,7 +138,7 @@ fn painted_or_blank(diameter: f32, h_max: f64) -> f32 {
 /// A point of a stroke's path, with the brush there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// In world units.
+    /// Position in world units.
     pub at: DVec2,
     /// Radius in proportion to that of the brush.
     pub size: f64,
@@ -145,14 +147,14 @@ pub struct PathPoint {
 }
 
 impl From<DVec2> for PathPoint {
-    /// A point with the whole brush.
+    /// Returns a point with the whole size and strength of the brush.
     fn from(at: DVec2) -> Self {
         Self { at, size: 1.0, strength: 1.0 }
     }
 }
 
 impl PathPoint {
-    /// Whether all its numbers are finite.
+    /// Returns whether all numbers of the point are finite.
     pub fn is_finite(&self) -> bool {
         self.at.is_finite() && self.size.is_finite() && self.strength.is_finite()
     }
@@ -168,7 +170,7 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// The point itself, and its images: one, two or four points.
+    /// Returns the point itself, and its images: one, two or four points.
     pub fn images(&self, point: DVec2) -> impl Iterator<Item = DVec2> + use<> {
         let x = self.x.map(|x| 2.0 * x - point.x);
         let y = self.y.map(|y| 2.0 * y - point.y);
@@ -176,7 +178,7 @@ impl Mirror {
         columns.flat_map(move |x| [Some(point.y), y].into_iter().flatten().map(move |y| dvec2(x, y)))
     }
 
-    /// A segment of a path, and its images.
+    /// Returns a segment of a path, and its images.
     pub(super) fn segments(
         &self,
         [from, to]: [PathPoint; 2],
@@ -186,7 +188,8 @@ impl Mirror {
     }
 }
 
-/// The place on a segment that is nearest to `point`: its share of the segment, 0 to 1, and its distance.
+/// Returns the point of a segment that is nearest to `point`: its share of the segment, 0 to 1, and its
+/// distance.
 pub(super) fn nearest_on_path(point: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
     let share = nearest_share(point, [a, b]);
     (share, (point - a - (b - a) * share).length())

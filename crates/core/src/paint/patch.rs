@@ -5,26 +5,26 @@ use crate::geometry::Rect;
 use crate::mesh::TargetChange;
 use crate::raster::{Tile, TilePlace, TiledRaster, ValueRange, ValueRanges};
 
-/// What was before a stroke at each place that it changed: enough to undo the stroke and to redo it.
+/// The former tiles at all places that a stroke changed: enough to undo the stroke and to redo it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Patch {
-    /// `None` where there was no tile.
+    /// The former tile at each place, or `None` if there was no tile.
     tiles: BTreeMap<TilePlace, Option<Arc<Tile>>>,
 }
 
 /// A part of a painted raster that changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Repaint {
-    /// Where values may have changed, in world units.
+    /// The rectangle in which values may have changed, in world units.
     pub area: Rect,
-    /// The range of the values before, there and perhaps around it.
+    /// The range of the former values, there and perhaps around it.
     pub before: ValueRange,
-    /// What happened to the diameters that the pixels ask for.
+    /// The change of the target diameters of the pixels.
     pub change: TargetChange,
 }
 
 impl Repaint {
-    /// Both changes as one.
+    /// Returns both changes as one.
     pub(super) fn union(&self, other: &Self) -> Self {
         let change = if self.change == other.change { self.change } else { TargetChange::Any };
         Self { area: self.area.union(&other.area), before: self.before.union(other.before), change }
@@ -32,12 +32,12 @@ impl Repaint {
 }
 
 impl Patch {
-    /// The patch that removes all tiles of a raster.
+    /// Returns the patch that removes all tiles of a raster.
     pub fn clearing(raster: &TiledRaster) -> Self {
         Self { tiles: raster.tiles().map(|(place, _)| (place, None)).collect() }
     }
 
-    /// Keeps what is at a place now, unless something is kept for it already.
+    /// Keeps the present tile at a place, unless one is kept for it already.
     pub(super) fn keep(&mut self, raster: &TiledRaster, place: TilePlace) {
         self.tiles.entry(place).or_insert_with(|| raster.tile(place).cloned());
     }
@@ -45,15 +45,15 @@ impl Patch {
     /// Exchanges the kept tiles with those of the raster: the first call undoes the stroke, the second redoes
     /// it.
     ///
-    /// Returns where values may have changed, at most one rectangle for each tile: a long stroke touches far
-    /// less than its bounding rectangle.
+    /// Returns the rectangles in which values may have changed, at most one for each tile. A long stroke
+    /// touches far less than its bounding rectangle.
     pub fn exchange(&mut self, raster: &mut TiledRaster) -> Vec<Repaint> {
         let (new, gone): (Vec<_>, Vec<_>) = self.tiles.iter_mut().partition(|(_, tile)| tile.is_some());
         let mut changed = Vec::new();
         // Parents appear before their children, and disappear after them.
         for (&place, tile) in new.into_iter().chain(gone.into_iter().rev()) {
             let [kept, present] = [tile.take(), raster.tile(place).cloned()];
-            // Where there is no tile, the parent counts; where the parent changes, it has its own rectangle.
+            // Without a tile, the parent counts; where the parent changes, it has its own rectangle.
             let values =
                 |tile: &Option<Arc<Tile>>| tile.clone().unwrap_or_else(|| Arc::new(raster.inherited(place)));
             let [before, after] = [&present, &kept].map(values);
@@ -69,27 +69,27 @@ impl Patch {
         changed
     }
 
-    /// The places at which the stroke changed tiles, in order.
+    /// Returns the places of the tiles that the stroke changed, in order.
     pub fn places(&self) -> impl Iterator<Item = TilePlace> {
         self.tiles.keys().copied()
     }
 
-    /// Whether the stroke touched nothing.
+    /// Returns whether the stroke changed nothing.
     pub fn is_empty(&self) -> bool {
         self.tiles.is_empty()
     }
 
-    /// Memory of the tiles, in bytes.
+    /// Returns memory of the tiles, in bytes.
     pub fn bytes(&self) -> usize {
         self.tiles.values().flatten().count() * size_of::<Tile>()
     }
 }
 
-/// The range of the values of those pixels that change, before they do, and what happens to the diameters
-/// that they ask for; `None` if no pixel changes.
+/// Returns the range of the former values of those pixels that change, and the change of their target
+/// diameters; `None` if no pixel changes.
 ///
-/// The blank value asks for nothing, and all others lie on one side of it: the farther a value is from it,
-/// the smaller is the diameter that it asks for.
+/// The blank value stands for no target, and all other values lie on one side of it: the farther a value is
+/// from it, the smaller is its target diameter.
 fn change_of_pixels(before: &Tile, after: &Tile, blank: f32) -> Option<(ValueRange, TargetChange)> {
     let pairs = before.values().iter().zip(after.values()).filter(|(before, after)| before != after);
     let changes = pairs.map(|(&before, &after)| {
@@ -102,7 +102,7 @@ fn change_of_pixels(before: &Tile, after: &Tile, blank: f32) -> Option<(ValueRan
     })
 }
 
-/// The range of the values of a tile.
+/// Returns the range of the values of a tile.
 pub(super) fn range_of(tile: &Tile) -> ValueRange {
     tile.values()
         .iter()

@@ -1,4 +1,4 @@
-//! How finely a segment of a stroke is painted, and on which tiles.
+//! The resolution of a segment of a stroke, and the tiles that it covers.
 
 use glam::DVec2;
 
@@ -7,17 +7,17 @@ use super::{Brush, PathPoint};
 use crate::geometry::Rect;
 use crate::raster::{PixelGrid, TILE, TilePlace, power_of_two};
 
-/// The radius of a brush has at least this many pixels.
+/// Smallest radius of a brush in pixels of the tiles that it paints on.
 const LEAST_RADIUS_PX: f64 = 32.0;
 
-/// A segment is painted at most this much deeper than its widest place or the whole brush needs.
+/// A segment is painted at most this many levels deeper than its widest point or the whole brush needs.
 const MOST_EXTRA_DEPTH: u8 = 3;
 
-/// A segment is painted on about this many tiles at most, unless depth 0 has more: a hair across a whole sea
-/// stays a few megabytes.
+/// Upper limit of the number of tiles of a segment, unless depth 0 has more. It keeps a thin line across a
+/// large domain at a few megabytes.
 const MOST_TILES: f64 = 16_384.0;
 
-/// Distance from any point to the nearest centre of a pixel, at most, in pixels.
+/// Largest distance from any point to the nearest centre of a pixel, in pixels.
 const HALF_DIAGONAL_PX: f64 = 0.71;
 
 /// A straight piece of a stroke's path, from one point of the pointer to the next.
@@ -27,15 +27,15 @@ pub(super) struct Segment {
     ends: [PathPoint; 2],
     /// The largest radius, in world units.
     radius: f64,
-    /// What it may change, in world units.
+    /// The rectangle that the segment may change, in world units.
     area: Rect,
-    /// The tiles that are not stamped yet; the last is next.
+    /// The tiles that are not stamped yet; the last one is stamped next.
     pub places: Vec<TilePlace>,
 }
 
 impl Segment {
-    /// A segment of the path of a stroke that reaches no further than `bounds`. `None` where it reaches no
-    /// pixel within.
+    /// Creates a segment of the path of a stroke that reaches no further than `bounds`. Returns `None` if it
+    /// reaches no pixel within them.
     pub fn new(brush: Brush, ends: [PathPoint; 2], bounds: &Rect, grid: &PixelGrid) -> Option<Self> {
         let widest = brush.radius * ends[0].size.max(ends[1].size);
         let reach = Rect::spanning(ends[0].at, ends[1].at).expanded(widest);
@@ -43,7 +43,7 @@ impl Segment {
         while depth > 0 && !is_affordable(depth, &ends, widest, &reach.intersection(bounds)?, grid) {
             depth -= 1;
         }
-        // Only where the depth is limited, a brush can be narrower than a pixel: it is widened until it
+        // A brush is narrower than a pixel only where the depth is limited. It is then widened until it
         // reaches the centre of one.
         let pixel = grid.pixel.max_element() * power_of_two(-i32::from(depth));
         let least = HALF_DIAGONAL_PX * pixel;
@@ -56,13 +56,13 @@ impl Segment {
         Some(segment)
     }
 
-    /// Coverage of a pixel at a point in world units, 0 to 1.
+    /// Returns the coverage of a pixel at a point in world units, 0 to 1.
     pub fn coverage(&self, point: DVec2) -> f64 {
         self.brush.coverage_of_segment(point, self.ends)
     }
 
-    /// Columns and rows of the pixels of a tile that the segment may change, within the tile: [first, end],
-    /// [x, y] each.
+    /// Returns the columns and rows of the pixels of a tile that the segment may change, counted within the
+    /// tile: [first, end], [x, y] each.
     pub fn pixels(&self, place: TilePlace, grid: &PixelGrid) -> [[i32; 2]; 2] {
         let scale = power_of_two(i32::from(place.depth));
         let first = DVec2::new(f64::from(place.x), f64::from(place.y)) * f64::from(TILE);
@@ -73,13 +73,13 @@ impl Segment {
         [within(self.area.min, DVec2::floor), within(self.area.max, DVec2::ceil)]
     }
 
-    /// The rectangle of the pixels of a tile that the segment may change, in world units.
+    /// Returns the rectangle of the pixels of a tile that the segment may change, in world units.
     pub fn area_on(&self, place: TilePlace, grid: &PixelGrid) -> Rect {
         let pixels = self.pixels(place, grid);
         place.area_of_pixels(pixels, grid)
     }
 
-    /// Whether the segment may cover a point of a tile.
+    /// Returns whether the segment may cover a point of a tile.
     pub fn reaches(&self, place: TilePlace, grid: &PixelGrid) -> bool {
         let tile = place.area(grid);
         let (_, distance) = nearest_on_path(tile.center(), self.ends.map(|end| end.at));
@@ -88,7 +88,8 @@ impl Segment {
     }
 }
 
-/// The smallest depth at which the brush is wide enough all along a segment, within [`MOST_EXTRA_DEPTH`].
+/// Returns the smallest depth at which the brush is wide enough all along a segment, within
+/// [`MOST_EXTRA_DEPTH`].
 fn wanted_depth(brush: &Brush, ends: &[PathPoint; 2], grid: &PixelGrid) -> u8 {
     let needed = |size: f64| {
         let radius_px =
@@ -98,11 +99,11 @@ fn wanted_depth(brush: &Brush, ends: &[PathPoint; 2], grid: &PixelGrid) -> u8 {
             .unwrap_or(TilePlace::DEEPEST)
     };
     let [from, to] = [ends[0].size, ends[1].size].map(needed);
-    // A pen that touches down has almost no width yet: what the whole brush needs is a limit as well.
+    // A pen that touches down has almost no width yet, so the need of the whole brush is a limit as well.
     from.max(to).min(from.min(to).min(needed(1.0)) + MOST_EXTRA_DEPTH)
 }
 
-/// Whether the tiles of a depth are within the limits of their places and not too many.
+/// Returns whether the tiles of a depth are within the limits of [`TilePlace`] and not too many.
 fn is_affordable(depth: u8, ends: &[PathPoint; 2], radius: f64, area: &Rect, grid: &PixelGrid) -> bool {
     let tile = grid.pixel * f64::from(TILE) * power_of_two(-i32::from(depth));
     let length = (ends[1].at - ends[0].at).length().min(area.size().length());
@@ -111,7 +112,7 @@ fn is_affordable(depth: u8, ends: &[PathPoint; 2], radius: f64, area: &Rect, gri
     count <= MOST_TILES && tiles_touching(area, depth, grid).is_some()
 }
 
-/// The tiles of a depth that touch a rectangle, row by row; `None` if one is beyond the limits.
+/// Returns the tiles of a depth that touch a rectangle, row by row, or `None` if one is beyond the limits.
 fn tiles_touching(
     area: &Rect,
     depth: u8,

@@ -30,14 +30,14 @@ pub struct Stroke {
     brush: Brush,
     /// The largest target diameter, in world units: a painted diameter grows to it at the rim.
     h_max: f64,
-    /// Paint reaches no further, in world units.
+    /// The rectangle that paint is limited to, in world units.
     bounds: Rect,
     mirror: Mirror,
     /// The last point of the path.
     last: Option<PathPoint>,
     /// Segments that are not drawn yet, in order.
     pending: VecDeque<Segment>,
-    /// What was before at each place that the stroke changed.
+    /// The former tile at each place that the stroke changed.
     before: Patch,
     covered: BTreeMap<TilePlace, Covered>,
 }
@@ -45,15 +45,15 @@ pub struct Stroke {
 /// A tile that the stroke covers.
 #[derive(Clone, Debug)]
 struct Covered {
-    /// Its pixels before the stroke.
+    /// The pixels of the tile before the stroke.
     before: Arc<Tile>,
     /// The largest coverage of each pixel so far, 0 to 1.
     coverage: Tile,
 }
 
 impl Stroke {
-    /// A stroke that has touched nothing yet. `h_max` is the largest target diameter, in world units; paint
-    /// reaches no further than `bounds`.
+    /// Creates a stroke that has changed nothing yet. `h_max` is the largest target diameter, in world units;
+    /// paint reaches no further than `bounds`.
     pub fn new(brush: Brush, h_max: f64, bounds: Rect) -> Self {
         Self {
             brush,
@@ -67,12 +67,12 @@ impl Stroke {
         }
     }
 
-    /// The stroke, repeated in the lines of `mirror`.
+    /// Returns the stroke, repeated in the lines of `mirror`.
     pub fn mirrored(self, mirror: Mirror) -> Self {
         Self { mirror, ..self }
     }
 
-    /// The brush in use.
+    /// Returns the brush in use.
     pub fn brush(&self) -> &Brush {
         &self.brush
     }
@@ -89,8 +89,8 @@ impl Stroke {
         }
     }
 
-    /// Draws about `pixels` of the next segment, whole tiles of it. Returns where pixels may have changed,
-    /// with their values before the stroke; `None` if nothing was left to draw.
+    /// Draws about `pixels` pixels of the next segment, in whole tiles. Returns the area where pixels may
+    /// have changed, with their values before the stroke; `None` if nothing was left to draw.
     pub fn advance(&mut self, raster: &mut TiledRaster, pixels: usize) -> Option<Repaint> {
         let mut changed: Option<Repaint> = None;
         let mut tiles_left = pixels.div_ceil((TILE * TILE) as usize).max(1);
@@ -104,7 +104,7 @@ impl Stroke {
             if !segment.places.is_empty() {
                 self.pending.push_front(segment);
             }
-            // Segments that cover no pixel are passed over.
+            // Skip segments that cover no pixel.
             if changed.is_some() {
                 break;
             }
@@ -112,10 +112,10 @@ impl Stroke {
         changed
     }
 
-    /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns where
+    /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the area where
     /// pixels may have changed; `None` if the segment covers no pixel of the tile.
     fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Repaint> {
-        // Children count instead of the tile, so they are drawn on as well.
+        // Children hide the tile, so they are drawn on as well.
         for child in place.children().into_iter().filter(|child| raster.tile(*child).is_some()) {
             if segment.reaches(child, raster.grid()) {
                 segment.places.push(child);
@@ -128,12 +128,12 @@ impl Stroke {
         Some(Repaint { area: segment.area_on(place, raster.grid()), before, change })
     }
 
-    /// Whether the path is drawn to its last point.
+    /// Returns whether the path is drawn to its last point.
     pub fn is_drawn(&self) -> bool {
         self.pending.is_empty()
     }
 
-    /// Ends the stroke: removes tiles that are no longer needed, and returns what was before. No value
+    /// Ends the stroke: removes tiles that are no longer needed, and returns the former tiles. No value
     /// changes.
     pub fn finish(mut self, raster: &mut TiledRaster) -> Patch {
         let mut places: BTreeSet<TilePlace> = self.before.places().collect();
@@ -150,14 +150,14 @@ impl Stroke {
         self.before
     }
 
-    /// Puts a tile at a place, and at all places above it, where there is none yet.
+    /// Adds a tile at a place, and at all places above it, where there is none yet.
     fn deepen(&mut self, raster: &mut TiledRaster, place: TilePlace) {
         let above = std::iter::successors(Some(place), TilePlace::parent);
         let missing: Vec<_> = above.take_while(|place| raster.tile(*place).is_none()).collect();
         for place in missing.into_iter().rev() {
             self.before.keep(raster, place);
             let covered = place.parent().and_then(|parent| self.covered.get(&parent));
-            // What the stroke did to the parent is done to the new tile as well.
+            // The effect of the stroke on the parent is applied to the new tile as well.
             let covered = covered.map(|parent| Covered {
                 before: Arc::new(parent.before.enlarged(&place)),
                 coverage: parent.coverage.enlarged(&place),
@@ -180,8 +180,8 @@ impl Stroke {
         raster.change(place, |tile| {
             for (index, &coverage) in coverage.values().iter().enumerate() {
                 if coverage > touched.coverage[index] {
-                    // From the pixel before the stroke, not from its present value: the order of the segments
-                    // does not matter.
+                    // The new value follows from the pixel before the stroke, not from its present value, so
+                    // the order of the segments does not matter.
                     touched.coverage[index] = coverage;
                     tile[index] = brush.painted_value(coverage, touched.before[index], blank, h_max);
                 }
@@ -191,7 +191,7 @@ impl Stroke {
     }
 }
 
-/// The coverage of each pixel of a tile by a segment; `None` if it is 0 everywhere.
+/// Returns the coverage of each pixel of a tile by a segment; `None` if it is 0 everywhere.
 fn coverage_of_tile(segment: &Segment, place: TilePlace, raster: &TiledRaster) -> Option<Tile> {
     let grid = raster.grid();
     let pixel = grid.pixel * power_of_two(-i32::from(place.depth));

@@ -9,7 +9,7 @@ use crate::field::Bounds;
 use crate::geometry::Rect;
 use crate::layers::{ShapeList, Shapes};
 
-/// What counts as another path.
+/// The condition for a path to count as another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// Half the width of the corridor around a path, as a share of the length of the best path.
@@ -54,7 +54,7 @@ const MOST_WIDENING: f64 = 8.0;
 const SAMPLES: usize = 200;
 
 impl Alternatives {
-    /// The search for other paths than the best one, which `best` is.
+    /// Returns the search for other paths than the best one, which `best` is.
     pub fn new(
         mesh: impl Into<Arc<PathMesh>>,
         places: Vec<DVec2>,
@@ -73,12 +73,12 @@ impl Alternatives {
         }
     }
 
-    /// The paths so far: the best, then the others in the order in which they were found.
+    /// Returns the paths so far: the best, then the others in the order in which they were found.
     pub fn paths(&self) -> &[Solution] {
         &self.paths
     }
 
-    /// Whether no more are to be found.
+    /// Returns whether no more are to be found.
     pub fn is_done(&self) -> bool {
         self.is_done
     }
@@ -86,7 +86,7 @@ impl Alternatives {
     /// Does one round, and returns the path that it found, if any.
     ///
     /// # Errors
-    /// As [`Planner::solve`].
+    /// Fails as [`Planner::solve`] does.
     pub fn advance(&mut self, density: &dyn CostDensity) -> Result<Option<&Solution>, PathError> {
         if self.is_done {
             return Ok(None);
@@ -121,7 +121,7 @@ impl Alternatives {
         Ok(self.paths.last())
     }
 
-    /// The share of a path that is farther than `width` from the earlier ones.
+    /// Returns the share of a path that is farther than `width` from the earlier ones.
     fn share_outside(&self, path: &Solution, earlier: &Shapes, width: f64) -> f64 {
         let points = path.evenly(SAMPLES);
         let outside = points.iter().filter(|&&point| earlier.distance(point) > width).count();
@@ -155,5 +155,9 @@ impl CostDensity for Raised<'_> {
 
     fn risk_at(&self, point: DVec2) -> f64 {
         self.density.risk_at(point)
+    }
+
+    fn risk_range(&self, rectangle: &Rect) -> CostRange {
+        self.density.risk_range(rectangle)
     }
 }

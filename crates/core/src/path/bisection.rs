@@ -37,7 +37,7 @@ impl PathMesh {
     /// numbers, new ones follow; one part of a triangle keeps its number, the other follows.
     ///
     /// # Errors
-    /// Those of `importance`; the mesh is of no use then.
+    /// Fails with the errors of `importance`; the mesh is of no use then.
     pub(super) fn bisect<E>(
         &mut self,
         wanted: Vec<(f64, u32)>,
@@ -99,8 +99,8 @@ impl PathMesh {
         }
     }
 
-    /// The place of the first end of the longest edge among the corners. Of edges of equal length, the one
-    /// with the greater numbers: all triangles agree.
+    /// Returns the place of the first end of the longest edge among the corners. Of edges of equal length,
+    /// the one with the greater numbers: all triangles agree.
     fn longest_edge(&self, t: u32) -> usize {
         let corners = self.triangles[t as usize].corners;
         let key = |edge: usize| {

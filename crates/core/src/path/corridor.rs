@@ -16,19 +16,19 @@ pub struct Corridor {
 }
 
 impl Corridor {
-    /// The excess at each node, in the order of the nodes, as a share of the cost of the best path; infinite
-    /// where no path goes. It is linear on each triangle.
+    /// Returns the excess at each node, in the order of the nodes, as a share of the cost of the best path;
+    /// infinite where no path goes. It is linear on each triangle.
     pub fn excess(&self) -> &[f64] {
         &self.excess
     }
 
-    /// The points of either corridor, on the same mesh.
+    /// Returns the points of either corridor, on the same mesh.
     pub fn joined(mut self, other: Self) -> Self {
         self.excess.iter_mut().zip(other.excess).for_each(|(excess, other)| *excess = excess.min(other));
         self
     }
 
-    /// The open triangles with a point in the corridor of `share`, by their numbers.
+    /// Returns the open triangles with a point in the corridor of `share`, by their numbers.
     pub fn triangles<'a>(&'a self, mesh: &'a PathMesh, share: f64) -> impl Iterator<Item = u32> + 'a {
         let within = move |t: &u32| {
             let corners = mesh.triangles[*t as usize].corners;
@@ -38,7 +38,7 @@ impl Corridor {
         (0..mesh.triangle_count() as u32).filter(within)
     }
 
-    /// The excess at a point of an open triangle; `None` elsewhere.
+    /// Returns the excess at a point of an open triangle; `None` elsewhere.
     pub fn excess_at(&self, mesh: &PathMesh, point: DVec2) -> Option<f64> {
         let triangle = mesh.locate(point, Passage::Open)?;
         let place = super::Place { point, triangle };
@@ -47,11 +47,11 @@ impl Corridor {
 }
 
 impl Planner {
-    /// The corridor around the best path between places, in order. Each node has the excess of the leg that
-    /// comes nearest to it, as a share of the cost of all legs.
+    /// Returns the corridor around the best path between places, in order. Each node has the excess of the
+    /// leg that comes nearest to it, as a share of the cost of all legs.
     ///
     /// # Errors
-    /// As [`Self::solve`](Planner::solve).
+    /// Fails as [`Self::solve`](Planner::solve) does.
     pub fn corridor(&mut self, places: &[DVec2]) -> Result<Corridor, PathError> {
         let places = self.places(places)?;
         self.march(&places, true);

@@ -1,4 +1,4 @@
-//! What a path costs per unit of length.
+//! The cost of a path per unit of length.
 
 use glam::DVec2;
 
@@ -12,14 +12,14 @@ use crate::layers::RiskField;
 /// Where it jumps, the smaller value counts (it is lower semicontinuous), so that a path of least cost
 /// exists.
 pub trait CostDensity: Send + Sync {
-    /// The cost at a point in world units.
+    /// Returns the cost at a point in world units.
     fn at(&self, point: DVec2) -> f64;
 
-    /// Bounds of the cost over a closed rectangle in world units; they may be wider than the values.
+    /// Returns bounds of the cost over a closed rectangle in world units; they may be wider than the values.
     fn range(&self, rectangle: &Rect) -> CostRange;
 
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units; they may be wider than
-    /// the values. `None` where the cost may jump, or its derivatives are not known.
+    /// Returns bounds of the derivatives along x and y over a closed rectangle in world units; they may be
+    /// wider than the values. `None` where the cost may jump, or its derivatives are not known.
     ///
     /// They must hold for the differences of costs as [`Self::at`] computes them, but for 10⁻¹² of the costs:
     /// a formula that loses more digits, such as `(1e15 + x) - 1e15`, has steps, and bounds that are derived
@@ -28,28 +28,33 @@ pub trait CostDensity: Send + Sync {
         None
     }
 
-    /// The risk at a point in world units; 0 where the cost knows no risk.
+    /// Returns the risk at a point in world units; 0 where the cost knows no risk.
     fn risk_at(&self, _point: DVec2) -> f64 {
         0.0
+    }
+
+    /// Returns bounds of the risk over a closed rectangle in world units; 0 where the cost knows no risk.
+    fn risk_range(&self, _rectangle: &Rect) -> CostRange {
+        CostRange { least: 0.0, greatest: 0.0 }
     }
 }
 
 /// No cost in a rectangle is smaller than the one or greater than the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostRange {
-    /// At most the least cost; −∞ where the cost may be NaN.
+    /// A lower bound of the cost; −∞ if the cost may be NaN.
     pub least: f64,
-    /// At least the greatest cost; ∞ where the cost may be NaN.
+    /// An upper bound of the cost; ∞ if the cost may be NaN.
     pub greatest: f64,
 }
 
 impl CostRange {
-    /// Whether the range has positive, finite numbers only.
+    /// Returns whether the range has positive, finite numbers only.
     pub fn is_valid(&self) -> bool {
         self.least > 0.0 && self.greatest < f64::INFINITY
     }
 
-    /// The range of the costs of both.
+    /// Returns the range of the costs of both.
     pub fn union(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
@@ -87,10 +92,10 @@ pub struct WeightedCost {
 }
 
 impl WeightedCost {
-    /// The cost of a risk with the given weights.
+    /// Returns the cost of a risk with the given weights.
     ///
     /// # Errors
-    /// When a weight is negative, NaN or infinite, or both are zero.
+    /// Fails when a weight is negative, NaN or infinite, or both are zero.
     pub fn new(weights: Weights, risk: RiskField) -> Result<Self, PathError> {
         let Weights { length, risk: of_risk } = weights;
         let is_weight = |weight: f64| (0.0..f64::INFINITY).contains(&weight);
@@ -124,6 +129,10 @@ impl CostDensity for WeightedCost {
 
     fn risk_at(&self, point: DVec2) -> f64 {
         self.risk.at(point)
+    }
+
+    fn risk_range(&self, rectangle: &Rect) -> CostRange {
+        self.risk.range(rectangle).into()
     }
 }
 
@@ -161,15 +170,19 @@ impl CostDensity for FormulaCost {
     fn risk_at(&self, point: DVec2) -> f64 {
         self.risk.at(point)
     }
+
+    fn risk_range(&self, rectangle: &Rect) -> CostRange {
+        self.risk.range(rectangle).into()
+    }
 }
 
 /// How often a rectangle is quartered to find valid bounds of its costs.
 const QUARTERINGS: u32 = 6;
 
-/// The range of a cost density over a rectangle, checked.
+/// Returns the range of a cost density over a rectangle, checked.
 ///
 /// # Errors
-/// When the cost is zero, negative, NaN or infinite at a place, or its bounds are.
+/// Fails when the cost is zero, negative, NaN or infinite at a place, or its bounds are.
 pub fn checked_range(
     density: &(impl CostDensity + ?Sized),
     rectangle: &Rect,

@@ -108,9 +108,9 @@ pub enum PathError {
          Choose two places in one part, or open a gap between the parts."
     )]
     Apart {
-        /// Where the path would begin.
+        /// The start of the path.
         from: Waypoint,
-        /// Where it would end.
+        /// The end of the path.
         to: Waypoint,
     },
     /// The triangles of the mesh do not connect two places, but the domain does, or may.
@@ -119,9 +119,9 @@ pub enum PathError {
          narrower than the triangles there. Make the mesh finer along the outline."
     )]
     MeshApart {
-        /// Where the path would begin.
+        /// The start of the path.
         from: Waypoint,
-        /// Where it would end.
+        /// The end of the path.
         to: Waypoint,
     },
     /// Keep-out regions separate two places.
@@ -132,9 +132,9 @@ pub enum PathError {
     Enclosed {
         /// The place that is enclosed: of the two parts, its own has fewer triangles.
         which: Waypoint,
-        /// Where the path would begin.
+        /// The start of the path.
         from: Waypoint,
-        /// Where it would end.
+        /// The end of the path.
         to: Waypoint,
     },
     /// The mesh of a certificate would be too large.
@@ -157,7 +157,8 @@ pub enum PathError {
 }
 
 impl PathError {
-    /// The error of a leg between two of `count` places, by its number from 0, as one of the whole path.
+    /// Returns the error of a leg between two of `count` places, by its number from 0, as one of the whole
+    /// path.
     pub(super) fn of_leg(self, leg: usize, count: usize) -> Self {
         let of = |which: Waypoint| Waypoint::of(if which == Waypoint::Goal { leg + 1 } else { leg }, count);
         match self {
@@ -167,8 +168,8 @@ impl PathError {
         }
     }
 
-    /// The error as what is known of the domain tells it: whether two places that the mesh does not connect
-    /// lie in different parts of the domain as well. `places` are those that the path was to visit.
+    /// Returns the error as what is known of the domain tells it: whether two places that the mesh does not
+    /// connect lie in different parts of the domain as well. `places` are those that the path was to visit.
     pub fn in_domain(self, domain: &Domain, places: &[DVec2]) -> Self {
         let Self::Apart { from, to } = self else { return self };
         let polygons = match &domain.shape {
@@ -188,7 +189,7 @@ impl PathError {
     }
 }
 
-/// Whether a polygon covers a point: a ray to the right crosses an odd number of its edges.
+/// Returns whether a polygon covers a point: a ray to the right crosses an odd number of its edges.
 fn covers(polygon: &Polygon, point: DVec2) -> bool {
     let edges =
         polygon.iter().flat_map(|ring| (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]]));
@@ -201,16 +202,16 @@ fn covers(polygon: &Polygon, point: DVec2) -> bool {
 /// A place that a path must visit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Waypoint {
-    /// Where the path begins.
+    /// The start of the path.
     Start,
     /// A place in between, counted from 1.
     Via(usize),
-    /// Where the path ends.
+    /// The end of the path.
     Goal,
 }
 
 impl Waypoint {
-    /// The place in order of this one of `count`.
+    /// Returns the place in order of this one of `count`.
     fn index(self, count: usize) -> usize {
         match self {
             Self::Start => 0,
@@ -219,7 +220,7 @@ impl Waypoint {
         }
     }
 
-    /// The waypoint at a place of `count` in order.
+    /// Returns the waypoint at a place of `count` in order.
     pub fn of(index: usize, count: usize) -> Self {
         match index {
             0 => Self::Start,

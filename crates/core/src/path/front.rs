@@ -37,7 +37,7 @@ const WEIGHTS: [f64; 2] = [0.1, 1000.0];
 const EQUAL: f64 = 1e-6;
 
 impl Front {
-    /// The front between places, in order, with at most `count` paths, at least three.
+    /// Returns the front between places, in order, with at most `count` paths, at least three.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, risk: RiskField, places: Vec<DVec2>, count: usize) -> Self {
         let steps = count.max(3) - 2;
         let [least, greatest] = WEIGHTS;
@@ -46,12 +46,12 @@ impl Front {
         Self { mesh: mesh.into(), risk, places, waiting, points: Vec::new() }
     }
 
-    /// How many paths are still to be found.
+    /// Returns how many paths are still to be found.
     pub fn remaining(&self) -> usize {
         self.waiting.len()
     }
 
-    /// The front so far, from the shortest path to the safest.
+    /// Returns the front so far, from the shortest path to the safest.
     pub fn points(&self) -> &[FrontPoint] {
         &self.points
     }
@@ -59,7 +59,7 @@ impl Front {
     /// Finds the next path. Returns whether there are more.
     ///
     /// # Errors
-    /// As [`Planner::solve`]; nothing is left to do then.
+    /// Fails as [`Planner::solve`] does; nothing is left to do then.
     pub fn advance(&mut self) -> Result<bool, PathError> {
         let Some(risk) = self.waiting.pop() else { return Ok(false) };
         let weights = Weights { length: 1.0, risk };

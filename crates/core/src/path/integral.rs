@@ -1,4 +1,4 @@
-//! What a polyline costs.
+//! Computes the cost of a polyline.
 
 use glam::DVec2;
 
@@ -14,10 +14,6 @@ pub struct PathFigures {
     pub upper: f64,
     /// Length in world units.
     pub length: f64,
-    /// The integral of the risk.
-    pub risk: f64,
-    /// The greatest risk at the points that were looked at.
-    pub highest_risk: f64,
 }
 
 /// How often a piece is halved at most.
@@ -27,7 +23,7 @@ const MOST_HALVINGS: u32 = 14;
 const ROUNDING: f64 = 1e-12;
 
 impl PathFigures {
-    /// The figures of a polyline.
+    /// Returns the figures of a polyline.
     ///
     /// The upper bound adds up bounds of the cost over pieces. A piece is halved until its bounds differ by
     /// less than `tolerance` times their mean, so that the upper bound is above the integral by that share at
@@ -39,9 +35,6 @@ impl PathFigures {
         }
         figures.upper *= 1.0 + ROUNDING;
         figures.cost = figures.cost.min(figures.upper);
-        if let [point] = points {
-            figures.highest_risk = density.risk_at(*point);
-        }
         figures
     }
 
@@ -54,10 +47,6 @@ impl PathFigures {
             self.cost += length * mean.clamp(range.least, range.greatest);
             self.upper += length * range.greatest;
             self.length += length;
-            let risk = density.risk_at(p.midpoint(q));
-            self.risk += length * risk;
-            let ends = density.risk_at(p).max(density.risk_at(q));
-            self.highest_risk = self.highest_risk.max(risk).max(ends);
             return;
         }
         let middle = p.midpoint(q);
@@ -66,18 +55,47 @@ impl PathFigures {
     }
 }
 
-impl std::ops::AddAssign for PathFigures {
-    /// The figures of both paths, one after the other.
-    fn add_assign(&mut self, other: Self) {
-        self.cost += other.cost;
-        self.upper += other.upper;
-        self.length += other.length;
-        self.risk += other.risk;
-        self.highest_risk = self.highest_risk.max(other.highest_risk);
+/// The risk along a polyline.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct RiskAlong {
+    /// The integral of the risk over the length.
+    pub integral: f64,
+    /// The greatest risk at the points that were looked at.
+    pub highest: f64,
+}
+
+/// A piece along which the risk varies by more is halved.
+const MOST_RISK_SPREAD: f64 = 1.0 / 128.0;
+/// How often a piece is halved at most for its risk.
+const MOST_RISK_HALVINGS: u32 = 10;
+
+impl RiskAlong {
+    /// Returns the risk along a polyline, however long its pieces are: where the risk does not count, a path
+    /// is straight and has few points.
+    pub fn of(points: &[DVec2], density: &dyn CostDensity) -> Self {
+        let highest = points.iter().map(|&point| density.risk_at(point)).fold(0.0, f64::max);
+        let mut along = Self { integral: 0.0, highest };
+        for pair in points.windows(2) {
+            along.add_piece(pair[0], pair[1], density, MOST_RISK_HALVINGS);
+        }
+        along
+    }
+
+    fn add_piece(&mut self, p: DVec2, q: DVec2, density: &dyn CostDensity, halvings: u32) {
+        let middle = p.midpoint(q);
+        let range = density.risk_range(&Rect::spanning(p, q));
+        if range.greatest - range.least <= MOST_RISK_SPREAD || halvings == 0 {
+            let risk = density.risk_at(middle);
+            self.integral += p.distance(q) * risk;
+            self.highest = self.highest.max(risk);
+            return;
+        }
+        self.add_piece(p, middle, density, halvings - 1);
+        self.add_piece(middle, q, density, halvings - 1);
     }
 }
 
-/// Bounds of the mean of the cost over a segment.
+/// Returns bounds of the mean of the cost over a segment.
 ///
 /// With the derivative along the segment between a and b, the cost at a distance t after the middle m is
 /// between c(m) + a t and c(m) + b t, and before m the other way round. So the mean differs from c(m) by
@@ -105,9 +123,9 @@ fn mean_range(p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64) -> 
     CostRange { least: range.least.max(middle - most), greatest: range.greatest.min(middle + most) }
 }
 
-/// Whether the cost rises from the middle of a segment to its ends as bounds of its derivatives say. A cost
-/// that loses digits, such as `(1e15 + x) - 1e15`, is a staircase, and its derivatives are not those of the
-/// formula: then they are not used.
+/// Returns whether the cost rises from the middle of a segment to its ends as bounds of its derivatives say.
+/// A cost that loses digits, such as `(1e15 + x) - 1e15`, is a staircase, and its derivatives are not those
+/// of the formula: then they are not used.
 fn rises_as_said(
     p: DVec2,
     q: DVec2,
@@ -129,7 +147,7 @@ fn rises_as_said(
     })
 }
 
-/// The mean of the cost over a segment, by Gauss's rule with two points.
+/// Returns the mean of the cost over a segment, by Gauss's rule with two points.
 fn gauss(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
     0.5 * super::refine::GAUSS.iter().map(|&share| density.at(p.lerp(q, share))).sum::<f64>()
 }

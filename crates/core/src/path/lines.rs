@@ -42,7 +42,7 @@ const SHORT: f64 = 1.0 / 4096.0;
 /// A march with least costs promises at least this part less than the known path.
 const LEAST_PROMISE: f64 = 1e-3;
 
-/// What a path is sought with.
+/// The data with which a path is searched.
 pub(super) struct Lines<'a> {
     pub mesh: &'a PathMesh,
     pub costs: &'a TriangleCosts,
@@ -60,7 +60,7 @@ struct Point {
 }
 
 impl Lines<'_> {
-    /// A path that the walls admit, where lines may lead to one that costs less than `known`.
+    /// Returns a path that the walls admit, where lines may lead to one that costs less than `known`.
     pub(super) fn path(&self, ends: [Place; 2], known: f64, effort: Effort) -> Option<Vec<DVec2>> {
         let has_any = (0..self.mesh.triangle_count() as u32).any(|t| self.hides_line(t));
         if !has_any {
@@ -82,8 +82,9 @@ impl Lines<'_> {
         Some(self.refined(&chords, effort))
     }
 
-    /// Whether the cost has close bounds on the chords along lines. It has none on an oblique line, whose
-    /// every rectangle reaches beyond it, and then an upper bound of the path is as if there was no line.
+    /// Returns whether the cost has close bounds on the chords along lines. It has none on an oblique line,
+    /// whose every rectangle reaches beyond it, and then an upper bound of the path is as if there was no
+    /// line.
     fn has_bounds_along(&self, points: &[Point]) -> bool {
         points.windows(2).filter(|pair| pair[0].is_on_line && pair[1].is_on_line).all(|pair| {
             let [p, q] = [pair[0].at, pair[1].at];
@@ -97,8 +98,8 @@ impl Lines<'_> {
         self.mesh.passage(t) == Passage::Open && least < HIDDEN * mean
     }
 
-    /// The points of a path, and between them the nearest places on lines. Where the path comes to a line or
-    /// leaves it, so do places before and after: the march tells only roughly where that is best.
+    /// Returns the points of a path, and between them the nearest places on lines. Where the path comes to a
+    /// line or leaves it, so do places before and after: the march tells only roughly where that is best.
     fn beside_lines(&self, traced: &[DVec2]) -> Vec<Point> {
         let middle = |piece: usize| traced[piece].midpoint(traced[piece + 1]);
         let places: Vec<Option<DVec2>> =
@@ -124,7 +125,7 @@ impl Lines<'_> {
         points
     }
 
-    /// Places on a line beyond one of two that lie on it, farther and farther.
+    /// Returns the places on a line beyond one of two that lie on it, farther and farther.
     fn places_farther(&self, from: DVec2, beyond: DVec2) -> Vec<DVec2> {
         let direction = (beyond - from).normalize_or_zero();
         let distances = std::iter::successors(Some(NEXT * self.size), |distance| Some(STRETCH * distance));
@@ -132,15 +133,15 @@ impl Lines<'_> {
         along.map_while(|place| self.place_on_line(place)).collect()
     }
 
-    /// A place on a line near a point in an open triangle that hides one.
+    /// Returns a place on a line near a point in an open triangle that hides one.
     fn place_on_line(&self, near: DVec2) -> Option<DVec2> {
         // A path along the line often follows edges, and then the line is in the triangles on one side only.
         let triangles = self.mesh.open_triangles_at(near);
         triangles.into_iter().filter(|&t| self.hides_line(t)).find_map(|t| self.cheap_place(t, near))
     }
 
-    /// A place in the rectangle around a triangle that costs about the triangle's least: of the smallest
-    /// bounds one near a point.
+    /// Returns a place in the rectangle around a triangle that costs about the triangle's least: of the
+    /// smallest bounds one near a point.
     fn cheap_place(&self, t: u32, near: DVec2) -> Option<DVec2> {
         let enough = ABOUT * self.costs.least[t as usize];
         let mut open = BinaryHeap::new();
@@ -171,8 +172,8 @@ impl Lines<'_> {
         None
     }
 
-    /// The points of the polyline of least cost among those that leave out some of the given points. `None`
-    /// where the walls admit none.
+    /// Returns the points of the polyline of least cost among those that leave out some of the given points.
+    /// `None` where the walls admit none.
     fn chords(&self, points: &[Point]) -> Option<Vec<Point>> {
         let mut best = vec![(f64::INFINITY, 0); points.len()];
         best[0].0 = 0.0;
@@ -217,7 +218,7 @@ impl Lines<'_> {
         length * sum / f64::from(2 * count)
     }
 
-    /// The same path with the parts between lines moved to where they cost less.
+    /// Returns this path with the parts between lines moved to where they cost less.
     fn refined(&self, points: &[Point], effort: Effort) -> Vec<DVec2> {
         let mut refined = vec![points[0].at];
         let mut first = 0;

@@ -9,9 +9,10 @@ use super::place::Place;
 
 /// A lower bound of the least cost of all paths between two places.
 ///
-/// A function v that is continuous, and linear on each triangle with |∇v| ≤ F, the least cost there, grows
-/// along any path by no more than the path costs. So v(goal) − v(start) is a bound; it is λ times that where
-/// |∇v| ≤ F/λ. The marches only propose functions v; the bound follows from the gradients of v alone.
+/// Let v be a continuous function that is linear on each triangle with |∇v| ≤ F, the least cost there. Along
+/// any path, v grows by no more than the cost of the path, so v(goal) − v(start) is a bound. If |∇v| ≤ F/λ,
+/// the bound is λ (v(goal) − v(start)). The marches only propose functions v; the bound follows from the
+/// gradients of v alone.
 ///
 /// 1. Paths that can be the best cost `upper` at most. Bounds of the distances from the start and from the
 ///    goal show through which triangles they go. Only there the gradient counts.
@@ -36,7 +37,7 @@ const ROUNDING: f64 = 1e-10;
 /// How often v is computed again with lowered costs.
 const CORRECTIONS: usize = 2;
 
-/// What a bound is asked about.
+/// The problem whose minimum is bounded from below.
 struct Problem<'a> {
     mesh: &'a PathMesh,
     costs: &'a [f64],
@@ -45,8 +46,8 @@ struct Problem<'a> {
 }
 
 impl LowerBound {
-    /// The bound, where `upper` is the cost of a path, and the marches went from the start and from the goal
-    /// through all triangles that are not closed.
+    /// Returns the bound, where `upper` is the cost of a path, and the marches went from the start and from
+    /// the goal through all triangles that are not closed.
     pub fn compute(
         &mut self,
         mesh: &PathMesh,
@@ -124,7 +125,7 @@ impl Problem<'_> {
         self.mesh.passage(t) > Passage::Closed
     }
 
-    /// The cost of a triangle by the gradient of a function there; infinite where it is constant.
+    /// Returns the cost of a triangle by the gradient of a function there; infinite where it is constant.
     fn ratio(&self, t: u32, v: &[f64]) -> f64 {
         let [a, b, c] = self.mesh.corners(t);
         let [at_a, at_b, at_c] = self.mesh.triangles[t as usize].corners.map(|node| v[node as usize]);
@@ -135,12 +136,12 @@ impl Problem<'_> {
         self.costs[t as usize] * p.perp_dot(q).abs() / gradient.length()
     }
 
-    /// How much a function grows from the start to the goal.
+    /// Returns how much a function grows from the start to the goal.
     fn gain(&self, v: &[f64]) -> f64 {
         self.goal.interpolate(self.mesh, v) - self.start.interpolate(self.mesh, v)
     }
 
-    /// The bound by a function whose gradients count in some triangles.
+    /// Returns the bound by a function whose gradients count in some triangles.
     fn bound(&self, v: &[f64], counts: &[bool]) -> f64 {
         let mut scale = 1.0_f64;
         for t in 0..self.mesh.triangle_count() as u32 {
@@ -152,8 +153,8 @@ impl Problem<'_> {
         if bound.is_nan() { 0.0 } else { bound }
     }
 
-    /// A function that is at most the distance from a place everywhere: λ · (max(u, r) − its value there),
-    /// with the r that gives most at the other place, and λ by the gradients in all triangles.
+    /// Returns a function that is at most the distance from a place everywhere: λ · (max(u, r) − its value
+    /// there), with the r that gives most at the other place, and λ by the gradients in all triangles.
     fn clamped(&self, u: &[f64], from: Place, to: Place) -> Vec<f64> {
         let total = to.interpolate(self.mesh, u);
         let limits: Vec<f64> = std::iter::once(0.0)
@@ -185,7 +186,7 @@ impl Problem<'_> {
         function
     }
 
-    /// The corners of the triangles in which a function has both signs.
+    /// Returns the corners of the triangles in which a function has both signs.
     fn crossed(&self, w: &[f64]) -> Vec<u32> {
         let mut is_crossed = vec![false; w.len()];
         for t in (0..self.mesh.triangle_count() as u32).filter(|&t| self.is_open(t)) {
@@ -202,7 +203,7 @@ impl Problem<'_> {
 /// The number of limits that a clamped function is tried with.
 const CLAMPS: u32 = 10;
 
-/// A value for nodes that no path reaches: their triangles do not touch those that count.
+/// Returns a value for nodes that no path reaches: their triangles do not touch those that count.
 fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }

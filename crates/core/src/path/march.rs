@@ -35,11 +35,11 @@ pub struct March {
     pub(super) accepted_count: usize,
 }
 
-/// What a march knows of a node.
+/// The state of a node in a march.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Front {
     pub at: DVec2,
-    /// Infinite where no seed leads.
+    /// The least cost from a seed; infinite if no seed reaches the node.
     pub value: f64,
     /// The triangle that the value comes from; [`NONE`] for a seed.
     pub from: u32,
@@ -85,27 +85,27 @@ impl March {
         }
     }
 
-    /// Whether every node that can be reached was accepted.
+    /// Returns whether every node that can be reached was accepted.
     pub(super) fn is_complete(&self) -> bool {
         self.queue.is_empty()
     }
 
-    /// The value of a node: infinite where no seed leads.
+    /// Returns the value of a node: infinite where no seed leads.
     pub fn value(&self, node: u32) -> f64 {
         self.nodes[node as usize].value
     }
 
-    /// The values of all nodes, in their order.
+    /// Returns the values of all nodes, in their order.
     pub fn values(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         self.nodes.iter().map(|node| node.value)
     }
 
-    /// How many nodes the last run accepted.
+    /// Returns how many nodes the last run accepted.
     pub fn accepted_count(&self) -> usize {
         self.accepted_count
     }
 
-    /// Whether there are values for this mesh.
+    /// Returns whether there are values for this mesh.
     pub fn is_for(&self, mesh: &PathMesh) -> bool {
         self.nodes.len() == mesh.nodes.len()
     }
@@ -245,16 +245,16 @@ impl Kite {
     }
 }
 
-/// The value at `to` along an edge from an accepted node. It is greater than the value there, also where the
-/// cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones of nodes
-/// with smaller numbers, and a descent by them ends.
+/// Returns the value at `to` along an edge from an accepted node. It is greater than the value there, also
+/// where the cost of the edge is lost in rounding: so each value comes from smaller ones, or from equal ones
+/// of nodes with smaller numbers, and a descent by them ends.
 #[inline]
 pub(super) fn from_corner(from: &Front, to: &Front, cost: f64) -> f64 {
     (from.value + cost * from.at.distance(to.at)).max(from.value.next_up())
 }
 
-/// The least value at `to` by way of a point between two accepted nodes; infinite where that is at an end, or
-/// would be below the value of an end.
+/// Returns the least value at `to` by way of a point between two accepted nodes; infinite where that is at an
+/// end, or would be below the value of an end.
 #[inline]
 pub(super) fn through_edge(
     a: &Front,

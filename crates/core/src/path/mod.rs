@@ -5,7 +5,9 @@
 //!   CostDensity            → TriangleCosts: the mean and the least cost of each triangle; finer triangles
 //!                            where the cost varies much
 //!   March                  → distance to each node: fast marching on triangles
-//!   trace, refine          → a polyline, and a better one near it
+//!   trace, refine          → a polyline, and a better one near it, taut where the cost is constant
+//!   Ways                   → others, through other valleys that cost nearly the same
+//!   Shortest               → the shortest, exactly, where the cost is constant
 //!   Lines                  → one along lines that are cheaper than the triangles around them
 //!   Shortcuts              → fewer points, for about the same cost
 //!   PathFigures            → its cost, rounded up: no path needs to cost more
@@ -34,10 +36,13 @@ mod queue;
 mod refine;
 mod resolve;
 mod shortcuts;
+mod shortest;
 mod solution;
+mod taut;
 mod trace;
 mod triangle_costs;
 mod walls;
+mod ways;
 
 pub use alternatives::{Alternatives, Difference};
 pub use certificate::{

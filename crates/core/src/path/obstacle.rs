@@ -5,7 +5,7 @@ use super::path_mesh::{PathMesh, PathTriangle};
 use super::place::Place;
 use super::{Passage, PathError, Waypoint};
 
-/// Why no path of finite cost leads between two places on a mesh.
+/// Returns why no path of finite cost leads between two places on a mesh.
 pub(super) fn obstacle(mesh: &PathMesh, places: [Place; 2], [from, to]: [Waypoint; 2]) -> PathError {
     let mut open = parts(mesh, |triangle| triangle.passage == Passage::Open);
     let node = |place: Place| place.corner_nodes(mesh)[0] as usize;
@@ -25,7 +25,7 @@ pub(super) fn obstacle(mesh: &PathMesh, places: [Place; 2], [from, to]: [Waypoin
     PathError::Enclosed { which, from, to }
 }
 
-/// The nodes in parts that hang together by the triangles that count.
+/// Returns the nodes in parts that hang together by the triangles that count.
 fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> Parts {
     let mut parts = Parts::new(mesh.nodes.len());
     for triangle in mesh.triangles.iter().filter(|triangle| counts(triangle)) {

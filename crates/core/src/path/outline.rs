@@ -14,8 +14,8 @@ type Key = [u32; 2];
 type Piece = [(Key, DVec2); 2];
 
 impl Corridor {
-    /// The closed lines around the corridor of `share`, in world units. The last point of each equals the
-    /// first, and the corridor is to the left.
+    /// Returns the closed lines around the corridor of `share`, in world units. The last point of each equals
+    /// the first, and the corridor is to the left.
     ///
     /// They are the contours of the excess, which is linear on each triangle, and parts of the boundary of
     /// the open triangles.
@@ -63,7 +63,7 @@ impl Corridor {
         }
     }
 
-    /// Where the excess is `share` on the edge from an inner node to an outer one.
+    /// Returns where the excess is `share` on the edge from an inner node to an outer one.
     fn crossing(&self, mesh: &PathMesh, inner: u32, outer: u32, share: f64) -> (Key, DVec2) {
         let [low, high] = [inner, outer].map(|node| self.excess()[node as usize]);
         let [from, to] = [inner, outer].map(|node| mesh.nodes[node as usize]);

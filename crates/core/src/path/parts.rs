@@ -2,12 +2,12 @@
 pub(super) struct Parts(Vec<usize>);
 
 impl Parts {
-    /// Each node alone.
+    /// Returns each node alone.
     pub(super) fn new(nodes: usize) -> Self {
         Self((0..nodes).collect())
     }
 
-    /// A node that stands for the part of another.
+    /// Returns a node that stands for the part of another.
     pub(super) fn root(&mut self, mut node: usize) -> usize {
         // Ends: the node above has a smaller number.
         while self.0[node] != node {

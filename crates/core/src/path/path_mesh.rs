@@ -33,7 +33,7 @@ pub struct PathMesh {
     pub(super) triangles: Vec<PathTriangle>,
     /// The triangle across the edge from corner j to the next one; [`NONE`] where there is none.
     pub(super) across: Vec<[u32; 3]>,
-    /// Where the row of each node begins in `around`.
+    /// The index in `around` of the first entry of each node's row.
     row_starts: Vec<u32>,
     /// The triangles around each node that are not closed.
     around: Vec<u32>,
@@ -104,12 +104,12 @@ impl PathMesh {
         mesh
     }
 
-    /// Whether there are regions that paths stay out of.
+    /// Returns whether there are regions that paths stay out of.
     pub(super) fn has_keep_out(&self) -> bool {
         !self.keep_out.is_empty()
     }
 
-    /// Whether paths go through a part of a triangle that a keep-out region touches.
+    /// Returns whether paths go through a part of a triangle that a keep-out region touches.
     pub(super) fn passage_of_part(&self, corners: &[DVec2; 3]) -> Passage {
         passage_beside(&self.keep_out, corners)
     }
@@ -156,52 +156,52 @@ impl PathMesh {
         }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Number of triangles.
+    /// Returns the number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The triangles around a node that are not closed.
+    /// Returns the triangles around a node that are not closed.
     #[inline]
     pub(super) fn around(&self, node: u32) -> &[u32] {
         &self.around[self.row_starts[node as usize] as usize..self.row_starts[node as usize + 1] as usize]
     }
 
-    /// The corners of a triangle in world units.
+    /// Returns the corners of a triangle in world units.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [DVec2; 3] {
         self.triangles[triangle as usize].corners.map(|node| self.nodes[node as usize])
     }
 
-    /// Whether paths go through a triangle.
+    /// Returns whether paths go through a triangle.
     pub fn passage(&self, triangle: u32) -> Passage {
         self.triangles[triangle as usize].passage
     }
 
-    /// The rectangle around a triangle.
+    /// Returns the rectangle around a triangle.
     pub(super) fn rectangle(&self, triangle: u32) -> Rect {
         let [a, b, c] = self.corners(triangle);
         Rect::new(a.min(b).min(c), a.max(b).max(c))
     }
 
-    /// The rectangle around all triangles that are not closed.
+    /// Returns the rectangle around all triangles that are not closed.
     pub fn bounds(&self) -> Option<Rect> {
         let passable = (0..).zip(&self.triangles).filter(|(_, triangle)| triangle.is_passable());
         passable.map(|(number, _)| self.rectangle(number)).reduce(|a, b| a.union(&b))
     }
 
-    /// The longest side of a triangle.
+    /// Returns the longest side of a triangle.
     pub(super) fn diameter(&self, triangle: u32) -> f64 {
         let [a, b, c] = self.corners(triangle);
         a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
     }
 
-    /// The triangles whose rectangles meet one of the given ones, in the order of their numbers.
+    /// Returns the triangles whose rectangles meet one of the given ones, in the order of their numbers.
     pub(super) fn meeting(&self, areas: &[Rect]) -> Vec<u32> {
         let mut found = Vec::new();
         for area in areas {
@@ -215,13 +215,13 @@ impl PathMesh {
         found
     }
 
-    /// The triangles that may contain a point, but for rounding.
+    /// Returns the triangles that may contain a point, but for rounding.
     fn around_point(&self, point: DVec2) -> Vec<u32> {
         let size = self.tree().bounds().map_or(0.0, |all| all.size().max_element());
         self.meeting(&[Rect::new(point, point).expanded(1e-12 * size)])
     }
 
-    /// An index of the triangles' rectangles, made when it is first needed.
+    /// Returns an index of the triangles' rectangles, made when it is first needed.
     fn tree(&self) -> &BoxTree {
         self.tree.get_or_init(|| {
             let rectangles: Vec<Rect> = (0..self.triangles.len() as u32).map(|t| self.rectangle(t)).collect();
@@ -229,14 +229,14 @@ impl PathMesh {
         })
     }
 
-    /// Whether a point lies in a triangle of the domain that a keep-out region closes.
+    /// Returns whether a point lies in a triangle of the domain that a keep-out region closes.
     pub(super) fn is_kept_out(&self, point: DVec2) -> bool {
         let holds = |&t: &u32| self.triangles[t as usize].is_kept_out && contains(&self.corners(t), point);
         self.around_point(point).iter().any(holds)
     }
 
-    /// The point, or one as near as rounding allows that a closed triangle contains, where rounding put the
-    /// point outside.
+    /// Returns the point, or one as near as rounding allows that a closed triangle contains, where rounding
+    /// put the point outside.
     pub(super) fn moved_into(&self, triangle: u32, point: DVec2) -> DVec2 {
         let corners = self.corners(triangle);
         let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -245,21 +245,21 @@ impl PathMesh {
         std::iter::once(point).chain(moved).find(|&point| holds(&corners, point)).unwrap_or(corners[0])
     }
 
-    /// An open triangle that contains a point: exactly if there is one, else but for rounding.
+    /// Returns an open triangle that contains a point: exactly if there is one, else but for rounding.
     pub(super) fn open_triangle_at(&self, point: DVec2) -> Option<u32> {
         let found = self.around_point(point);
         let mut open = found.iter().copied().filter(|&t| self.passage(t) == Passage::Open);
         open.find(|&t| holds(&self.corners(t), point)).or_else(|| self.locate(point, Passage::Open))
     }
 
-    /// The open triangles that contain a point, but for rounding, in the order of their numbers.
+    /// Returns the open triangles that contain a point, but for rounding, in the order of their numbers.
     pub(super) fn open_triangles_at(&self, point: DVec2) -> Vec<u32> {
         let mut found = self.around_point(point);
         found.retain(|&t| self.passage(t) == Passage::Open && contains(&self.corners(t), point));
         found
     }
 
-    /// The triangle with the lowest number that contains a point and has at least this passage.
+    /// Returns the triangle with the lowest number that contains a point and has at least this passage.
     pub fn locate(&self, point: DVec2, least: Passage) -> Option<u32> {
         let contains = |&number: &u32| {
             self.triangles[number as usize].passage >= least && contains(&self.corners(number), point)
@@ -268,7 +268,7 @@ impl PathMesh {
     }
 }
 
-/// Whether paths that stay out of regions go through a triangle.
+/// Returns whether paths that stay out of regions go through a triangle.
 fn passage_beside(keep_out: &[Mask], &[a, b, c]: &[DVec2; 3]) -> Passage {
     let rectangle = Rect::new(a.min(b).min(c), a.max(b).max(c));
     let passage = |mask: &Mask| match mask.classify(&rectangle) {
@@ -279,14 +279,14 @@ fn passage_beside(keep_out: &[Mask], &[a, b, c]: &[DVec2; 3]) -> Passage {
     keep_out.iter().map(passage).min().unwrap_or(Passage::Open)
 }
 
-/// Twice the area of a triangle, in square lattice steps.
+/// Returns twice the area of a triangle, in square lattice steps.
 fn twice_area(view: &MeshView, corners: [u32; 3]) -> i128 {
     let [a, b, c] = corners.map(|node| view.nodes()[node as usize]);
     let way = |from: u32, to: u32| i128::from(to) - i128::from(from);
     way(a.x, b.x) * way(a.y, c.y) - way(a.y, b.y) * way(a.x, c.x)
 }
 
-/// The order of numbers by their keys, and the place of each number in it.
+/// Returns the order of numbers by their keys, and the place of each number in it.
 fn sorted_by(keys: &[u32]) -> (Vec<u32>, Vec<u32>) {
     let mut sorted: Vec<u64> = (0..).zip(keys).map(|(n, &key): (u64, _)| u64::from(key) << 32 | n).collect();
     sorted.sort_unstable();
@@ -296,7 +296,7 @@ fn sorted_by(keys: &[u32]) -> (Vec<u32>, Vec<u32>) {
     (order, places)
 }
 
-/// The corner with an angle above 90°, beyond rounding; 3 without one.
+/// Returns the corner with an angle above 90°, beyond rounding; 3 without one.
 pub(super) fn obtuse_corner(corners: &[DVec2; 3]) -> u8 {
     let is_obtuse = |&k: &usize| {
         let (p, q) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
@@ -305,12 +305,12 @@ pub(super) fn obtuse_corner(corners: &[DVec2; 3]) -> u8 {
     (0..3).find(is_obtuse).unwrap_or(3) as u8
 }
 
-/// Whether a closed triangle, anticlockwise, contains a point.
+/// Returns whether a closed triangle, anticlockwise, contains a point.
 pub(super) fn holds(&[a, b, c]: &[DVec2; 3], point: DVec2) -> bool {
     [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| side_of_points(from, to, point) != Side::Right)
 }
 
-/// Whether a closed triangle, anticlockwise, contains a point, but for rounding.
+/// Returns whether a closed triangle, anticlockwise, contains a point, but for rounding.
 pub(super) fn contains(corners: &[DVec2; 3], point: DVec2) -> bool {
     let [a, b, c] = *corners;
     let margin = -1e-12 * (b - a).perp_dot(c - a);

@@ -10,7 +10,7 @@ use crate::geometry::{Side, side_of_points};
 /// A point in one of the open triangles that contain it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// In world units.
+    /// The point in world units.
     pub point: DVec2,
     /// The triangle.
     pub triangle: u32,
@@ -21,7 +21,7 @@ impl Place {
     /// as numbers allow.
     ///
     /// # Errors
-    /// When it is no point of the domain, or lies where no path may go.
+    /// Fails when it is no point of the domain, or lies where no path may go.
     pub fn find(mesh: &PathMesh, point: DVec2, which: Waypoint) -> Result<Self, PathError> {
         if !point.is_finite() {
             return Err(PathError::NotAPlace { which, at: point });
@@ -35,9 +35,9 @@ impl Place {
         }
     }
 
-    /// The corners of its triangle, and those beyond its edges to which a segment leads through two open
-    /// triangles, with the costs of the segments: where a march begins. From the corners alone, a march would
-    /// find a place on an edge to be as far as if the way led by one of the ends.
+    /// Returns the corners of its triangle, and those beyond its edges to which a segment leads through two
+    /// open triangles, with the costs of the segments: where a march begins. From the corners alone, a march
+    /// would find a place on an edge to be as far as if the way led by one of the ends.
     pub fn seeds(&self, mesh: &PathMesh, costs: &[f64]) -> Vec<Seed> {
         let triangle = &mesh.triangles[self.triangle as usize];
         let cost = costs[self.triangle as usize];
@@ -64,12 +64,12 @@ impl Place {
         seeds
     }
 
-    /// The corners of its triangle.
+    /// Returns the corners of its triangle.
     pub(super) fn corner_nodes(&self, mesh: &PathMesh) -> [u32; 3] {
         mesh.triangles[self.triangle as usize].corners
     }
 
-    /// The shares of the corners of its triangle in the point: they interpolate linearly.
+    /// Returns the shares of the corners of its triangle in the point: they interpolate linearly.
     pub(super) fn shares(&self, mesh: &PathMesh) -> [f64; 3] {
         let [a, b, c] = mesh.corners(self.triangle);
         let area = (b - a).perp_dot(c - a);
@@ -77,7 +77,7 @@ impl Place {
         [of(b, c), of(c, a), of(a, b)]
     }
 
-    /// A function that is linear on each triangle, at the place.
+    /// Returns a function that is linear on each triangle, at the place.
     pub(super) fn interpolate(&self, mesh: &PathMesh, values: &[f64]) -> f64 {
         let (shares, nodes) = (self.shares(mesh), self.corner_nodes(mesh));
         (0..3).map(|k| shares[k] * values[nodes[k] as usize]).sum()

@@ -12,13 +12,16 @@ use super::obstacle::obstacle;
 use super::path_mesh::PathMesh;
 use super::place::Place;
 use super::refine::{Effort, refine};
+use super::shortest::Shortest;
+use super::taut::is_constant_along;
 use super::trace::{trace, trace_by_nodes};
 use super::triangle_costs::TriangleCosts;
 use super::walls::Walls;
+use super::ways::Ways;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
 use crate::geometry::Rect;
 
-/// What is asked of a path.
+/// The requirements of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathRequest {
     /// How much work goes into the path.
@@ -38,6 +41,8 @@ impl PathRequest {
 
 /// The tolerance with which two paths are compared.
 const COMPARED: f64 = 1e-3;
+/// Another way is worth a closer look if sketches promise that it costs less by this share.
+const LEAST_GAIN: f64 = 1e-4;
 
 /// Finds paths of least cost on one mesh.
 ///
@@ -52,19 +57,19 @@ pub struct Planner {
     walls: Arc<Walls>,
     adaptation: Option<Adaptation>,
     costs: TriangleCosts,
-    /// With mean costs through open triangles, one for each waypoint.
+    /// Marches with mean costs through open triangles, one for each waypoint.
     origins: Vec<Origin>,
-    /// With least costs through all triangles that are not closed.
+    /// Marches with least costs through all triangles that are not closed, one for each waypoint.
     origins_for_bounds: Vec<Origin>,
     bound: LowerBound,
 }
 
-/// What the mesh of a planner was bisected from.
+/// The mesh from which a planner's mesh was bisected.
 #[derive(Clone, Debug)]
 struct Adaptation {
     /// The mesh that the planner was made with.
     base: Arc<PathMesh>,
-    /// Whether the mesh may be another one than for the cost as it is.
+    /// Whether the cost changed since the mesh was bisected for it.
     is_outdated: bool,
 }
 
@@ -109,10 +114,10 @@ impl Origin {
 }
 
 impl Planner {
-    /// A planner for a mesh and a cost density.
+    /// Creates a planner for a mesh and a cost density.
     ///
     /// # Errors
-    /// When the cost is zero, negative, NaN or infinite somewhere.
+    /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
         let base = mesh.into();
         let mut mesh = Arc::clone(&base);
@@ -121,10 +126,10 @@ impl Planner {
         Ok(Self { adaptation, ..Self::with_costs(mesh, costs) })
     }
 
-    /// As [`Self::new`], on the mesh as it is.
+    /// Creates a planner that uses the mesh without further bisections.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Fails as [`Self::new`] does.
     pub fn on_mesh(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
         let mesh = mesh.into();
         let costs = mesh.costs(density)?;
@@ -138,13 +143,13 @@ impl Planner {
         Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bound }
     }
 
-    /// The triangles that paths go through: those of the mesh that the planner was made with, or parts of
-    /// them.
+    /// Returns the triangles that paths go through: those of the mesh that the planner was made with, or
+    /// parts of them.
     pub fn mesh(&self) -> &Arc<PathMesh> {
         &self.mesh
     }
 
-    /// The cost of each triangle.
+    /// Returns the cost of each triangle.
     pub fn costs(&self) -> &TriangleCosts {
         &self.costs
     }
@@ -153,7 +158,7 @@ impl Planner {
     /// Where the mesh would be bisected in another way for the new cost, it is one.
     ///
     /// # Errors
-    /// When the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
+    /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
     pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
         if let Some(Adaptation { base, is_outdated }) = &self.adaptation {
             let is_bisected = !Arc::ptr_eq(base, &self.mesh) && !base.meeting(areas).is_empty();
@@ -169,7 +174,7 @@ impl Planner {
     /// that are shown while something is dragged.
     ///
     /// # Errors
-    /// As [`Self::update`].
+    /// Fails as [`Self::update`] does.
     pub fn follow(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
         let has_changed = self.change_costs(density, areas)?;
         if let Some(adaptation) = &mut self.adaptation {
@@ -190,10 +195,11 @@ impl Planner {
         Ok(!changed.is_empty())
     }
 
-    /// The path of least cost from the first of the places to the last by way of the others, in order.
+    /// Returns the path of least cost from the first of the places to the last by way of the others, in
+    /// order.
     ///
     /// # Errors
-    /// When a place is not in the domain, or no path leads from one to the next.
+    /// Fails when a place is not in the domain, or no path leads from one to the next.
     pub fn solve(
         &mut self,
         density: &dyn CostDensity,
@@ -203,10 +209,10 @@ impl Planner {
         Ok(Solution::joined(self.legs(density, places, request)?))
     }
 
-    /// The paths from each of the places to the next: those that [`Self::solve`] joins.
+    /// Returns the paths from each of the places to the next: those that [`Self::solve`] joins.
     ///
     /// # Errors
-    /// As [`Self::solve`].
+    /// Fails as [`Self::solve`] does.
     pub fn legs(
         &mut self,
         density: &dyn CostDensity,
@@ -226,7 +232,7 @@ impl Planner {
         places.windows(2).enumerate().map(leg).collect()
     }
 
-    /// The places on the mesh.
+    /// Returns the places on the mesh.
     pub(super) fn places(&self, places: &[DVec2]) -> Result<Vec<Place>, PathError> {
         if places.len() < 2 {
             return Err(PathError::TooFewPlaces);
@@ -258,12 +264,12 @@ impl Planner {
         }
     }
 
-    /// The marches through open triangles from two places, one after the other.
+    /// Returns the marches through open triangles from two places, one after the other.
     pub(super) fn open_marches(&self, leg: usize) -> [&March; 2] {
         [&self.origins[leg].march, &self.origins[leg + 1].march]
     }
 
-    /// A path with each leg moved to where it costs least nearby.
+    /// Returns a path with each leg moved to where it costs least nearby.
     pub(super) fn relaxed(&self, path: &Solution, density: &dyn CostDensity, tolerance: f64) -> Solution {
         let leg = |stops: &[usize]| {
             let points = refine(&path.points[stops[0]..=stops[1]], density, &self.walls, Effort::FULL);
@@ -272,16 +278,16 @@ impl Planner {
         Solution::joined(path.stops.windows(2).map(leg))
     }
 
-    /// A polyline that the walls admit, with its figures.
+    /// Returns a polyline that the walls admit, with its figures.
     fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
         debug_assert!(self.walls.admit_all(&points), "a path leaves the open triangles: {points:?}");
         Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
     }
 
-    /// The path of a leg; `None` where no march leads to its goal.
+    /// Returns the path of a leg; `None` where no march leads to its goal.
     ///
     /// # Errors
-    /// When its cost is not finite.
+    /// Fails when its cost is not finite.
     fn leg(
         &mut self,
         density: &dyn CostDensity,
@@ -297,26 +303,9 @@ impl Planner {
         let refined = refine(&traced, density, &self.walls, request.effort);
         let mut solution = self.solution(refined, density, request.tolerance);
         // Where the cost jumps, a refined path can cost more.
-        if PathFigures::of(&traced, density, COMPARED).cost < solution.cost {
-            let other = self.solution(traced, density, request.tolerance);
-            if other.upper < solution.upper {
-                solution = other;
-            }
-        }
+        self.take_better(&mut solution, traced.clone(), density, request);
         if request.effort == Effort::FULL {
-            let others = [self.backwards(ends), self.along_lines(density, ends, solution.cost)];
-            for other in others.into_iter().flatten() {
-                let refined = refine(&other, density, &self.walls, request.effort);
-                for points in [refined, other] {
-                    // Bounds are much work: only for what promises to cost less.
-                    if PathFigures::of(&points, density, COMPARED).cost < solution.cost {
-                        let other = self.solution(points, density, request.tolerance);
-                        if other.upper < solution.upper {
-                            solution = other;
-                        }
-                    }
-                }
-            }
+            self.try_others(&mut solution, (leg, ends, traced), density, request);
         }
         if !solution.upper.is_finite() {
             return Err(PathError::CostOutOfRange { at: start.point, value: solution.upper });
@@ -333,25 +322,88 @@ impl Planner {
         Ok(Some(solution))
     }
 
-    /// The path that a march from the goal leads to. It errs elsewhere than one from the start, and can find
-    /// the better one of two ways that cost nearly the same.
-    fn backwards(&self, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+    /// Takes a path in place of the solution if it costs less.
+    fn take_better(
+        &self,
+        solution: &mut Solution,
+        points: Vec<DVec2>,
+        density: &dyn CostDensity,
+        request: PathRequest,
+    ) {
+        // Bounds are much work: only for what promises to cost less.
+        if PathFigures::of(&points, density, COMPARED).cost < solution.cost {
+            let other = self.solution(points, density, request.tolerance);
+            if other.upper < solution.upper {
+                *solution = other;
+            }
+        }
+    }
+
+    /// Looks for paths that cost less than the solution, which was found beside the traced one.
+    fn try_others(
+        &self,
+        solution: &mut Solution,
+        (leg, ends, traced): (usize, [Place; 2], Vec<DVec2>),
+        density: &dyn CostDensity,
+        request: PathRequest,
+    ) {
+        let march = self.march_back(ends);
+        let back = self.traced_back(&march, ends);
+        let marches = [&self.origins[leg].march, &march];
+        let ways = Ways { mesh: &self.mesh, costs: &self.costs.mean, walls: &self.walls, ends, marches };
+        let known: Vec<Vec<DVec2>> = [traced].into_iter().chain(back).collect();
+        let others = ways.others(&known);
+        let sketch = |way: &[DVec2]| {
+            let sketch = refine(way, density, &self.walls, Effort::SKETCH);
+            (PathFigures::of(&sketch, density, COMPARED).cost, sketch)
+        };
+        let (mut least, _) = sketch(&known[0]);
+        for (promised, sketched) in known[1..].iter().chain(&others).map(|way| sketch(way)) {
+            if promised < least * (1.0 - LEAST_GAIN) {
+                least = promised;
+                let refined = refine(&sketched, density, &self.walls, request.effort);
+                self.take_better(solution, refined, density, request);
+                self.take_better(solution, sketched, density, request);
+            }
+        }
+        if let Some(along) = self.along_lines(density, ends, solution.cost) {
+            let refined = refine(&along, density, &self.walls, request.effort);
+            self.take_better(solution, refined, density, request);
+            self.take_better(solution, along, density, request);
+        }
+        if is_constant_along(&solution.points, density) {
+            let cost = self.costs.mean[ends[0].triangle as usize];
+            let shortest = Shortest { mesh: &self.mesh, costs: &self.costs.mean, walls: &self.walls, cost };
+            if let Some(points) = shortest.way(ends, solution.length) {
+                self.take_better(solution, points, density, request);
+            }
+        }
+    }
+
+    /// A march from the goal as far as the start. It errs elsewhere than one from the start, and can find the
+    /// better one of two ways that cost nearly the same.
+    fn march_back(&self, [start, goal]: [Place; 2]) -> March {
         let (mut march, costs) = (March::default(), &self.costs.mean);
         let seeds = goal.seeds(&self.mesh, costs);
         march.run(&self.mesh, costs, Passage::Open, &seeds, Some(start.corner_nodes(&self.mesh)));
-        let mut traced = trace(&self.mesh, costs, &march, [goal, start])?;
+        march
+    }
+
+    /// The path that a march from the goal leads to.
+    fn traced_back(&self, march: &March, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+        let mut traced = trace(&self.mesh, &self.costs.mean, march, [goal, start])?;
         traced.reverse();
         self.walls.admit_all(&traced).then_some(traced)
     }
 
-    /// A path by way of lines that are cheaper than the triangles around them.
+    /// Returns a path by way of lines that are cheaper than the triangles around them.
     fn along_lines(&self, density: &dyn CostDensity, ends: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
         let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
         let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
         lines.path(ends, known, Effort::FULL)
     }
 
-    /// The path that a march leads to, through open triangles only.
+    /// Returns the path that a march leads to, through open triangles only.
     fn traced(&self, leg: usize, ends: [Place; 2]) -> Option<Vec<DVec2>> {
         let march = &self.origins[leg].march;
         let traced = trace(&self.mesh, &self.costs.mean, march, ends)?;

@@ -1,8 +1,9 @@
-//! From the path through triangles to a smooth one of less cost.
+//! Makes a path through triangles smooth, which lowers its cost.
 
 use glam::DVec2;
 
 use super::CostDensity;
+use super::taut::{is_constant_along, taut};
 use super::walls::Walls;
 
 /// The points of Gauss's rule with two points, as shares of a segment.
@@ -18,17 +19,20 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// For a path that is shown, and may be improved later.
+    /// The effort for a path that is shown, and may be improved later.
     pub const FULL: Self = Self { pieces: &[32, 128, 512], steps: 25 };
-    /// For a path that is shown while something is dragged.
+    /// The effort for a path that is shown during a drag.
     pub const LIVE: Self = Self { pieces: &[32, 128], steps: 8 };
+    /// For a path that is compared with another one.
+    pub(super) const SKETCH: Self = Self { pieces: &[32], steps: 8 };
 }
 
-/// A path of less cost near a polyline that the walls admit; they admit it, too.
+/// Returns a path of less cost near a polyline that the walls admit; they admit it, too.
 ///
 /// Its vertices move along their normals only: along the path they would slide together. Each round divides
 /// the pieces and takes some steps of Newton's method with damping; the matrix is tridiagonal, because a
-/// piece depends on its two ends.
+/// piece depends on its two ends. Before and afterwards it is pulled taut; where the cost is constant all
+/// along, that is all.
 pub(super) fn refine(
     points: &[DVec2],
     density: &dyn CostDensity,
@@ -36,12 +40,15 @@ pub(super) fn refine(
     effort: Effort,
 ) -> Vec<DVec2> {
     let Some(&first) = effort.pieces.first() else { return points.to_vec() };
-    let mut points = thin_out(points, walls, first);
+    let mut points = taut(&thin_out(points, walls, first), density, walls);
+    if is_constant_along(&points, density) {
+        return points;
+    }
     for &pieces in effort.pieces {
         divide(&mut points, walls, pieces);
         Relaxation { points: &mut points, density, walls, damping: 1e-2 }.run(effort.steps);
     }
-    points
+    taut(&points, density, walls)
 }
 
 /// Chords of about equal lengths in place of many short pieces, where the walls admit them.
@@ -91,7 +98,7 @@ struct Relaxation<'a> {
     points: &'a mut Vec<DVec2>,
     density: &'a dyn CostDensity,
     walls: &'a Walls,
-    /// What is added to the diagonal, as a share of it.
+    /// The addition to the diagonal, as a share of it.
     damping: f64,
 }
 
@@ -100,7 +107,7 @@ struct Relaxation<'a> {
 struct Quadratic {
     gradient: Vec<f64>,
     diagonal: Vec<f64>,
-    /// Between a vertex and the next.
+    /// The matrix entries between a vertex and the next one.
     beside: Vec<f64>,
 }
 
@@ -191,7 +198,7 @@ impl Relaxation<'_> {
         points.windows(2).map(|pair| self.piece(pair[0], pair[1])).sum()
     }
 
-    /// The cost of a piece by Gauss's rule with two points.
+    /// Returns the cost of a piece by Gauss's rule with two points.
     fn piece(&self, p: DVec2, q: DVec2) -> f64 {
         let sum: f64 = GAUSS.iter().map(|&share| self.density.at(p.lerp(q, share))).sum();
         0.5 * p.distance(q) * sum
@@ -230,7 +237,7 @@ impl Relaxation<'_> {
         result
     }
 
-    /// The path with its vertices moved, less far where the walls are in the way.
+    /// Returns the path with its vertices moved, less far where the walls are in the way.
     fn moved(&self, normals: &[DVec2], mut moves: Vec<f64>) -> Vec<DVec2> {
         for (n, step) in moves.iter_mut().enumerate().skip(1) {
             let reach = self.points.get(n + 1).map_or(0.0, |next| {
@@ -260,7 +267,7 @@ impl Relaxation<'_> {
         self.without_blocked(normals, moves)
     }
 
-    /// The path with those moves that the walls admit, one vertex after the other.
+    /// Returns the path with those moves that the walls admit, one vertex after the other.
     fn without_blocked(&self, normals: &[DVec2], moves: Vec<f64>) -> Vec<DVec2> {
         let mut points = self.points.clone();
         for n in 1..points.len() - 1 {
@@ -274,7 +281,7 @@ impl Relaxation<'_> {
 }
 
 impl Quadratic {
-    /// The moves that lead to the least value of the quadratic function with a damped diagonal, by
+    /// Returns the moves that lead to the least value of the quadratic function with a damped diagonal, by
     /// elimination. Where the diagonal is not positive, more is added.
     fn solve(&self, damping: f64) -> Vec<f64> {
         let count = self.gradient.len();

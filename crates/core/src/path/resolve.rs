@@ -219,7 +219,7 @@ mod tests {
             let near = glam::dvec2(x, y);
             mesh.refine(&Limits::default(), |element| {
                 let [a, b, c] = element.world_corners();
-                Ok(element.diameter() > 0.02 + 0.3 * ((a + b + c) / 3.0).distance(near))
+                element.diameter() > 0.02 + 0.3 * ((a + b + c) / 3.0).distance(near)
             })
             .unwrap();
         }

@@ -16,15 +16,15 @@ const MOST_COST: f64 = 1.01;
 pub(super) struct Shortcuts<'a> {
     /// No point that is left out is farther from its shortcut, in world units.
     pub tolerance: f64,
-    /// What no shortcut crosses.
+    /// The walls, which no shortcut crosses.
     pub walls: Option<&'a Walls>,
-    /// What paths cost.
+    /// The cost density of paths.
     pub density: &'a dyn CostDensity,
 }
 
 impl Shortcuts<'_> {
-    /// A polyline with fewer points (Douglas and Peucker's method): where a shortcut between two points may
-    /// not be taken, the point farthest from it stays, and shortcuts to and from that are tried.
+    /// Returns a polyline with fewer points (Douglas and Peucker's method): where a shortcut between two
+    /// points may not be taken, the point farthest from it stays, and shortcuts to and from that are tried.
     pub fn taken(&self, points: &[DVec2]) -> Vec<DVec2> {
         let costs: Vec<[f64; 2]> = points.windows(2).map(|pair| self.costs(pair[0], pair[1])).collect();
         let mut keeps = vec![false; points.len()];
@@ -43,8 +43,8 @@ impl Shortcuts<'_> {
         points.iter().zip(keeps).filter_map(|(&point, keeps)| keeps.then_some(point)).collect()
     }
 
-    /// Whether a shortcut stays where paths may go, and neither its cost nor the upper bound of that is much
-    /// above those of the pieces that it replaces.
+    /// Returns whether a shortcut stays where paths may go, and neither its cost nor the upper bound of that
+    /// is much above those of the pieces that it replaces.
     fn may_be_taken(&self, [a, b]: [DVec2; 2], replaced: &[[f64; 2]]) -> bool {
         if self.walls.is_some_and(|walls| !walls.admit(a, b)) {
             return false;
@@ -53,7 +53,7 @@ impl Shortcuts<'_> {
         (0..2).all(|which| own[which] <= MOST_COST * replaced.iter().map(|costs| costs[which]).sum::<f64>())
     }
 
-    /// The cost of a segment, and its upper bound.
+    /// Returns the cost of a segment, and its upper bound.
     fn costs(&self, a: DVec2, b: DVec2) -> [f64; 2] {
         let PathFigures { cost, upper, .. } = PathFigures::of(&[a, b], self.density, SHORTCUT_TOLERANCE);
         [cost, upper]

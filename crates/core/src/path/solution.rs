@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::integral::PathFigures;
+use super::integral::{PathFigures, RiskAlong};
 use super::shortcuts::{SHORTCUT_TOLERANCE, Shortcuts};
 use super::{CostDensity, PathError, Walls};
 
@@ -10,7 +10,7 @@ use super::{CostDensity, PathError, Walls};
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct Solution {
-    /// What the path costs, as computed.
+    /// The cost of the path, as computed.
     pub cost: f64,
     /// No path costs less: a bound of the best.
     pub lower: f64,
@@ -31,7 +31,7 @@ pub struct Solution {
 }
 
 impl PartialEq for Solution {
-    /// Where a path was found does not make it another one.
+    /// Compares paths without regard to the meshes on which they were found.
     fn eq(&self, other: &Self) -> bool {
         let figures = |one: &Self| [one.cost, one.lower, one.upper, one.length, one.risk, one.highest_risk];
         figures(self) == figures(other) && self.points == other.points && self.stops == other.stops
@@ -45,7 +45,7 @@ pub struct PathSample {
     pub distance: f64,
     /// The place, in world units.
     pub point: DVec2,
-    /// What the path costs up to there.
+    /// The cost of the path up to this point.
     pub cost: f64,
     /// The risk there.
     pub risk: f64,
@@ -54,8 +54,8 @@ pub struct PathSample {
 }
 
 impl Solution {
-    /// The width of the interval as a share of its upper end: how much better than this path the best can
-    /// be. 0 for a path that costs nothing.
+    /// Returns the width of the interval as a share of its upper end: how much better than this path the best
+    /// can be. 0 for a path that costs nothing.
     pub fn gap(&self) -> f64 {
         if self.upper > 0.0 { ((self.upper - self.lower) / self.upper).max(0.0) } else { 0.0 }
     }
@@ -77,22 +77,22 @@ impl Solution {
         is_other
     }
 
-    /// The solution of a polyline. `tolerance` is that of [`PathFigures::of`].
+    /// Returns the solution of a polyline. `tolerance` is that of [`PathFigures::of`].
     pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
-        let PathFigures { cost, upper, length, risk, highest_risk } =
-            PathFigures::of(&points, density, tolerance);
+        let PathFigures { cost, upper, length } = PathFigures::of(&points, density, tolerance);
+        let RiskAlong { integral: risk, highest: highest_risk } = RiskAlong::of(&points, density);
         let stops = vec![0, points.len() - 1];
         Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops, walls: Vec::new() }
     }
 
-    /// The path along several, each of which begins where the last ends.
+    /// Returns the path along several, each of which begins where the last ends.
     pub fn joined(legs: impl IntoIterator<Item = Self>) -> Self {
         let mut solution = Self::default();
         legs.into_iter().for_each(|leg| solution.append(leg));
         solution
     }
 
-    /// Places at equal distances along the path, at least two.
+    /// Returns the places at equal distances along the path, at least two.
     pub(super) fn evenly(&self, count: usize) -> Vec<DVec2> {
         let (mut piece, mut walked) = (0, 0.0);
         let mut places = Vec::with_capacity(count);
@@ -127,7 +127,7 @@ impl Solution {
         self.walls.extend(next.walls);
     }
 
-    /// Cost, risk and density at all points.
+    /// Returns cost, risk and density at all points.
     pub fn samples(&self, density: &dyn CostDensity) -> Vec<PathSample> {
         let (mut distance, mut cost) = (0.0, 0.0);
         let mut samples = Vec::with_capacity(self.points.len());
@@ -143,7 +143,8 @@ impl Solution {
         samples
     }
 
-    /// Cost, risk and density at `count` places at equal distances along the path, its ends among them.
+    /// Returns cost, risk and density at `count` places at equal distances along the path, its ends among
+    /// them.
     pub fn profile(&self, density: &dyn CostDensity, count: usize) -> Vec<PathSample> {
         let count = count.max(2);
         let mut samples = Vec::with_capacity(count);
@@ -173,8 +174,8 @@ impl Solution {
         samples
     }
 
-    /// A path with fewer points: none of those left out is farther than `tolerance` from it, in world units
-    /// (Douglas and Peucker's method).
+    /// Returns a path with fewer points: none of those left out is farther than `tolerance` from it, in world
+    /// units (Douglas and Peucker's method).
     ///
     /// A shortcut stands for a part of the path only where it stays in the domain and out of keep-out
     /// regions, and costs at most 1 % more than that part; neither may its upper bound be larger by more.
@@ -182,7 +183,7 @@ impl Solution {
     /// are those of the new path. The lower bound holds for it, too.
     ///
     /// # Errors
-    /// When the tolerance is negative or NaN.
+    /// Fails when the tolerance is negative or NaN.
     pub fn simplified(&self, density: &dyn CostDensity, tolerance: f64) -> Result<Self, PathError> {
         if tolerance < 0.0 || tolerance.is_nan() {
             return Err(PathError::InvalidTolerance { tolerance });

@@ -1,4 +1,4 @@
-//! From the distance function to a path: descent through the triangles.
+//! Traces a path from the distance function: descent through the triangles.
 
 use glam::DVec2;
 
@@ -7,7 +7,7 @@ use super::march::March;
 use super::path_mesh::{NONE, PathMesh};
 use super::place::Place;
 
-/// Where the descent stands.
+/// The current position of the descent.
 #[derive(Clone, Copy)]
 enum Stand {
     Within(u32),
@@ -28,7 +28,7 @@ struct Step {
 }
 
 impl Step {
-    /// Its value and the number of its node: what falls from step to step.
+    /// Returns the value and the number of its node: what falls from step to step.
     fn height(&self) -> (f64, u32) {
         (self.value, if let Some(Stand::OnNode(node)) = self.stand { node } else { NONE })
     }
@@ -37,8 +37,8 @@ impl Step {
 /// A foot this near to the end of an edge, as a share of the edge, is the end.
 const NEAR_END: f64 = 1e-9;
 
-/// The path from the start of a march to the goal, as a polyline from the start: each piece lies in one
-/// triangle, but for rounding. `None` where the march did not reach the goal.
+/// Returns the path from the start of a march to the goal, as a polyline from the start: each piece lies in
+/// one triangle, but for rounding. `None` where the march did not reach the goal.
 ///
 /// It goes down from the goal: from a point of a triangle to the point x of the other edges with the least
 /// u(x) + F |x − p|, where u is linear on the edges. Where that does not lead down, it goes to a node that
@@ -66,7 +66,7 @@ pub(super) fn trace(
     trace_by_nodes(mesh, costs, march, [start, goal])
 }
 
-/// The path that [`trace`] looks for, through nodes only. Each piece lies in one triangle, without an
+/// Returns the path that [`trace`] looks for, through nodes only. Each piece lies in one triangle, without an
 /// exception for rounding.
 pub(super) fn trace_by_nodes(
     mesh: &PathMesh,
@@ -128,7 +128,7 @@ impl<'a> Descent<'a> {
         if value <= self.farthest { value } else { f64::INFINITY }
     }
 
-    /// Where a place stands: on a node or an edge of its triangle, or within.
+    /// Returns where a place stands: on a node or an edge of its triangle, or within.
     fn stand_at(&self, place: Place) -> Stand {
         let corners = self.mesh.triangles[place.triangle as usize].corners;
         let shares = place.shares(self.mesh);
@@ -144,7 +144,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// The triangles at a place that paths go through.
+    /// Returns the triangles at a place that paths go through.
     fn triangles(&self, stand: Stand) -> Vec<u32> {
         let mut found = match stand {
             Stand::Within(t) => vec![t],
@@ -155,14 +155,14 @@ impl<'a> Descent<'a> {
         found
     }
 
-    /// The best step; `None` where no node nearby has a distance.
+    /// Returns the best step; `None` where no node nearby has a distance.
     fn best(&self, stand: Stand, at: DVec2) -> Option<Step> {
         let steps = self.triangles(stand).into_iter().flat_map(|t| self.steps(t, stand, at));
         steps.reduce(|best, step| if step.total < best.total { step } else { best })
     }
 
-    /// The best steps to the start and to each edge of a triangle that holds a point, but for edges that the
-    /// point is on: rounding would lead along them by tiny steps.
+    /// Returns the best steps to the start and to each edge of a triangle that holds a point, but for edges
+    /// that the point is on: rounding would lead along them by tiny steps.
     fn steps(&self, t: u32, stand: Stand, at: DVec2) -> impl Iterator<Item = Step> {
         let cost = self.costs[t as usize];
         let corners = self.mesh.triangles[t as usize].corners;
@@ -211,7 +211,7 @@ impl<'a> Descent<'a> {
         }
     }
 
-    /// Where on an edge u(x) + F |x − p| is least, as a share of the edge.
+    /// Returns the point of an edge at which u(x) + F |x − p| is least, as a share of the edge.
     fn foot(&self, ends: [u32; 2], p: DVec2, cost: f64) -> Option<f64> {
         let [at_a, at_b] = ends.map(|node| self.value(node));
         match [at_a.is_finite(), at_b.is_finite()] {
@@ -231,8 +231,9 @@ impl<'a> Descent<'a> {
         Some(foot.clamp(0.0, 1.0))
     }
 
-    /// A step to a node that is lower: from a node to the lowest corner of the triangle that its value came
-    /// from, or to the start if it has none; from elsewhere to the lowest corner of the triangles there.
+    /// Returns a step to a node that is lower: from a node to the lowest corner of the triangle that its
+    /// value came from, or to the start if it has none; from elsewhere to the lowest corner of the triangles
+    /// there.
     fn down_to_node(&self, stand: Stand, at: DVec2) -> Option<Step> {
         let triangles = match stand {
             Stand::OnNode(node) => match self.march.nodes[node as usize].from {

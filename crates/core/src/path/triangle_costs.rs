@@ -1,4 +1,4 @@
-//! What each triangle costs per unit of length, and a mesh that is fine enough for it.
+//! The cost of each triangle per unit of length, and a mesh that is fine enough for it.
 
 use std::sync::Arc;
 
@@ -39,11 +39,11 @@ const COARSEST: f64 = 1.0 / 250.0;
 const MOST_ADDED: usize = 50_000;
 
 impl TriangleCosts {
-    /// The costs, on a mesh that is bisected where the cost varies much within a triangle: the mean of such a
-    /// triangle would hide a narrow way through it.
+    /// Returns the costs, on a mesh that is bisected where the cost varies much within a triangle: the mean
+    /// of such a triangle would hide a narrow way through it.
     ///
     /// # Errors
-    /// When the cost is zero, negative, NaN or infinite somewhere.
+    /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub(super) fn on_adapted(mesh: &mut Arc<PathMesh>, density: &dyn CostDensity) -> Result<Self, PathError> {
         let coarsest = coarsest(mesh);
         let mut costs = Self::default();
@@ -78,7 +78,7 @@ impl TriangleCosts {
     /// changed, in order.
     ///
     /// # Errors
-    /// As [`PathMesh::costs`]; then the costs are as before.
+    /// Fails as [`PathMesh::costs`] does; then the costs are as before.
     pub fn update(
         &mut self,
         mesh: &PathMesh,
@@ -98,7 +98,7 @@ impl TriangleCosts {
     }
 }
 
-/// The greatest diameter of a triangle whose cost varies by as much as the least cost.
+/// Returns the greatest diameter of a triangle whose cost varies by as much as the least cost.
 fn coarsest(mesh: &PathMesh) -> f64 {
     COARSEST * mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element())
 }
@@ -106,18 +106,18 @@ fn coarsest(mesh: &PathMesh) -> f64 {
 impl TriangleCost {
     const CLOSED: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
 
-    /// How much the cost varies, as a share of the least cost.
+    /// Returns how much the cost varies, as a share of the least cost.
     fn variation(&self) -> f64 {
         if self.least < f64::INFINITY { (self.greatest - self.least) / self.least } else { 0.0 }
     }
 }
 
 impl PathMesh {
-    /// Whether [`TriangleCosts::on_adapted`] would begin with a triangle of this mesh that meets one of the
-    /// rectangles. Ranges of parts lie in those of the whole, so elsewhere it bisects as before.
+    /// Returns whether [`TriangleCosts::on_adapted`] would begin with a triangle of this mesh that meets one
+    /// of the rectangles. Ranges of parts lie in those of the whole, so elsewhere it bisects as before.
     ///
     /// # Errors
-    /// As [`Self::costs`].
+    /// Fails as [`Self::costs`] does.
     pub(super) fn wants_adapting(
         &self,
         density: &dyn CostDensity,
@@ -132,8 +132,8 @@ impl PathMesh {
         Ok(false)
     }
 
-    /// How much a triangle should be bisected: by how much its diameter is too large for its cost; 0 where it
-    /// is not. A triangle that a keep-out region touches has a jump of the cost.
+    /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
+    /// where it is not. A triangle that a keep-out region touches has a jump of the cost.
     fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
         let variation = match self.passage(triangle) {
             Passage::Closed => 0.0,
@@ -144,10 +144,10 @@ impl PathMesh {
         if excess > 0.0 { excess } else { 0.0 }
     }
 
-    /// The cost of each triangle.
+    /// Returns the cost of each triangle.
     ///
     /// # Errors
-    /// When the cost is zero, negative, NaN or infinite somewhere.
+    /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
         let mut costs = TriangleCosts::default();
         for triangle in 0..self.triangle_count() as u32 {

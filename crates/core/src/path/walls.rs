@@ -1,4 +1,4 @@
-//! Where paths may not go: the edges at which the open triangles end.
+//! Walls, which paths may not cross: the edges at which the open triangles end.
 
 use std::ops::ControlFlow;
 
@@ -46,7 +46,7 @@ struct Touch {
 const MOST_ULPS: f64 = 4096.0;
 
 impl Walls {
-    /// The walls of a mesh.
+    /// Returns the walls of a mesh.
     pub fn new(mesh: &PathMesh) -> Self {
         let mut walls = Vec::new();
         for t in 0..mesh.triangles.len() as u32 {
@@ -62,7 +62,8 @@ impl Walls {
         Self { walls, tree, ulp: largest.next_up() - largest }
     }
 
-    /// Whether a segment stays in the open triangles, their rims included. Its first end must lie in them.
+    /// Returns whether a segment stays in the open triangles, their rims included. Its first end must lie in
+    /// them.
     ///
     /// A segment can leave them only where it crosses a wall, at an end on a wall, or at a corner of the
     /// walls. At each of these it is known on which side it goes on.
@@ -80,12 +81,13 @@ impl Walls {
         blocked.is_continue() && touched.iter().all(|touch| touch.is_open == [true; 2])
     }
 
-    /// Whether all pieces of a polyline stay in the open triangles. Its first point must lie in them.
+    /// Returns whether all pieces of a polyline stay in the open triangles. Its first point must lie in them.
     pub fn admit_all(&self, points: &[DVec2]) -> bool {
         points.windows(2).all(|pair| self.admit(pair[0], pair[1]))
     }
 
-    /// A point between the ends of a segment that is admitted, such that both parts are admitted, too.
+    /// Returns a point between the ends of a segment that is admitted, such that both parts are admitted,
+    /// too.
     ///
     /// Rounding puts most points beside an oblique segment, and where the segment follows a wall, perhaps
     /// beyond it: then it is a point a few ulps beside the segment. `None` where none of those tried will do.
@@ -101,21 +103,37 @@ impl Walls {
         ulps.flat_map(|ulps| [at + ulps * across, at - ulps * across]).find(admits)
     }
 
-    /// The corner of the walls within a triangle that is farthest from the line through its first two points.
-    pub fn corner_within(&self, p: DVec2, q: DVec2, apex: DVec2) -> Option<DVec2> {
+    /// The nodes at which a shortest way can bend: where the open triangles have an angle of more than 180°,
+    /// or meet in the node alone.
+    pub(super) fn bends(&self) -> Vec<u32> {
+        let mut nodes: Vec<u32> = self.walls.iter().map(|wall| wall.node).collect();
+        nodes.sort_unstable();
+        let pinched = nodes.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
+        let is_reflex = |wall: &&Wall| side_of_points(wall.a, wall.b, wall.next) == Side::Right;
+        pinched.chain(self.walls.iter().filter(is_reflex).map(|wall| wall.node)).collect()
+    }
+
+    /// The corners of the walls within a triangle, but for two of its own.
+    pub(super) fn corners_within(&self, p: DVec2, q: DVec2, apex: DVec2) -> Vec<DVec2> {
         let corners = if (q - p).perp_dot(apex - p) > 0.0 { [p, q, apex] } else { [q, p, apex] };
         let around = Rect::new(p.min(q).min(apex), p.max(q).max(apex));
-        let height = |corner: DVec2| (q - p).perp_dot(corner - p).abs();
-        let mut best: Option<DVec2> = None;
+        let mut found = Vec::new();
         let _ = self.tree.visit_meeting(&around, |number| {
             let corner = self.walls[number as usize].b;
-            let is_better = best.is_none_or(|best| height(corner) > height(best));
-            if is_better && corner != p && corner != q && contains(&corners, corner) {
-                best = Some(corner);
+            if corner != p && corner != q && contains(&corners, corner) {
+                found.push(corner);
             }
             ControlFlow::<()>::Continue(())
         });
-        best
+        found
+    }
+
+    /// The corner of the walls within a triangle that is farthest from the line through its first two
+    /// points.
+    pub fn corner_within(&self, p: DVec2, q: DVec2, apex: DVec2) -> Option<DVec2> {
+        let height = |corner: &DVec2| (q - p).perp_dot(*corner - p).abs();
+        let farther = |best: DVec2, corner| if height(&corner) > height(&best) { corner } else { best };
+        self.corners_within(p, q, apex).into_iter().reduce(farther)
     }
 }
 
@@ -144,7 +162,7 @@ fn is_blocked_by(wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) -> b
     false
 }
 
-/// Whether a point of the line through a wall lies between its ends, and is neither of them.
+/// Returns whether a point of the line through a wall lies between its ends, and is neither of them.
 fn is_between(wall: &Wall, point: DVec2) -> bool {
     point != wall.a && point != wall.b && Rect::spanning(wall.a, wall.b).contains(point)
 }
@@ -160,7 +178,7 @@ fn touch(wall: &Wall, p: DVec2, q: DVec2, touched: &mut Vec<Touch>) {
     }
 }
 
-/// Whether the way from b to a point begins in the wedge of open triangles at b.
+/// Returns whether the way from b to a point begins in the wedge of open triangles at b.
 fn leads_inside(wall: &Wall, to: DVec2) -> bool {
     let is_left = |from, to, point| side_of_points(from, to, point) != Side::Right;
     let left = [is_left(wall.a, wall.b, to), is_left(wall.b, wall.next, to)];
@@ -196,7 +214,7 @@ mod tests {
     use crate::layers::Mask;
     use crate::mesh::{Limits, Mesh};
 
-    /// The unit square in 8 × 8 cells without the cells that a square touches.
+    /// Returns the unit square in 8 × 8 cells without the cells that a square touches.
     fn with_hole() -> PathMesh {
         let lattice = Lattice::covering(Rect::UNIT, 0.125, 10_000).unwrap();
         let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();

@@ -15,13 +15,13 @@ pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
 
-/// Most pixels along a side of a raster.
+/// Largest number of pixels along a side of a raster.
 pub const LONGEST_SIDE: u32 = 65_536;
 
-/// Most pixels of a raster.
+/// Largest number of pixels of a raster.
 pub const MOST_PIXELS: u64 = 200_000_000;
 
-/// Whether a raster may have `size` = [columns, rows].
+/// Returns whether a raster may have `size` = [columns, rows].
 pub fn is_raster_size(size: [u32; 2]) -> bool {
     let pixels = u64::from(size[0]) * u64::from(size[1]);
     size.iter().all(|side| (1..=LONGEST_SIDE).contains(side)) && pixels <= MOST_PIXELS
@@ -37,18 +37,18 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// Whether it holds no pixel.
+    /// Returns whether the rectangle has no pixel.
     pub fn is_empty(&self) -> bool {
         self.min[0] >= self.max[0] || self.min[1] >= self.max[1]
     }
 
-    /// Whether the pixel in column `x` and row `y` lies in it.
+    /// Returns whether the pixel in column `x` and row `y` is in the rectangle.
     pub fn contains(&self, x: u32, y: u32) -> bool {
         (self.min[0]..self.max[0]).contains(&x) && (self.min[1]..self.max[1]).contains(&y)
     }
 
-    /// Splits off the lowest rows, at least one and about `count` pixels. Returns these rows and the rest, if
-    /// there is one.
+    /// Splits off the lowest rows, at least one and about `count` pixels. Returns these rows and the rest, or
+    /// `None` if nothing is left.
     pub fn split_after(self, count: usize) -> (Self, Option<Self>) {
         let columns = self.max[0].saturating_sub(self.min[0]).max(1) as usize;
         let rows = (count / columns).clamp(1, u32::MAX as usize) as u32;
@@ -57,7 +57,7 @@ impl PixelRect {
         (Self { max: [self.max[0], cut], ..self }, (!rest.is_empty()).then_some(rest))
     }
 
-    /// The smallest rectangle that contains both.
+    /// Returns the smallest rectangle that contains this one and another.
     pub fn union(&self, other: &Self) -> Self {
         if self.is_empty() {
             return *other;
@@ -70,7 +70,7 @@ impl PixelRect {
         Self { min: [x0, y0], max: [x1, y1] }
     }
 
-    /// (column, row) of every pixel, row by row from the lowest.
+    /// Returns (column, row) of every pixel, row by row from the lowest.
     pub fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
         (self.min[1]..self.max[1]).flat_map(move |y| (self.min[0]..self.max[0]).map(move |x| (x, y)))
     }
@@ -96,58 +96,58 @@ pub struct Raster<T = f32> {
 }
 
 impl<T: Copy> Raster<T> {
-    /// A raster with the same value everywhere; `size` is [columns, rows].
+    /// Returns a raster with the same value everywhere; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When `is_raster_size` is false.
+    /// Panics when [`is_raster_size`] is false.
     pub fn filled(bounds: Rect, size: [u32; 2], value: T) -> Self {
         Self::from_values(bounds, size, vec![value; size[0] as usize * size[1] as usize])
     }
 
-    /// A raster with the given values, row by row from the lowest; `size` is [columns, rows].
+    /// Returns a raster with the given values, row by row from the lowest; `size` is [columns, rows].
     ///
     /// # Panics
-    /// When `is_raster_size` is false, or the number of values is not columns times rows.
+    /// Panics when [`is_raster_size`] is false, or the number of values is not columns times rows.
     pub fn from_values(bounds: Rect, size: [u32; 2], values: Vec<T>) -> Self {
         assert!(is_raster_size(size), "sizes are checked where a raster is read");
         assert_eq!(values.len(), size[0] as usize * size[1] as usize);
         Self { bounds, size, values }
     }
 
-    /// The rectangle covered, in world units.
+    /// Returns the rectangle covered, in world units.
     pub fn bounds(&self) -> Rect {
         self.bounds
     }
 
-    /// [columns, rows].
+    /// Returns [columns, rows].
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// All values, row by row from the lowest.
+    /// Returns all values, row by row from the lowest.
     pub fn values(&self) -> &[T] {
         &self.values
     }
 
-    /// Memory of the values, in bytes.
+    /// Returns memory of the values, in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.values)
     }
 
-    /// The values of an area, row by row from the lowest.
+    /// Returns the values of an area, row by row from the lowest.
     ///
     /// # Panics
-    /// When the area is not within the raster.
+    /// Panics when the area is not within the raster.
     pub fn rows(&self, area: PixelRect) -> impl Iterator<Item = &[T]> {
         let [first, last] = [area.min[1], area.max[1]].map(|y| y as usize * self.size[0] as usize);
         let columns = area.min[0] as usize..area.max[0] as usize;
         self.values[first..last].chunks_exact(self.size[0] as usize).map(move |row| &row[columns.clone()])
     }
 
-    /// The values of an area as [`Self::rows`] gives them, mutable.
+    /// Returns the values of an area for changing, row by row from the lowest.
     ///
     /// # Panics
-    /// As [`Self::rows`].
+    /// Panics when the area is not within the raster.
     pub fn rows_mut(&mut self, area: PixelRect) -> impl Iterator<Item = &mut [T]> {
         let [first, last] = [area.min[1], area.max[1]].map(|y| y as usize * self.size[0] as usize);
         let columns = area.min[0] as usize..area.max[0] as usize;
@@ -156,12 +156,12 @@ impl<T: Copy> Raster<T> {
             .map(move |row| &mut row[columns.clone()])
     }
 
-    /// The rectangle of all pixels.
+    /// Returns the rectangle of all pixels.
     pub fn all(&self) -> PixelRect {
         PixelRect { min: [0, 0], max: self.size }
     }
 
-    /// The value of the pixel in column `x` and row `y`.
+    /// Returns the value of the pixel in column `x` and row `y`.
     ///
     /// # Panics
     /// May panic when the pixel is outside the raster: only the index of the value is checked.
@@ -173,25 +173,25 @@ impl<T: Copy> Raster<T> {
     /// Sets the pixel in column `x` and row `y`.
     ///
     /// # Panics
-    /// As [`Self::get`].
+    /// May panic when the pixel is outside the raster: only the index of the value is checked.
     #[inline]
     pub fn set(&mut self, x: u32, y: u32, value: T) {
         self.values[y as usize * self.size[0] as usize + x as usize] = value;
     }
 
-    /// The pixels of some columns of row `y`.
+    /// Returns the values of row `y` in a range of columns.
     ///
     /// # Panics
-    /// When they are outside the raster.
+    /// Panics when the columns or the row are outside the raster.
     #[inline]
     pub fn row(&self, y: u32, columns: Range<u32>) -> &[T] {
         &self.values[self.places(y, columns)]
     }
 
-    /// The pixels of some columns of row `y`, to change them.
+    /// Returns the values of row `y` in a range of columns, for changing.
     ///
     /// # Panics
-    /// When they are outside the raster.
+    /// Panics when the columns or the row are outside the raster.
     #[inline]
     pub fn row_mut(&mut self, y: u32, columns: Range<u32>) -> &mut [T] {
         let places = self.places(y, columns);
@@ -203,36 +203,36 @@ impl<T: Copy> Raster<T> {
         start + columns.start as usize..start + columns.end as usize
     }
 
-    /// Width and height of a pixel in world units.
+    /// Returns width and height of a pixel in world units.
     pub fn pixel_size(&self) -> DVec2 {
         self.bounds.size() / DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]))
     }
 
-    /// The centre of a pixel in world units.
+    /// Returns the centre of a pixel in world units.
     #[inline]
     pub fn pixel_center(&self, x: u32, y: u32) -> DVec2 {
         self.pixel_centers()(x, y)
     }
 
-    /// [`Self::pixel_center`] as a function, for many pixels.
+    /// Returns a function that computes [`Self::pixel_center`], for many pixels.
     #[inline]
     pub fn pixel_centers(&self) -> impl Fn(u32, u32) -> DVec2 + use<T> {
         let (min, pixel) = (self.bounds.min, self.pixel_size());
         move |x, y| min + DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5) * pixel
     }
 
-    /// A point in world units in units of pixels: its whole part is (column, row).
+    /// Returns a point in world units in units of pixels: its floor is (column, row).
     pub fn pixel_from_world(&self, point: DVec2) -> DVec2 {
         (point - self.bounds.min) / self.pixel_size()
     }
 
-    /// The value at a point in world units, `None` outside the bounds. On a line between pixels the right or
-    /// upper pixel counts.
+    /// Returns the value at a point in world units, `None` outside the bounds. On a line between pixels the
+    /// right or upper pixel counts.
     pub fn sample(&self, point: DVec2) -> Option<T> {
         Some(self.get(self.pixel_under(point, 0)?, self.pixel_under(point, 1)?))
     }
 
-    /// The pixels of the raster that touch a rectangle in world units.
+    /// Returns the pixels of the raster that touch a rectangle in world units.
     pub fn pixels_touching(&self, area: &Rect) -> PixelRect {
         let low = self.pixel_from_world(area.min).floor();
         let high = self.pixel_from_world(area.max).floor() + 1.0;
@@ -242,8 +242,8 @@ impl<T: Copy> Raster<T> {
         PixelRect { min: clamp(low), max: clamp(high) }
     }
 
-    /// This raster over other bounds and with another size, by the nearest value: each new pixel takes the
-    /// value at its centre, or `outside` where this raster has none.
+    /// Returns this raster over other bounds and with another size. Each new pixel takes the value at its
+    /// centre, or `outside` where this raster has none.
     pub fn resampled(&self, bounds: Rect, size: [u32; 2], outside: T) -> Self {
         let mut new = Self::filled(bounds, size, outside);
         // The old column depends on the new column only, and so does the row: each is looked up once.
@@ -258,7 +258,7 @@ impl<T: Copy> Raster<T> {
             let Some(row) = *row else { continue };
             let (done, rest) = new.values.split_at_mut(y * width);
             let to = &mut rest[left..left + columns.len()];
-            // Enlarging gives runs of equal rows: copy the row before.
+            // Enlarging gives runs of equal rows: copy the previous row.
             if y > 0 && rows[y - 1] == Some(row) {
                 to.copy_from_slice(&done[(y - 1) * width + left..][..columns.len()]);
                 continue;

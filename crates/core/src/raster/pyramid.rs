@@ -8,8 +8,8 @@ use crate::geometry::Rect;
 /// A raster with the ranges of its values over squares of 4 × 4, 8 × 8 … pixels. Pixels without a value are
 /// NaN.
 ///
-/// Beside the pixels, with four bytes each, the ranges take a sixth of that. Ranges over 2 × 2 pixels are
-/// found from the pixels.
+/// The pixels take four bytes each, and the ranges a sixth of that. Ranges over 2 × 2 pixels are computed
+/// from the pixels when they are needed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterPyramid {
     raster: Raster,
@@ -21,9 +21,9 @@ pub struct RasterPyramid {
 /// The values in a part of a raster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SquareValues {
-    /// The range of the values, if there are any.
+    /// The range of the values, or `None` if there are none.
     pub range: Option<ValueRange>,
-    /// Whether some place has no value: a pixel without one, or a place beyond the raster.
+    /// Whether some point has no value: in a pixel without one, or beyond the raster.
     pub has_gaps: bool,
 }
 
@@ -34,9 +34,9 @@ struct Squares {
     size: [u32; 2],
     /// Columns and rows of squares that do not reach beyond the raster.
     inside: [u32; 2],
-    /// [`NO_VALUES`] where no pixel has a value.
+    /// The range of each square; [`NO_VALUES`] if no pixel has a value.
     ranges: Vec<ValueRange>,
-    /// For each square a bit, whether a pixel has no value; without bits if all have one.
+    /// A bit for each square, set if a pixel has no value. Empty if all pixels have one.
     gaps: Vec<u64>,
 }
 
@@ -46,7 +46,7 @@ const NO_VALUES: ValueRange = ValueRange { least: f32::INFINITY, greatest: f32::
 const FINEST: i32 = 2;
 
 impl RasterPyramid {
-    /// Finds the ranges of all squares.
+    /// Computes the ranges of all squares.
     pub fn new(raster: Raster) -> Self {
         let mut scales = vec![Squares::of_pixels(&raster)];
         while let Some(finer) = scales.last().filter(|squares| squares.size != [1, 1]) {
@@ -56,24 +56,24 @@ impl RasterPyramid {
         Self { raster, grid, scales }
     }
 
-    /// The pixels.
+    /// Returns the pixels.
     pub fn raster(&self) -> &Raster {
         &self.raster
     }
 
-    /// Memory of pixels and ranges, in bytes.
+    /// Returns memory of pixels and ranges, in bytes.
     pub fn bytes(&self) -> usize {
         let of_scale = |squares: &Squares| size_of_val(&*squares.ranges) + size_of_val(&*squares.gaps);
         self.raster.bytes() + self.scales.iter().map(of_scale).sum::<usize>()
     }
 
-    /// The value at a point in world units, `None` beyond the raster and at pixels without a value. On a line
-    /// between pixels the right or upper pixel counts.
+    /// Returns the value at a point in world units, `None` beyond the raster and at pixels without a value.
+    /// On a line between pixels the right or upper pixel counts.
     pub fn sample(&self, point: DVec2) -> Option<f32> {
         self.raster.sample(point).filter(|value| !value.is_nan())
     }
 
-    /// The values in the square in column `x` and row `y` at a scale, see `ValueRanges`.
+    /// Returns the values in the square in column `x` and row `y` at a scale, see `ValueRanges`.
     pub fn square(&self, scale: i32, x: i32, y: i32) -> SquareValues {
         let coarsest = FINEST + self.scales.len() as i32 - 1;
         if scale < 0 {
@@ -81,7 +81,7 @@ impl RasterPyramid {
             return self.square(0, x >> down, y >> down);
         }
         if scale > coarsest {
-            // The square [0, 0] holds the whole raster, and more.
+            // The square [0, 0] contains the whole raster.
             let whole = if [x, y] == [0, 0] { self.whole() } else { SquareValues::NONE };
             return SquareValues { has_gaps: true, ..whole };
         }
@@ -105,7 +105,8 @@ impl RasterPyramid {
         }
     }
 
-    /// The range of the values in such a square, with `gap` where there is none.
+    /// Returns the range of the values in the square in column `x` and row `y` at a scale, with the value
+    /// `gap` for pixels that have none.
     #[inline]
     pub(crate) fn range_with_gaps(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
         let known = match scale {
@@ -118,18 +119,20 @@ impl RasterPyramid {
         known.unwrap_or_else(|| self.range_of_rare_square(scale, x, y, gap))
     }
 
-    /// The same at the border of the raster, and where pixels have no value.
+    /// Returns the result of [`Self::range_with_gaps`] for a square at the border of the raster, or with
+    /// pixels without a value.
     #[cold]
     fn range_of_rare_square(&self, scale: i32, x: i32, y: i32, gap: f32) -> ValueRange {
         self.square(scale, x, y).with_gaps(gap)
     }
 
-    /// The values in all pixels.
+    /// Returns the values in all pixels.
     pub fn whole(&self) -> SquareValues {
         self.scales.last().map_or(SquareValues::NONE, |top| top.get(0, 0))
     }
 
-    /// The range of the finite values, if there are any. Reads every pixel if a value is infinite.
+    /// Returns the range of the finite values, or `None` if there are none. Reads every pixel if a value is
+    /// infinite.
     pub fn finite_range(&self) -> Option<ValueRange> {
         let whole = self.whole().range?;
         if whole.least.is_finite() && whole.greatest.is_finite() {
@@ -139,11 +142,11 @@ impl RasterPyramid {
         finite.map(ValueRange::one).reduce(ValueRange::union)
     }
 
-    /// The values in a closed rectangle in world units. At most nine squares decide, so values from around
-    /// the rectangle may be in the range.
+    /// Returns the values in a closed rectangle in world units. They are computed from at most nine squares,
+    /// so the range may include values from around the rectangle.
     pub fn values_in(&self, area: &Rect) -> SquareValues {
         let Some(common) = area.intersection(&self.raster.bounds()) else { return SquareValues::NONE };
-        // Pixels that only touch the rectangle count, on either side of a line between pixels.
+        // Pixels that only touch the rectangle count, on both sides of a line between pixels.
         let corners = [common.min, common.max].map(|corner| self.raster.pixel_from_world(corner).floor());
         let last = self.raster.size().map(|side| side - 1);
         let place = |axis: usize, v: f64| (v.max(0.0) as u32).min(last[axis]);
@@ -167,8 +170,8 @@ impl RasterPyramid {
         SquareValues { range: Some(ValueRange::one(value)), has_gaps: false }
     }
 
-    /// The range of the values in a square of 2 × 2 pixels; `None` if one of them has no value, and possibly
-    /// if one is infinite.
+    /// Returns the range of the values in a square of 2 × 2 pixels; `None` if one of them has no value, and
+    /// possibly if one is infinite.
     #[inline]
     fn four_pixels(&self, x: u32, y: u32) -> Option<ValueRange> {
         let [columns, rows] = self.raster.size().map(|side| side / 2);
@@ -179,7 +182,7 @@ impl RasterPyramid {
         let place = 2 * (y as usize * stride + x as usize);
         let values = self.raster.values();
         let ([a, b], [c, d]) = (pair(&values[place..]), pair(&values[place + stride..]));
-        // The sum is NaN if a value is, and comparisons with NaN would pass over it.
+        // The sum is NaN if a value is; comparisons alone would not notice a NaN.
         if (a + b + c + d).is_nan() {
             return None;
         }
@@ -191,7 +194,7 @@ impl RasterPyramid {
         })
     }
 
-    /// The value of a pixel, `None` beyond the raster and where it has none.
+    /// Returns the value of a pixel; `None` beyond the raster and for a pixel without a value.
     #[inline]
     fn value(&self, x: u32, y: u32) -> Option<f32> {
         let [columns, rows] = self.raster.size();
@@ -199,7 +202,7 @@ impl RasterPyramid {
     }
 }
 
-/// The ranges of a raster that asks for nothing, ∞, where it has no value: as target diameters do.
+/// The ranges of a raster of target diameters: ∞, no target, where it has no value.
 impl ValueRanges for RasterPyramid {
     fn grid(&self) -> &PixelGrid {
         &self.grid
@@ -228,7 +231,7 @@ impl SquareValues {
     /// No value anywhere.
     pub const NONE: Self = Self { range: None, has_gaps: true };
 
-    /// The values of both.
+    /// Returns the values of both parts together.
     pub fn union(self, other: Self) -> Self {
         let range = match (self.range, other.range) {
             (Some(a), Some(b)) => Some(a.union(b)),
@@ -237,7 +240,7 @@ impl SquareValues {
         Self { range, has_gaps: self.has_gaps || other.has_gaps }
     }
 
-    /// The range of the values, with `gap` where there is none.
+    /// Returns the range of the values, with the value `gap` if some point has none.
     #[inline]
     pub fn with_gaps(self, gap: f32) -> ValueRange {
         let nothing = ValueRange::one(gap);
@@ -250,12 +253,12 @@ impl SquareValues {
 }
 
 impl Squares {
-    /// The squares of 4 × 4 pixels.
+    /// Returns the squares of 4 × 4 pixels.
     fn of_pixels(raster: &Raster) -> Self {
         let side = 1 << FINEST;
         let size = raster.size().map(|pixels| pixels.div_ceil(side as u32));
         let mut ranges = vec![NO_VALUES; size[0] as usize * size[1] as usize];
-        // Bits take a pass of their own over the few squares that need one: most rasters have no gaps.
+        // The bits take a pass of their own over the few squares that need one: most rasters have no gaps.
         let mut has_gap = false;
         let rows = raster.values().chunks_exact(raster.size()[0] as usize);
         for (y, row) in rows.enumerate() {
@@ -274,7 +277,7 @@ impl Squares {
         Self { size, inside, ranges, gaps }
     }
 
-    /// The squares of twice the side.
+    /// Combines squares into squares of twice the side.
     fn of_squares(finer: &Self) -> Self {
         let size = finer.size.map(|squares| squares.div_ceil(2));
         let mut ranges = vec![NO_VALUES; size[0] as usize * size[1] as usize];
@@ -294,7 +297,7 @@ impl Squares {
         self.gaps.get(place / 64).is_some_and(|word| word >> (place % 64) & 1 == 1)
     }
 
-    /// The range of a square without gaps, where no square has any.
+    /// Returns the range of a square, if no square of this scale has gaps.
     #[inline]
     fn whole(&self, x: u32, y: u32) -> Option<ValueRange> {
         let [columns, rows] = self.inside;
@@ -313,12 +316,12 @@ impl Squares {
 }
 
 impl ValueRange {
-    /// Takes values into the range, and returns whether one of them is NaN.
+    /// Extends the range by values, and returns whether one of them is NaN.
     fn take(&mut self, values: &[f32]) -> bool {
         let mut is_gap = false;
         for &value in values {
             is_gap |= value.is_nan();
-            // These pass over NaN.
+            // `min` and `max` ignore NaN.
             self.least = self.least.min(value);
             self.greatest = self.greatest.max(value);
         }
@@ -331,12 +334,12 @@ fn pair(values: &[f32]) -> [f32; 2] {
     [values[0], values[1]]
 }
 
-/// A bit for each of [columns, rows] squares.
+/// Returns room for a bit for each of [columns, rows] squares.
 fn bits(size: [u32; 2]) -> Vec<u64> {
     vec![0; (size[0] as usize * size[1] as usize).div_ceil(64)]
 }
 
-/// Which squares of 4 × 4 pixels have a pixel without a value.
+/// Returns, for each square of 4 × 4 pixels, a bit that is set if a pixel has no value.
 fn gaps_of_pixels(raster: &Raster, size: [u32; 2]) -> Vec<u64> {
     let mut gaps = bits(size);
     for (y, row) in raster.values().chunks_exact(raster.size()[0] as usize).enumerate() {
@@ -355,7 +358,7 @@ mod tests {
 
     use super::*;
 
-    /// A raster of random size and values; some have gaps.
+    /// Returns a raster of random size and values; some have gaps.
     fn raster(random: &mut fastrand::Rng) -> Raster {
         let size = [0, 0].map(|_| random.u32(1..40));
         let gaps = [0.0, 0.02, 0.9, 1.0][random.usize(..4)];
@@ -368,7 +371,7 @@ mod tests {
         Raster::from_values(Rect::new(dvec2(-1.0, 2.0), dvec2(2.0, 3.0)), size, values)
     }
 
-    /// The values of the pixels for which `counts` holds, by looking at each.
+    /// Returns the values of the pixels for which `counts` holds, found by looking at each.
     fn referee(raster: &Raster, counts: impl Fn(i64, i64) -> bool) -> (Vec<f32>, bool) {
         let (mut values, mut gaps) = (Vec::new(), false);
         for (x, y) in raster.all().pixels().filter(|&(x, y)| counts(x.into(), y.into())) {

@@ -1,4 +1,4 @@
-//! Where the pixels of a raster lie, and the range of their values over squares of any size.
+//! The positions of the pixels of a raster, and the range of their values over squares of any size.
 
 use glam::DVec2;
 
@@ -7,45 +7,46 @@ use crate::geometry::Rect;
 /// Pixels over the plane: pixel [0, 0] has its lower left corner at `origin`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelGrid {
-    /// In world units.
+    /// The lower left corner of pixel [0, 0], in world units.
     pub origin: DVec2,
     /// Width and height of a pixel, in world units.
     pub pixel: DVec2,
 }
 
 impl PixelGrid {
-    /// The grid of `size` = [columns, rows] pixels that fill `bounds`.
+    /// Returns the grid of `size` = [columns, rows] pixels that fill `bounds`.
     pub fn filling(bounds: &Rect, size: [u32; 2]) -> Self {
         let size = DVec2::new(f64::from(size[0]), f64::from(size[1]));
         Self { origin: bounds.min, pixel: bounds.size() / size }
     }
 
-    /// The rectangle of the square in column `x` and row `y` at a scale, see [`ValueRanges`], in world units.
+    /// Returns the rectangle of the square in column `x` and row `y` at a scale, see [`ValueRanges`], in
+    /// world units.
     pub fn square(&self, scale: i32, x: i32, y: i32) -> Rect {
         let side = self.pixel * power_of_two(scale);
         let min = self.origin + DVec2::new(f64::from(x), f64::from(y)) * side;
         Rect::new(min, min + side)
     }
 
-    /// A point in world units in units of pixels: its floor is [column, row].
+    /// Returns a point in world units in units of pixels: its floor is [column, row].
     pub fn pixel_from_world(&self, point: DVec2) -> DVec2 {
         (point - self.origin) / self.pixel
     }
 }
 
-/// 2ⁿ, exactly. `exponent` must be that of a normal number.
+/// Returns 2ⁿ exactly, for n = `exponent`, which must be the exponent of a normal number.
 #[inline]
 pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }
 
-/// The exponent of a positive normal number: 2ᵉ ≤ x < 2ᵉ⁺¹.
+/// Returns the exponent of a positive normal number: 2ᵉ ≤ x < 2ᵉ⁺¹.
 #[inline]
 pub fn exponent(x: f64) -> i32 {
     (x.to_bits() >> 52) as i32 - 1023
 }
 
-/// The least and the greatest of some values. Where they are equal, there is one value.
+/// The least and the greatest of some values. If they are equal, there is one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
     /// The least value.
@@ -55,17 +56,17 @@ pub struct ValueRange {
 }
 
 impl ValueRange {
-    /// One value.
+    /// Returns the range of one value.
     pub const fn one(value: f32) -> Self {
         Self { least: value, greatest: value }
     }
 
-    /// Whether there is one value only.
+    /// Returns whether the range has one value only.
     pub fn is_one(&self) -> bool {
         self.least == self.greatest
     }
 
-    /// The range of the values of both.
+    /// Returns the range of the values of this range and another.
     pub fn union(self, other: Self) -> Self {
         Self { least: self.least.min(other.least), greatest: self.greatest.max(other.greatest) }
     }
@@ -84,29 +85,29 @@ impl ValueRange {
 /// A square has one value, or its four quarters are finer: descending from any square ends at squares with
 /// one value.
 pub trait ValueRanges {
-    /// Where the pixels lie.
+    /// Returns the grid of the pixels.
     fn grid(&self) -> &PixelGrid;
 
-    /// The scale at which at most 2 × 2 squares cover all pixels that have a value of their own.
+    /// Returns the scale at which at most 2 × 2 squares cover all pixels that have a value of their own.
     fn coarsest(&self) -> i32;
 
-    /// The range of the values in a square. Beyond the pixels, the value that the raster has where it asks
-    /// for nothing.
+    /// Returns the range of the values in a square. Beyond the pixels, that is the raster's value for no
+    /// target.
     fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange;
 
-    /// The range of all values of the raster.
+    /// Returns the range of all values of the raster.
     fn whole_range(&self) -> ValueRange;
 
-    /// The scale of the finest pixels: no square is finer than those that it lies in.
+    /// Returns the scale of the finest pixels: no square is finer than those that it lies in.
     fn finest(&self) -> i32 {
         i32::MIN
     }
 
-    /// [`Self::range`] of a square in any column and row, however far from the pixels.
+    /// Returns the result of [`Self::range`] for a square in any column and row, however far from the pixels.
     #[inline]
     fn range_anywhere(&self, mut scale: i32, [mut x, mut y]: [i64; 2]) -> ValueRange {
         let is_near = |n: i64| i32::try_from(n).is_ok();
-        // So far from the origin, no pixel is as fine as that.
+        // No pixel is this fine so far from the origin.
         while scale < 0 && !(is_near(x) && is_near(y)) {
             (scale, x, y) = (scale + 1, x >> 1, y >> 1);
         }

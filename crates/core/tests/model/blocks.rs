@@ -31,7 +31,7 @@ impl Spots {
         Self { spots: (0..random.usize(1..5)).map(|_| spot(random)).collect(), most }
     }
 
-    /// Whether h̄ is below the diameter at a point of the triangle, by the distance of its rectangle.
+    /// Returns whether h̄ is below the diameter at a point of the triangle, by the distance of its rectangle.
     fn exceeds(&self, lattice: &Lattice, corners: [LatticePoint; 3], level: u32) -> bool {
         let length = bisection_edge_length(lattice.spacing(), level);
         let points = corners.map(|corner| lattice.world_from_lattice(corner));
@@ -67,7 +67,7 @@ fn one_by_one(coarse: &Mesh, spots: &Spots) -> Mesh {
     let mut mesh = coarse.clone();
     let lattice = *coarse.lattice();
     mesh.refine(&Limits::default(), |element| {
-        Ok(spots.exceeds(&lattice, element.corners, element.triangle.level()))
+        spots.exceeds(&lattice, element.corners, element.triangle.level())
     })
     .unwrap();
     mesh
@@ -146,7 +146,7 @@ fn what_is_settled_for_squares_is_what_each_triangle_is_told() {
             let (corners, level) = (element.corners, element.triangle.level());
             let nearby = field.asks_for_more_nearby(&mut squares, paint, corners, level);
             assert_eq!(nearby, field.asks_for_more(paint, corners, level), "run {run}, level {level}");
-            Ok(nearby)
+            nearby
         });
         assert!(refined.is_ok() || refined.is_err_and(|error| error.is_over_budget()));
     }
@@ -182,7 +182,7 @@ fn levels_within_a_triangle_are_those_of_the_triangles_inside() {
     assert!(known > 10_000 && uniform > 100, "{known} {uniform}");
 }
 
-/// A raster with steps of many sizes, a formula and a floor, with a limit of gradation at times.
+/// Returns a raster with steps of many sizes, a formula and a floor, with a limit of gradation at times.
 fn random_field(random: &mut fastrand::Rng, lattice: &Lattice) -> SizeField {
     let side = [4, 37, 256][random.usize(..3)];
     let steps = |random: &mut fastrand::Rng| 10f32.powf(-2.5 + 2.0 * random.f32());

@@ -55,7 +55,7 @@ fn of_polygons(polygons: &[Polygon]) -> Domain {
     Domain::of_polygons(polygons).unwrap()
 }
 
-/// A sea in the unit square: a wavy coast in the north, the other sides open, and two islands.
+/// Returns a sea in the unit square: a wavy coast in the north, the other sides open, and two islands.
 fn bay() -> Domain {
     let coast = (0..=40).map(|k| f64::from(40 - k) / 40.0);
     let coast = coast.map(|x| dvec2(x, 0.8 + 0.1 * libm_sin(9.0 * x)));
@@ -73,7 +73,7 @@ fn distance(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     p.distance(a + share * along)
 }
 
-/// The sides of a rectangle on which both ends of an edge lie.
+/// Returns the sides of a rectangle on which both ends of an edge lie.
 fn side([a, b]: [DVec2; 2], frame: &Rect) -> Option<usize> {
     let Rect { min, max } = *frame;
     let on = [
@@ -176,7 +176,7 @@ fn a_side_that_coasts_divide_has_several_pieces() {
     }
 }
 
-/// Rings that can be close to each other and to the frame.
+/// Returns rings that can be close to each other and to the frame.
 fn random_sea(random: &mut Rng) -> Domain {
     let mut outer = circle(dvec2(0.5, 0.5), 0.8, 40);
     outer.iter_mut().for_each(|p| *p += 0.1 * dvec2(random.f64(), random.f64()));
@@ -290,7 +290,7 @@ fn pieces_of_a_formula_do_not_depend_on_the_order_of_triangles() {
         for target in targets {
             let target = Formula::parse(target).unwrap();
             let too_large = |element: &meshbrush_mesh::mesh::Element| {
-                Ok(element.world_corners().iter().any(|p| element.diameter() > target.eval(p.x, p.y)))
+                element.world_corners().iter().any(|p| element.diameter() > target.eval(p.x, p.y))
             };
             mesh.refine(&Limits::default(), too_large).unwrap();
         }

@@ -14,7 +14,7 @@ use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{Certificate, CertificateEnd, CertificateTask, FormulaCost, PathError};
 use meshbrush_mesh::geometry::Rect;
 
-/// The certificate of a known path, with its end. The bound is checked after each programme.
+/// Returns the certificate of a known path, with its end. The bound is checked after each programme.
 fn certified(case: &ExactPath, width: f64) -> Certificate {
     let upper = case.exact * (1.0 + 1e-9);
     let density = Arc::clone(&case.density);

@@ -1,5 +1,5 @@
-//! Cleaning of meshes, judged by the triangles that stay: parts, pinches, area, and no dependence on the order
-//! of edits.
+//! Cleaning of meshes, judged by the triangles that stay: parts, pinches, area, and no dependence on the
+//! order of edits.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -20,7 +20,8 @@ fn discs(random: &mut Rng) -> Vec<(DVec2, f64)> {
         .collect()
 }
 
-/// A mesh refined at random places in random order, and then at all places that the discs' rims ask for.
+/// Returns a mesh refined at random places in random order, and then at all places that the discs' rims ask
+/// for.
 fn mesh(discs: &[(DVec2, f64)], order: u64) -> Mesh {
     let lattice = Lattice::covering(Rect::UNIT, 0.125, 1_000_000).unwrap();
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
@@ -74,7 +75,7 @@ fn doubled_area([a, b, c]: &Shape) -> i64 {
     ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
 }
 
-/// The areas of the parts that edges join, by flooding.
+/// Returns the areas of the parts that edges join, by flooding.
 fn part_areas(shapes: &BTreeSet<Shape>) -> Vec<i64> {
     let mut across: HashMap<[[u32; 2]; 2], Vec<&Shape>> = HashMap::new();
     let edges = |&[a, b, c]: &Shape| [[a, b], [a, c], [b, c]];
@@ -96,7 +97,7 @@ fn part_areas(shapes: &BTreeSet<Shape>) -> Vec<i64> {
     areas
 }
 
-/// The most boundary edges at one node.
+/// Returns the most boundary edges at one node.
 fn most_boundary_edges(shapes: &BTreeSet<Shape>) -> usize {
     let mut uses: HashMap<[[u32; 2]; 2], usize> = HashMap::new();
     for [a, b, c] in shapes {

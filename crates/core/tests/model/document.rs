@@ -20,7 +20,7 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{MemoryLimit, Progress};
 use meshbrush_mesh::text::Grouped;
 
-/// A square with a square hole.
+/// Returns a square with a square hole.
 fn sea() -> Vec<NamedPolygon> {
     let square = |half| corners(&Rect::around(DVec2::splat(3.0), half));
     vec![NamedPolygon { polygon: vec![square(3.0), square(1.0)], name: "Sea".into() }]
@@ -335,7 +335,7 @@ fn the_price_of_a_stroke_is_what_it_then_costs() {
     assert!(dearer > 20 && cheaper > 20 && same > 2, "{dearer} {cheaper} {same}");
 }
 
-/// A click or a line, in the square and beside it, now and then mirrored.
+/// Returns a click or a line, in the square and beside it, now and then mirrored.
 fn any_plan(brush: Brush, random: &mut fastrand::Rng) -> StrokePlan {
     let mut point = || dvec2(random.f64(), random.f64()) * 1.2 - 0.1;
     let (from, to) = (point(), point());
@@ -473,7 +473,8 @@ fn the_memory_budget_holds_while_one_paints_and_while_another_mesh_is_made() {
     assert!(follower.mesh().raw_triangle_count() > room);
 }
 
-/// A document whose mesh met the triangle budget in the middle of a stroke, with the follower's error.
+/// Returns a document whose mesh met the triangle budget in the middle of a stroke, with the follower's
+/// error.
 fn stopped_at_the_budget() -> (Document, Follower, usize) {
     let settings = Settings::default();
     let mut document = Document::new(settings, None).unwrap();

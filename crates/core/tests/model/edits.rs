@@ -102,7 +102,7 @@ fn a_curve_that_is_lowest_between_two_pixels_is_decided_at_their_line() {
     edit(234, SMALL, &mut Seen::default());
 }
 
-/// What `fuzz/` runs, on a few bytes.
+/// Runs the edits of `fuzz/` on a few bytes.
 #[test]
 fn edits_from_bytes_hold_what_random_edits_do() {
     let mut random = fastrand::Rng::with_seed(13);

@@ -12,7 +12,7 @@ use meshbrush_core::domain::{BoundaryTreatment, Domain, FitQuality, HoleFigures}
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::mesh::{Cleaning, Extract, KeptParts};
 
-/// The edges that one triangle has, with the domain on the left.
+/// Returns the edges that one triangle has, with the domain on the left.
 fn boundary_of(extract: &Extract) -> Vec<Edge> {
     let nodes: Vec<DVec2> = extract.world_nodes().collect();
     let mut edges: HashMap<[usize; 2], bool> = HashMap::new();
@@ -30,8 +30,8 @@ fn outline_of(domain: &Domain) -> Vec<Edge> {
     domain.region().unwrap().edges().collect()
 }
 
-/// The land areas of the lost islands and the areas of the new holes that brute force finds, in ascending
-/// order.
+/// Returns the land areas of the lost islands and the areas of the new holes that brute force finds, in
+/// ascending order.
 fn holes_by_brute_force(boundary: &[Edge], outline: &[Edge]) -> [Vec<f64>; 2] {
     let slabs = Slabs::new([outline, boundary]);
     let (islands, holes) = (slabs.complement(0), slabs.complement(1));

@@ -27,7 +27,7 @@ struct Case {
     slope: f64,
 }
 
-/// A closed line round `centre`, slanted, its corners at times on a coarse grid; it runs either way.
+/// Returns a closed line round `centre`, slanted, its corners at times on a coarse grid; it runs either way.
 fn star(random: &mut Rng, centre: DVec2, radius: f64) -> Ring {
     let (corners, start, on_grid) = (random.usize(3..14), random.f64() * TAU, random.u32(0..3) == 0);
     let mut ring: Ring = (0..corners)
@@ -43,7 +43,7 @@ fn star(random: &mut Rng, centre: DVec2, radius: f64) -> Ring {
     ring
 }
 
-/// A bar between two points.
+/// Returns a bar between two points.
 fn bar(from: DVec2, to: DVec2, half_width: f64) -> Ring {
     let across = half_width * (to - from).normalize().perp();
     vec![from - across, to - across, to + across, from + across]
@@ -136,7 +136,7 @@ impl Case {
     }
 }
 
-/// The mesh as the program makes it, for a formula of the target diameter under the vertex rule.
+/// Returns the mesh as the program makes it, for a formula of the target diameter under the vertex rule.
 fn fitted(domain: &Domain, spacing: f64, boundary_diameter: f64, target: &str) -> Mesh {
     let boundary = BoundaryTreatment::Fitted { diameter: boundary_diameter };
     let mesh = formula_mesh(domain, spacing, boundary, target).mesh;
@@ -196,7 +196,7 @@ impl Outline {
         [0, 1].iter().any(|&i| a[i] == b[i] && (a[i] == 0 || a[i] == self.extent[i]))
     }
 
-    /// Whether an edge that is not part of the frame has a point in common with the closed triangle.
+    /// Returns whether an edge that is not part of the frame has a point in common with the closed triangle.
     fn cuts(&self, triangle: &Triangle) -> bool {
         self.edges.iter().any(|&edge| edge[0] != edge[1] && !self.on_frame(edge) && touches(edge, triangle))
     }
@@ -206,7 +206,8 @@ impl Outline {
             && self.has_centroid(triangle) == Some(false)
     }
 
-    /// Whether the centroid lies inside; `None` on an edge. By the edges above it, in thirds of a step.
+    /// Returns whether the centroid lies inside; `None` on an edge. By the edges above it, in thirds of a
+    /// step.
     fn has_centroid(&self, triangle: &Triangle) -> Option<bool> {
         let p = [0, 1].map(|i| triangle.iter().map(|corner| corner[i]).sum());
         let mut inside = false;
@@ -221,7 +222,7 @@ impl Outline {
     }
 }
 
-/// All triangles of the plain closure, those outside among them.
+/// Returns all triangles of the plain closure, those outside among them.
 fn plain_closure(case: &Case, outline: &Outline, lattice: &Lattice) -> Vec<Triangle> {
     let cells = lattice.cells().map(i64::from);
     let cell = i64::from(lattice.cell_steps());
@@ -281,7 +282,7 @@ fn every_fitted_mesh_is_the_one_that_brute_force_finds() {
     assert!(on_edge < 2000, "{on_edge} centroids on an edge are not judged");
 }
 
-/// An edge as a pair of nodes in ascending order.
+/// Returns an edge as a pair of nodes in ascending order.
 fn undirected((a, b): (NodeId, NodeId)) -> [NodeId; 2] {
     [a.min(b), a.max(b)]
 }
@@ -333,7 +334,7 @@ fn default_accessors_show_the_domain_only() {
     assert!(left_out > 10_000, "{left_out}");
 }
 
-/// Coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
+/// Returns the coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
 fn fine(p: DVec2) -> Option<[i128; 2]> {
     let scaled = p * 2f64.powi(60);
     (scaled == scaled.floor() && scaled.abs().max_element() < 1e28)
@@ -354,7 +355,8 @@ fn edges_under(corners: &[Point; 3], p: [i128; 2]) -> Option<Vec<usize>> {
     Some(on)
 }
 
-/// Points on nodes, edges, and a hair beside them, in triangles kept and left out, and beyond the rim.
+/// Returns points on nodes, edges, and a hair beside them, in triangles kept and left out, and beyond the
+/// rim.
 fn queries(mesh: &Mesh, random: &mut Rng) -> Vec<DVec2> {
     let lattice = mesh.lattice();
     let mut queries = vec![dvec2(f64::NAN, 0.0), lattice.bounds().min, lattice.bounds().max];
@@ -440,7 +442,8 @@ fn pieces(triangles: &[[LatticePoint; 3]]) -> Vec<Vec<usize>> {
     pieces
 }
 
-/// Parts of the mesh; and holes, as pieces of what is left out that reach no side of the rectangle.
+/// Returns the parts of the mesh; and holes, as pieces of what is left out that reach no side of the
+/// rectangle.
 fn parts_and_holes(mesh: &Mesh) -> (usize, usize) {
     let of_class = |outside: bool| -> Vec<[LatticePoint; 3]> {
         let class = mesh.raw_triangles().iter().filter(|t| t.is_outside() == outside);

@@ -44,7 +44,7 @@ fn paint(document: &mut Document) {
     document.end_stroke();
 }
 
-/// The arrays of a mesh.
+/// Returns the arrays of a mesh.
 fn arrays(mesh: &Mesh) -> (Vec<meshbrush_mesh::geometry::LatticePoint>, Vec<meshbrush_mesh::mesh::Triangle>) {
     (mesh.raw_nodes().to_vec(), mesh.raw_triangles().to_vec())
 }
@@ -234,7 +234,7 @@ fn a_cancelled_update_is_not_in_step_and_the_next_edit_catches_up() {
     assert_as_from_scratch(&follower, &document);
 }
 
-/// A document of the unit square with these layers, and its follower.
+/// Returns a document of the unit square with these layers, and its follower.
 fn with_layers(layers: Vec<Layer>) -> (Document, Follower) {
     let mut document = Document::new(Settings { layers, ..Settings::default() }, None).unwrap();
     let follower = Follower::new(&mut document).unwrap();

@@ -7,8 +7,8 @@ use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_mesh::geometry::{LatticePoint, Rect};
 use meshbrush_mesh::mesh::{Mesh, bisection_edge_length, fingerprint_of};
 
-/// The mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule (Eq.
-/// 12).
+/// Returns the mesh of Figure 1 on [−10, 10]², where every coordinate is exact, with the report's vertex rule
+/// (Eq. 12).
 fn diamond(target: f64) -> Mesh {
     let domain = Domain::rectangle(Rect::around(DVec2::ZERO, 10.0));
     let target = format!("if(abs(x) + abs(y) < 8, {target:?}, 20)");
@@ -31,7 +31,8 @@ fn the_series_of_section_5_4_comes_out_at_every_level() {
     }
 }
 
-/// The same series by the fixed-point closure, in whole numbers only: ‖x‖₁ < 8 about the middle of the grid.
+/// Checks the series by the fixed-point closure, in whole numbers only: ‖x‖₁ < 8 about the middle of the
+/// grid.
 #[test]
 fn the_fixed_point_closure_has_the_same_triangles() {
     for (level, triangles) in (1..).zip(TRIANGLES) {

@@ -36,7 +36,8 @@ fn combine(random: &mut Rng) -> Combine {
     [Combine::Finest, Combine::Finest, Combine::Floor, Combine::Replace][random.usize(..4)]
 }
 
-/// A risk on a knot of the table of the transfer curve, or a diameter that a 32-bit float has exactly.
+/// Returns a risk on a knot of the table of the transfer curve, or a diameter that a 32-bit float has
+/// exactly.
 fn value(random: &mut Rng, quantity: Quantity) -> f32 {
     match quantity {
         Quantity::Risk => random.u32(..=64) as f32 / 64.0,
@@ -48,7 +49,7 @@ fn quantity(random: &mut Rng) -> Quantity {
     if random.bool() { Quantity::Risk } else { Quantity::Diameter }
 }
 
-/// The diameter for a value. `nothing` is the risk that asks for nothing, if one does.
+/// Returns the diameter for a value. `nothing` is the risk that asks for nothing, if one does.
 fn reading(quantity: Quantity, transfer: Transfer, nothing: Option<f64>) -> impl Fn(f64) -> f64 {
     move |value| match quantity {
         _ if value.is_nan() => f64::INFINITY,
@@ -98,7 +99,7 @@ impl Case {
         SizeField::new(self.spec.clone(), &self.lattice)
     }
 
-    /// Lattice steps per grain, the same along both axes.
+    /// Returns lattice steps per grain, the same along both axes.
     fn steps(&self) -> i64 {
         let steps = GRAIN / self.lattice.step();
         assert!(steps.x == steps.y && steps.x.fract() == 0.0);
@@ -168,7 +169,7 @@ fn tiles(random: &mut Rng, quantity: Quantity) -> (Tiles, TiledRaster) {
     (tiles, raster)
 }
 
-/// One value in a quarter of the plane, another one elsewhere.
+/// Returns one value in a quarter of the plane, another one elsewhere.
 fn formula(random: &mut Rng, transfer: Transfer) -> (LayerKind, Definition) {
     let quantity = quantity(random);
     let [a, b] = [0, 1].map(|_| random.i32(-20..276));
@@ -188,7 +189,7 @@ fn formula(random: &mut Rng, transfer: Transfer) -> (LayerKind, Definition) {
     (kind, Definition { combine: Combine::Finest, diameter, lines })
 }
 
-/// A raster of a few pixels, on the domain, around it, or beside it; some pixels have no value.
+/// Returns a raster of a few pixels, on the domain, around it, or beside it; some pixels have no value.
 fn raster(random: &mut Rng, transfer: Transfer) -> (LayerKind, Definition) {
     let quantity = quantity(random);
     let size = [0, 1].map(|_| random.u32(1..12));
@@ -220,7 +221,7 @@ fn length(level: u32) -> f64 {
     if level.is_multiple_of(2) { whole * 2f64.sqrt() } else { whole }
 }
 
-/// A triangle of the coarse grid and triangles within, each half of the one before.
+/// Returns a triangle of the coarse grid and triangles within, each half of the one before.
 fn chain(random: &mut Rng, lattice: &Lattice, count: usize) -> Vec<Triangle> {
     let [columns, rows] = lattice.cells().map(i64::from);
     let coarse = closure::coarse(columns, rows, lattice.cell_steps().into(), |_, _| true);

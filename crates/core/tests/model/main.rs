@@ -25,6 +25,7 @@ mod outline;
 mod path;
 mod path_bounds;
 mod path_choices;
+mod path_edits;
 mod path_random;
 mod path_referees;
 mod path_valleys;

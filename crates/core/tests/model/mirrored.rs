@@ -12,8 +12,8 @@ use meshbrush_core::outline::{DerivedMesh, OutlineFit};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Cleaning;
 
-/// A polygon around the origin with corners of all angles. Coordinates are multiples of 2⁻²⁰, so that they
-/// stay what they are on the grid of a region.
+/// Returns a polygon around the origin with corners of all angles. Coordinates are multiples of 2⁻²⁰, so that
+/// they stay what they are on the grid of a region.
 fn polygon(random: &mut Rng) -> Ring {
     let corners = random.usize(5..30);
     let corner = |k: usize| {
@@ -24,8 +24,8 @@ fn polygon(random: &mut Rng) -> Ring {
     (0..corners).map(corner).collect()
 }
 
-/// The mesh of an image of a polygon: how its boundary lies on the outline, how many triangles it has, and the
-/// nodes of its boundary, mapped back.
+/// Returns the mesh of an image of a polygon: how its boundary lies on the outline, how many triangles it
+/// has, and the nodes of its boundary, mapped back.
 fn mesh_of_image(
     ring: &Ring,
     spacing: f64,

@@ -19,14 +19,14 @@ fn circle(centre: DVec2, radius: f64, corners: usize) -> Ring {
     (0..corners).map(|k| centre + radius * DVec2::from_angle(TAU * k as f64 / corners as f64)).collect()
 }
 
-/// The names of the open pieces of a domain.
+/// Returns the names of the open pieces of a domain.
 fn open(domain: &Domain) -> Vec<String> {
     let pieces = BoundaryPieces::of_domain(domain, &BoundaryMarks::default()).unwrap();
     let open = pieces.list().iter().filter(|piece| piece.kind == BoundaryKind::Open);
     open.map(|piece| piece.name.clone()).collect()
 }
 
-/// An island with an edge along its bounding rectangle.
+/// Returns an island with an edge along its bounding rectangle.
 fn island() -> Ring {
     ring(&[(0.0, 0.6), (0.0, 0.4), (0.5, 0.0), (1.0, 0.5), (0.5, 1.0)])
 }

@@ -16,8 +16,8 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::geojson;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{
-    Changes, Cleaning, Element, Extract, Limits, Location, Mesh, NodeId, PatchPieces, PatchedLocator,
-    Progress, TriangleId, Updater,
+    Changes, Cleaning, Element, Extract, InvalidTarget, Limits, Location, Mesh, NodeId, PatchPieces,
+    PatchedLocator, Progress, TriangleId, Updater,
 };
 
 fn built(domain: &Domain, spacing: f64, diameter: f64, target: &str) -> BuiltMesh {
@@ -28,7 +28,7 @@ fn derived(mesh: &Mesh, built: &BuiltMesh) -> DerivedMesh {
     DerivedMesh::new(mesh, &built.domain, &Cleaning::NONE)
 }
 
-/// What the referee measures.
+/// The measurements of the referee.
 #[derive(Clone, Copy, Debug, Default)]
 struct Figures {
     triangles: usize,
@@ -120,7 +120,8 @@ impl Finder {
         self.squares.get(&[square.x as i64, square.y as i64]).map_or(&[], Vec::as_slice)
     }
 
-    /// The distance of a point from the nearest segment, or twice `reach` if there is none within `reach`.
+    /// Returns the distance of a point from the nearest segment, or twice `reach` if there is none within
+    /// `reach`.
     fn distance(&self, p: DVec2, reach: f64) -> f64 {
         let distance = |&n: &usize| {
             let [a, b] = self.segments[n];
@@ -150,8 +151,8 @@ fn no_edges_meet(edges: &[[usize; 2]], nodes: &[DVec2], name: &str) {
     }
 }
 
-/// The smallest angle that may occur, in degrees: arctan of a third of the ratio of a cell's sides, or
-/// 18.4°; and beside sharp corners 12°, or 0.8 times the angle of the corner.
+/// Returns the smallest angle that may occur, in degrees: arctan of a third of the ratio of a cell's sides,
+/// or 18.4°; and beside sharp corners 12°, or 0.8 times the angle of the corner.
 fn bound(domain: &Domain, lattice: &Lattice, corners: usize) -> f64 {
     let step = lattice.step();
     let ratio = step.min_element() / step.max_element();
@@ -170,7 +171,7 @@ fn bound(domain: &Domain, lattice: &Lattice, corners: usize) -> f64 {
     bound.min(12.0).min(0.8 * angles.fold(360.0, f64::min))
 }
 
-/// The triangles by their corners, in an order of their own.
+/// Returns the triangles by their corners, in an order of their own.
 fn shape(extract: &Extract) -> Vec<[[u32; 2]; 3]> {
     let corners = |cell: meshbrush_mesh::mesh::Cell| {
         let corners = cell.corners.map(|node| extract.nodes()[node]).map(|p| [p.x, p.y]);
@@ -187,7 +188,7 @@ fn disc(corners: u32) -> Domain {
     Domain::of_polygons(&[vec![ring]]).unwrap()
 }
 
-/// A case of the random coasts: the domain, its mesh and the boundary diameter.
+/// Returns a case of the random coasts: the domain, its mesh and the boundary diameter.
 fn case(seed: u64) -> (Domain, BuiltMesh, f64) {
     let mut random = Rng::with_seed(seed);
     let domain = Domain::of_polygons(&random_coast(&mut random)).unwrap();
@@ -233,7 +234,7 @@ fn random_coasts_are_valid_domains() {
     assert!(share > 0.97 && pinned > 0, "{share} {pinned}");
 }
 
-/// The parts that edges join, each with its triangles.
+/// Returns the parts that edges join, each with its triangles.
 fn parts(extract: &Extract) -> Vec<Vec<[[u32; 2]; 3]>> {
     let all = shape(extract);
     let mut by_edge: HashMap<[[u32; 2]; 2], usize> = HashMap::new();
@@ -356,7 +357,7 @@ fn the_result_does_not_depend_on_the_order_of_edits() {
             updater.add(if step == 0 || step == 5 { all } else { area });
             fine.extend((step > 0).then_some(if step == 5 { all } else { area }));
             let mut criterion = built.criterion(None);
-            let mut exceeds = |element: &Element| {
+            let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
                 let is_fine = fine.iter().any(|area| area.touches(element.corners));
                 Ok((is_fine || element.triangle.level() < 5) && criterion.exceeds(element)?)
             };
@@ -387,7 +388,7 @@ fn the_aegean_sea_is_a_valid_domain() {
     assert!((figures.area / domain.region().unwrap().area() - 1.0).abs() < 0.001, "{figures:?}");
 }
 
-/// Coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
+/// Returns the coordinates in 2⁻⁶⁰ of a lattice step, where that is exact.
 fn fine(p: DVec2) -> Option<[i128; 2]> {
     let scaled = p * 2f64.powi(60);
     (scaled == scaled.floor() && scaled.abs().max_element() < 1e28)

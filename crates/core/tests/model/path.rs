@@ -19,14 +19,14 @@ use meshbrush_mesh::mesh::{Limits, Mesh};
 
 const SQUARE: Rect = Rect::new(DVec2::splat(-2.0), DVec2::splat(2.0));
 
-/// A mesh whose triangles have at most the given diameters.
+/// Returns a mesh whose triangles have at most the given diameters.
 fn mesh(bounds: Rect, diameter: impl Fn(DVec2) -> f64) -> Mesh {
     let lattice = Lattice::covering(bounds, bounds.size().x / 4.0, 100_000).unwrap();
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
     mesh.refine(&Limits::default(), |element| {
         let corners = element.world_corners();
         let least = corners.map(&diameter).into_iter().fold(f64::INFINITY, f64::min);
-        Ok(element.diameter() > least)
+        element.diameter() > least
     })
     .unwrap();
     mesh
@@ -65,7 +65,7 @@ fn power(z: DVec2, n: f64) -> DVec2 {
     DVec2::from_angle(z.to_angle() * n) * z.length().powf(n)
 }
 
-/// Least of a convex function, by ternary search.
+/// Returns the least of a convex function, by ternary search.
 fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..200 {
         let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
@@ -165,7 +165,8 @@ fn the_interval_contains_the_exact_cost_of_every_family_on_every_mesh() {
     }
 }
 
-/// The mask of a hole on lines of the mesh, a little smaller so that it does not touch triangles around it.
+/// Returns the mask of a hole on lines of the mesh, a little smaller so that it does not touch triangles
+/// around it.
 fn inner_mask(ring: &[DVec2; 4]) -> Mask {
     Mask::new(&[vec![ring.map(|corner| 0.9999 * corner).to_vec()]]).unwrap()
 }

@@ -23,7 +23,7 @@ fn cost(formula: &str) -> FormulaCost {
 fn square(cells: f64, diameter: f64) -> PathMesh {
     let lattice = Lattice::covering(Rect::UNIT, 1.0 / cells, 100_000).unwrap();
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
-    mesh.refine(&Limits::default(), |element| Ok(element.diameter() > diameter)).unwrap();
+    mesh.refine(&Limits::default(), |element| element.diameter() > diameter).unwrap();
     PathMesh::new(mesh.view())
 }
 
@@ -45,13 +45,13 @@ fn certified(
 struct Line {
     through: DVec2,
     along: DVec2,
-    /// What it costs elsewhere.
+    /// The cost elsewhere.
     elsewhere: f64,
 }
 
 impl Line {
-    /// What the best path costs that goes to the line, follows it, and leaves it again: it leaves by the angle
-    /// at which the cost falls no more.
+    /// Returns the cost of the best path that goes to the line, follows it, and leaves it again: it leaves by
+    /// the angle at which the cost falls no more.
     fn by_way(&self, from: DVec2, to: DVec2) -> f64 {
         let [p, q] = [from, to].map(|place| {
             let arm = place - self.through;
@@ -162,7 +162,7 @@ fn no_bound_is_above_what_a_search_finds_around_a_narrow_valley() {
     }
 }
 
-/// Two squares beside each other, joined by a strait.
+/// Returns two squares beside each other, joined by a strait.
 fn with_strait(low: f64, high: f64) -> Domain {
     let ring = [
         (0.0, 0.0),

@@ -13,7 +13,7 @@ use meshbrush_mesh::mesh::{Limits, Mesh};
 fn mesh(diameter: f64) -> PathMesh {
     let lattice = Lattice::covering(Rect::UNIT, 0.125, 100_000).unwrap();
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
-    mesh.refine(&Limits::default(), |element| Ok(element.diameter() > diameter)).unwrap();
+    mesh.refine(&Limits::default(), |element| element.diameter() > diameter).unwrap();
     PathMesh::new(mesh.view())
 }
 
@@ -61,6 +61,20 @@ fn the_front_goes_from_the_shortest_path_to_the_safest() {
 }
 
 #[test]
+fn the_risk_of_a_straight_path_counts_between_its_points() {
+    let risk = threats(&[(0.3, 0.47)], 0.1);
+    let density = WeightedCost::new(Weights { length: 1.0, risk: 0.0 }, risk.clone()).unwrap();
+    let [p, q] = [dvec2(0.1, 0.5), dvec2(0.9, 0.5)];
+    let mut planner = Planner::new(mesh(0.05), &density).unwrap();
+    let solution = planner.solve(&density, &[p, q], PathRequest::FULL).unwrap();
+    assert_eq!(solution.points, [p, q]);
+    let risks = || (0..100_000).map(|n| risk.at(p.lerp(q, (f64::from(n) + 0.5) / 1e5)));
+    let (integral, highest) = (risks().sum::<f64>() * p.distance(q) / 1e5, risks().fold(0.0, f64::max));
+    assert!(integral > 0.01 && (solution.risk / integral - 1.0).abs() < 0.01, "{} {integral}", solution.risk);
+    assert!((solution.highest_risk - highest).abs() < 0.01, "{} {highest}", solution.highest_risk);
+}
+
+#[test]
 fn a_path_that_is_best_for_many_weights_is_in_the_front_once() {
     let risk = threats(&[(0.5, 0.1)], 0.1);
     let mut front = Front::new(mesh(0.1), risk, vec![dvec2(0.1, 0.8), dvec2(0.9, 0.8)], 8);
@@ -99,7 +113,7 @@ fn alternatives_go_through_other_gaps() {
     }
 }
 
-/// Whether a point is within an odd number of closed lines.
+/// Returns whether a point is within an odd number of closed lines.
 fn is_within(lines: &[Vec<DVec2>], p: DVec2) -> bool {
     let crosses = |ends: &&[DVec2]| {
         let [a, b] = [ends[0], ends[1]];

@@ -1,7 +1,7 @@
 //! Random risks with random keep-out regions: the intervals of two meshes and of a certificate overlap.
 //!
-//! Both uppers are costs of paths, and all lowers are proven on their own, so none may exceed another's upper.
-//! `MESHBRUSH_TABLE=1` prints the widths.
+//! Both uppers are costs of paths, and all lowers are proven on their own, so none may exceed another's
+//! upper. `MESHBRUSH_TABLE=1` prints the widths.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ fn random_risk(random: &mut fastrand::Rng) -> RiskField {
     RiskField::new(&Layer::stack([kind]), PaintLayers::blank())
 }
 
-/// Triangles and quadrilaterals, anywhere.
+/// Returns the triangles and quadrilaterals, anywhere.
 fn random_keep_out(random: &mut fastrand::Rng) -> Vec<Mask> {
     let polygon = |random: &mut fastrand::Rng| {
         let (centre, turn) = (dvec2(random.f64(), random.f64()), random.f64());
@@ -61,7 +61,7 @@ fn mesh(cells: f64, diameter: impl Fn(DVec2) -> f64) -> Mesh {
     let lattice = Lattice::covering(Rect::UNIT, 1.0 / cells, 100_000).unwrap();
     let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
     let exceeds = |element: &meshbrush_mesh::mesh::Element| {
-        Ok(element.diameter() > diameter(element.world_rectangle().center()))
+        element.diameter() > diameter(element.world_rectangle().center())
     };
     mesh.refine(&Limits::default(), exceeds).unwrap();
     mesh

@@ -29,7 +29,7 @@ fn random_cost(random: &mut fastrand::Rng) -> WeightedCost {
     WeightedCost::new(Weights { length: 1.0, risk: 10.0 }, risk).unwrap()
 }
 
-/// A mesh of triangles of about the given diameter.
+/// Returns a mesh of triangles of about the given diameter.
 fn mesh(diameter: f64) -> PathMesh {
     let lattice = Lattice::covering(BOUNDS, diameter / 2f64.sqrt(), 100_000).unwrap();
     PathMesh::new(Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap().view())
@@ -47,7 +47,8 @@ fn certified(planner: &Planner, solution: &Solution, cost: &WeightedCost, width:
 #[test]
 fn no_search_in_many_directions_finds_a_better_valley_on_a_coarse_mesh() {
     let ends = [dvec2(5.0, 10.0), dvec2(95.0, 85.0)];
-    for seed in seeds(20) {
+    // In the first of them, marches prefer the dearer of two valleys by 2 %.
+    for seed in [913].into_iter().chain(seeds(20)) {
         let mut random = fastrand::Rng::with_seed(seed);
         let cost = random_cost(&mut random);
         let found = directions(&|p| cost.at(p), BOUNDS, ends, 60, 4);

@@ -35,7 +35,8 @@ fn replayed(text: &str) -> Result<Replayed, String> {
     read.and_then(|file| file.replay(&Meter::default())).map_err(|error| error.to_string())
 }
 
-/// What the window shows of a document: fingerprint and triangles, or neither.
+/// Returns the fingerprint and the number of triangles that the window shows of a document, if it shows a
+/// mesh.
 fn shown(document: &mut Document, follower: &mut Follower) -> Option<(String, usize)> {
     loop {
         match follower.advance(document, 997) {
@@ -50,7 +51,7 @@ fn shown(document: &mut Document, follower: &mut Follower) -> Option<(String, us
     }
 }
 
-/// The meshes that a recording gives, the start first.
+/// Returns the meshes that a recording gives, the start first.
 fn meshes(text: &str) -> Vec<Option<(String, usize)>> {
     let mesh = |line: &str| {
         let value: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -129,7 +130,7 @@ fn cut(document: &mut Document, shape: CutShape) {
     set(document, Setting::Domain(domain));
 }
 
-/// A document with paint, a raster and a hole, and one edit of every kind.
+/// Returns a document with paint, a raster and a hole, and one edit of every kind.
 fn every_kind_of_edit() -> Document {
     let kinds = [LayerKind::constant(0.3), raster_layer(), LayerKind::Paint(Quantity::Diameter)];
     let settings = Settings { spacing: 0.25, layers: Layer::stack(kinds), ..Settings::default() };
@@ -252,8 +253,9 @@ fn mistakes_are_reported_with_their_line() {
     );
     assert!(said(r#""spacing":0.4"#, r#""spacing":-1"#).starts_with("session.jsonl, line 3: "));
     assert!(
-        said(r#""spacing":0.4"#, r#""gap":1"#)
-            .starts_with("session.jsonl, line 3: the settings are not valid: unknown field `gap`")
+        said(r#""spacing":0.4"#, r#""gap":1"#).starts_with(
+            "session.jsonl, line 3: the settings are not valid: gap: there is no key `gap` here"
+        )
     );
     assert_eq!(
         said(r#""does":"undo""#, r#""does":"redo""#),

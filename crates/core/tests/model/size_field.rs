@@ -33,7 +33,7 @@ fn distance_to(at: DVec2, at_zero: f64, slope: f64, range: f64) -> LayerKind {
     LayerKind::Distance { to: DistanceTo::Shapes { name: "point".into(), shapes }, at_zero, slope, range }
 }
 
-/// The triangle with a right angle at the lower left corner of a dyadic square of 2^bits steps.
+/// Returns the triangle with a right angle at the lower left corner of a dyadic square of 2^bits steps.
 fn triangle_at(lattice: &Lattice, at: DVec2, bits: u32) -> [LatticePoint; 3] {
     let place = lattice.lattice_from_world(at);
     let [x, y] = [place.x as u32 >> bits << bits, place.y as u32 >> bits << bits];
@@ -101,7 +101,7 @@ fn gradation_is_that_of_a_fine_grid_of_points() {
     }
 }
 
-/// The distance of a point from a triangle in units of the world, by its edges.
+/// Returns the distance of a point from a triangle in units of the world, by its edges.
 fn distance_from(p: DVec2, corners: [DVec2; 3]) -> f64 {
     let side = |n: usize| (corners[(n + 1) % 3] - corners[n]).perp_dot(p - corners[n]);
     if (0..3).all(|n| side(n) >= 0.0) || (0..3).all(|n| side(n) <= 0.0) {

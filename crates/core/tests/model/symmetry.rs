@@ -1,5 +1,5 @@
-//! Mirrored, turned, moved and scaled inputs give mirrored (…) meshes, and a layer that asks for nothing changes
-//! nothing.
+//! Mirrored, turned, moved and scaled inputs give mirrored (…) meshes, and a layer that asks for nothing
+//! changes nothing.
 //!
 //! Every place is a multiple of 2⁻²⁰ in the unit square, so that lattices map onto each other exactly.
 
@@ -52,7 +52,7 @@ impl Map {
         points.iter().map(|&p| self.point(p)).collect()
     }
 
-    /// A polygon whose outer ring still runs anticlockwise.
+    /// Returns a polygon whose outer ring still runs anticlockwise.
     fn polygon(&self, polygon: &Polygon) -> Polygon {
         let ring = |ring: &Vec<DVec2>| {
             let mut ring = self.points(ring);
@@ -68,7 +68,7 @@ impl Map {
         Rect::spanning(self.point(rect.min), self.point(rect.max))
     }
 
-    /// A formula in x and y of the unit square, as one of the mapped point.
+    /// Returns a formula in x and y of the unit square, as one of the mapped point.
     fn formula(&self, text: &str) -> Formula {
         let inverse = |name: &str, offset: f64| format!("(({name} - ({offset})) / {})", self.scale);
         let mut place = [inverse("u", self.offset.x), inverse("v", self.offset.y)];
@@ -85,7 +85,7 @@ impl Map {
         Formula::parse(&text).unwrap_or_else(|error| panic!("{text}: {error}"))
     }
 
-    /// Where the pixel of a square picture comes from.
+    /// Returns where the pixel of a square picture comes from.
     fn pixels(&self, side: u32, values: &[f32]) -> Vec<f32> {
         let mut mapped = values.to_vec();
         for (number, &value) in values.iter().enumerate() {
@@ -97,13 +97,13 @@ impl Map {
     }
 }
 
-/// A place with coordinates that are multiples of 2⁻²⁰.
+/// Returns a place with coordinates that are multiples of 2⁻²⁰.
 fn place(random: &mut Rng) -> DVec2 {
     let coordinate = |random: &mut Rng| f64::from(random.u32(1..1 << 20)) / f64::from(1 << 20);
     dvec2(coordinate(random), coordinate(random))
 }
 
-/// A length that is a multiple of 2⁻²⁰, from 2⁻¹² to 0.2.
+/// Returns a length that is a multiple of 2⁻²⁰, from 2⁻¹² to 0.2.
 fn length(random: &mut Rng) -> f64 {
     let steps = 256.0 * (0.2 * 4096f64).powf(random.f64());
     steps.round() / f64::from(1 << 20)
@@ -113,7 +113,7 @@ fn square(centre: DVec2, half: f64) -> Vec<DVec2> {
     corners(&Rect::around(centre, half))
 }
 
-/// A layer of a random kind, mapped.
+/// Returns a layer of a random kind, mapped.
 fn layer(random: &mut Rng, id: u32, map: &Map) -> Layer {
     let (size, at, s) = (length(random), place(random), map.scale);
     let diameter = (0.2 + random.f64()) * size;
@@ -170,8 +170,8 @@ fn layer(random: &mut Rng, id: u32, map: &Map) -> Layer {
     Layer { combine, mask, ..Layer::new(LayerId(id), "layer", kind) }
 }
 
-/// A random stack, mapped. The base layer bisects every coarse triangle, after which the grid has all symmetries
-/// of the square.
+/// Returns a random stack, mapped. The base layer bisects every coarse triangle, after which the grid has all
+/// symmetries of the square.
 fn spec(seed: u64, map: &Map, domain: &Domain) -> SizeFieldSpec {
     let mut random = Rng::with_seed(seed);
     let s = map.scale;
@@ -205,7 +205,7 @@ fn built(domain: Domain, boundary: BoundaryTreatment, field: SizeFieldSpec, scal
     builder.finish()
 }
 
-/// The triangles as corners in lattice coordinates, mapped, in the order of their corners.
+/// Returns the triangles as corners in lattice coordinates, mapped, in the order of their corners.
 fn triangles(built: &BuiltMesh, map: &Map, derived: bool) -> Vec<[[i64; 2]; 3]> {
     let (mesh, cleaning) = (&built.mesh, Cleaning::NONE);
     let side = f64::from(mesh.lattice().extent().x);
@@ -257,7 +257,7 @@ fn mirrored_turned_moved_and_scaled_stacks_give_such_meshes() {
     assert!(count > 30 * 200, "{count}");
 }
 
-/// A polygon with a hole, which reaches the sides of its frame.
+/// Returns a polygon with a hole, which reaches the sides of its frame.
 fn coast(random: &mut Rng) -> Polygon {
     let round = |p: DVec2| (p * 1024.0).round() / 1024.0;
     let outer = (0..12).map(|n| {

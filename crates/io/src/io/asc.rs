@@ -22,8 +22,8 @@ use meshbrush_mesh::text::excerpt;
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
 /// # Errors
-/// When the file cannot be read, breaks a rule of the format (with the line), or has too many pixels for a
-/// raster.
+/// Fails when the file cannot be read, breaks a rule of the format (with the line), or has too many pixels
+/// for a raster.
 pub fn read(path: &Path) -> Result<Raster, ReadError> {
     read_metered(path, &Meter::default())
 }
@@ -31,7 +31,7 @@ pub fn read(path: &Path) -> Result<Raster, ReadError> {
 /// Reads a grid as [`read`] does, and counts the bytes of the file.
 ///
 /// # Errors
-/// As [`read`], and when the work was cancelled.
+/// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.metadata()?.len());
@@ -43,16 +43,16 @@ pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
 /// Reads a grid as [`read`] does, from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Raster, ReadError> {
     parse(bytes).map_err(|flaw| flaw.in_file(name))
 }
 
-/// Writes a grid that [`read`] reads: the values bit for bit, the place as [`bounds_as_written`] says. Values
-/// are finite, or NaN where there is none.
+/// Writes a grid that [`read`] reads: the values bit for bit, the bounds as [`bounds_as_written`] returns
+/// them. Values are finite, or NaN for pixels without a value.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
     let ([columns, rows], cell) = (raster.size(), cell(raster));
     let min = raster.bounds().min;
@@ -79,13 +79,15 @@ pub fn write(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
     Ok(())
 }
 
-/// The rectangle that the header of a written grid gives. It can differ from that of the raster by rounding.
+/// Returns the bounds of a grid as its header states them. They can differ from the raster's bounds by
+/// rounding.
 pub fn bounds_as_written(raster: &Raster) -> Rect {
     let (min, [columns, rows]) = (raster.bounds().min, raster.size());
     Rect::new(min, upper_corner(min, cell(raster), [columns, rows]))
 }
 
-/// The sides of a cell from which a reader finds the upper right corner, exactly where that is possible.
+/// Returns the sides of a cell from which a reader finds the upper right corner, exactly where that is
+/// possible.
 fn cell(raster: &Raster) -> DVec2 {
     let (Rect { min, max }, size) = (raster.bounds(), raster.size().map(f64::from));
     let side = |min: f64, max: f64, count: f64| {
@@ -100,7 +102,7 @@ fn upper_corner(min: DVec2, cell: DVec2, [columns, rows]: [u32; 2]) -> DVec2 {
     min + cell * DVec2::new(f64::from(columns), f64::from(rows))
 }
 
-/// A number that no pixel has, if some pixels have no value.
+/// Returns a number that no pixel has, if some pixels have no value.
 fn no_data(raster: &Raster) -> Option<f32> {
     let values = raster.values();
     values.iter().any(|value| value.is_nan()).then(|| {
@@ -239,7 +241,7 @@ impl Header {
     }
 }
 
-/// A finite number, or NaN, which GDAL writes for a cell without a value.
+/// Returns a finite number, or NaN, which GDAL writes for a cell without a value.
 fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
     // Some programs write a decimal comma, depending on the language of the system.
     let parsed = word.parse().or_else(|_| word.replace(',', ".").parse());
@@ -248,7 +250,7 @@ fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
     })
 }
 
-/// A value in single precision, as rasters have it.
+/// Returns a value in single precision, as rasters have it.
 fn single(value: f64, line: usize) -> Result<f32, PlacedFlaw> {
     let single = value as f32;
     if single.is_finite() {

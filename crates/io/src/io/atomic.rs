@@ -14,7 +14,7 @@ const MOST_LINKS: usize = 40;
 /// Creates a folder and its parents, as far as they do not exist.
 ///
 /// # Errors
-/// Errors of the file system.
+/// Fails with the errors of the file system.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }
@@ -27,12 +27,13 @@ pub fn remove_new(files: &[PathBuf]) {
     }
 }
 
-/// Whether a file or folder exists at a path.
+/// Returns whether a file or folder exists at a path.
 pub fn exists(path: &Path) -> bool {
     path.exists()
 }
 
-/// Why no file can be written at a path, as the end of a sentence; `None` if nothing is known against it.
+/// Returns why no file can be written at a path, as the end of a sentence; `None` if nothing is known against
+/// it.
 pub fn obstacle(path: &Path) -> Option<String> {
     let target = match behind_links(path) {
         Ok(target) => target,
@@ -50,8 +51,8 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The file that a path stands for: a link stays a link, and the file that it points to is written, whether
-/// it exists or not.
+/// Returns the file behind a path: for a link, the file that it points to, whether it exists or not. Writing
+/// that file leaves the link in place.
 fn behind_links(path: &Path) -> Result<PathBuf, String> {
     if let Ok(existing) = fs::canonicalize(path) {
         return Ok(existing);
@@ -71,16 +72,16 @@ fn behind_links(path: &Path) -> Result<PathBuf, String> {
 /// written directly.
 ///
 /// # Errors
-/// Errors of the file system and of `write`. The temporary file is then removed.
+/// Fails with the errors of the file system and of `write`. The temporary file is then removed.
 pub fn write_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     write_file_metered(path, &Meter::default(), write)
 }
 
 /// Writes a file as [`write_file`] does, and leaves no trace if the meter is cancelled before the file is in
-/// its place. The bytes of `write` are not counted here: `write` counts what it works on.
+/// its place. `write` must count its progress itself.
 ///
 /// # Errors
-/// As [`write_file`], and when the work was cancelled.
+/// Fails as [`write_file`] does, and when the work was cancelled.
 pub fn write_file_metered(
     path: &Path,
     meter: &Meter,
@@ -92,8 +93,8 @@ pub fn write_file_metered(
 /// Moves files that belong together to their places: all of them, or none if the work was cancelled.
 ///
 /// # Errors
-/// When the work was cancelled, and errors of the file system. After an error of the file system the files
-/// before it are already in their places.
+/// Fails when the work was cancelled, and with the errors of the file system. After an error of the file
+/// system the files before it are already in their places.
 pub(super) fn put_in_place(drafts: impl IntoIterator<Item = Draft>, meter: &Meter) -> io::Result<()> {
     let drafts: Vec<Draft> = drafts.into_iter().collect();
     meter.check()?;
@@ -114,7 +115,7 @@ impl Draft {
     /// Writes the content of the file at `path` to a temporary file, and waits until it is on the disk.
     ///
     /// # Errors
-    /// Errors of the file system and of `write`, and when the work was cancelled.
+    /// Fails with the errors of the file system and of `write`, and when the work was cancelled.
     pub fn write(
         path: &Path,
         meter: &Meter,
@@ -201,7 +202,7 @@ fn remove_abandoned(target: &Path) {
         if !is_part(&entry.file_name(), &prefix) {
             continue;
         }
-        // Some network disks lock only what is open for writing.
+        // Some network disks lock only files that are open for writing.
         let file = File::options().write(true).open(entry.path());
         if file.is_ok_and(|file| file.try_lock().is_ok()) {
             let _ = fs::remove_file(entry.path()); // the next write tries again
@@ -209,12 +210,12 @@ fn remove_abandoned(target: &Path) {
     }
 }
 
-/// The beginning of the names of temporary files of writes to a file.
+/// Returns the beginning of the names of temporary files of writes to a file.
 fn part_prefix(name: &OsStr) -> OsString {
     [OsStr::new("."), name, OsStr::new(".")].into_iter().collect()
 }
 
-/// Whether a file has the name of a temporary file with this beginning.
+/// Returns whether a file has the name of a temporary file with this beginning.
 fn is_part(name: &OsStr, prefix: &OsStr) -> bool {
     let numbers = name.as_encoded_bytes().strip_prefix(prefix.as_encoded_bytes());
     let numbers = numbers.and_then(|rest| rest.strip_suffix(PART.as_bytes())).unwrap_or_default();

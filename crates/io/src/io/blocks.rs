@@ -51,7 +51,7 @@ impl<'a, F: FnMut(&[u8]) -> io::Result<()>> Blocks<'a, F> {
     /// Compresses the rest, the last block maybe shorter.
     ///
     /// # Errors
-    /// Errors of `take`, and when the work was cancelled.
+    /// Fails with the errors of `take`, and when the work was cancelled.
     pub fn finish(mut self) -> io::Result<()> {
         self.compress_blocks()
     }

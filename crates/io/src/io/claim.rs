@@ -19,14 +19,15 @@ impl Claim {
     /// has claimed it.
     ///
     /// # Errors
-    /// Errors of the file system, also where it has no locks: then nobody knows who has the project open.
+    /// Fails with the errors of the file system, also where it has no locks: then nobody knows who has the
+    /// project open.
     pub fn new(folder: &Path, project: &Path) -> io::Result<Option<Self>> {
         fs::create_dir_all(folder)?;
         // The same file by whatever name.
         let project = fs::canonicalize(project)?;
         let name = format!("{:016x}.lock", hash(project.as_os_str().as_encoded_bytes()));
-        // Never removed: whoever waits for a removed file would hold a lock that nobody else sees. Some
-        // network disks lock only what is open for reading and writing.
+        // The file is never removed: a process that waits for a removed file would hold a lock that no other
+        // process sees. Some network disks lock only files that are open for reading and writing.
         let file =
             File::options().read(true).write(true).create(true).truncate(false).open(folder.join(name))?;
         match file.try_lock() {

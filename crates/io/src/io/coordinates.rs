@@ -1,4 +1,4 @@
-//! The unit of the coordinates in a file, from what the file says of them.
+//! Finds the unit of the coordinates in a file from the file's own description.
 
 use glam::DVec2;
 
@@ -11,8 +11,8 @@ const GEOGRAPHIC: [u32; 5] = [4326, 4258, 4269, 4267, 4979];
 /// systems. The UTM zones are ranges, see [`is_in_metres`].
 const METRIC: [u32; 4] = [3857, 900_913, 3035, 3034];
 
-/// The unit of coordinates in a coordinate system `crs`, which is named as in `urn:ogc:def:crs:EPSG::4326`,
-/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`.
+/// Returns the unit of coordinates in a coordinate system `crs`, which is named as in
+/// `urn:ogc:def:crs:EPSG::4326`, `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`.
 ///
 /// Without a name, coordinates are degrees if all are longitudes and latitudes, as in RFC 7946. A system that
 /// is not listed here may be in feet: there is no unit then.
@@ -31,7 +31,7 @@ pub fn unit(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> Leng
     }
 }
 
-/// Whether rings have edges along the longitudes 180° and −180° whose latitudes overlap.
+/// Returns whether rings have edges along the longitudes 180° and −180° whose latitudes overlap.
 pub(super) fn meet_at_antimeridian<'a>(rings: impl Iterator<Item = &'a Ring> + Clone) -> bool {
     let [east, west] = [180.0, -180.0].map(|longitude| {
         let edges = rings.clone().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
@@ -51,7 +51,7 @@ pub(super) fn meet_at_antimeridian<'a>(rings: impl Iterator<Item = &'a Ring> + C
     false
 }
 
-/// Whether an EPSG code is that of a known system in metres.
+/// Returns whether an EPSG code belongs to a known system in metres.
 fn is_in_metres(code: u32) -> bool {
     let utm = [32601..=32660, 32701..=32760, 25828..=25838, 26901..=26923];
     METRIC.contains(&code) || utm.iter().any(|zones| zones.contains(&code))

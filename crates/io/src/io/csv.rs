@@ -29,7 +29,7 @@ const HEADER: &str = "triangle,level,v1,v2,v3,n1,n2,n3,x1,y1,x2,y2,x3,y3,target1
 /// Writes the table. Quantities other than h̄ follow as columns `name1,name2,name3`.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write!(out, "{HEADER}")?;
     for NodeValues { name, .. } in data.quantities {

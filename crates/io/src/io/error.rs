@@ -8,15 +8,15 @@ use super::Cancelled;
 use meshbrush_core::raster::{LONGEST_SIDE, MOST_PIXELS};
 use meshbrush_mesh::text::{Grouped, abridged};
 
-/// Why a file could not be used: which file, where in it, and what is wrong there.
+/// The reason why a file could not be used: the file, the place in it, and the mistake.
 #[derive(Debug, thiserror::Error)]
 #[error("{}{place}: {flaw}", file.display())]
 pub struct ReadError {
     /// The file as it was named.
     pub file: PathBuf,
-    /// Where in the file.
+    /// The place in the file.
     pub place: Place,
-    /// What is wrong there.
+    /// The mistake at this place.
     #[source]
     pub flaw: Flaw,
 }
@@ -51,7 +51,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with a file.
+/// A mistake in a file.
 #[derive(Debug, thiserror::Error)]
 pub enum Flaw {
     /// An error of the operating system.
@@ -79,13 +79,13 @@ pub enum Flaw {
         /// Rows, as announced.
         rows: u64,
     },
-    /// The text breaks a rule of its format; the sentence says which.
+    /// The text breaks a rule of its format, which the sentence names.
     #[error("{}", abridged(_0))]
     Syntax(String),
 }
 
 impl Flaw {
-    /// The flaw with its line, counted from one.
+    /// Returns the flaw with its line, counted from one.
     pub(super) fn at(self, line: usize) -> PlacedFlaw {
         PlacedFlaw { place: Place::Line(line), flaw: self }
     }
@@ -105,7 +105,7 @@ pub(super) struct PlacedFlaw {
 }
 
 impl PlacedFlaw {
-    /// The flaw as one in a part of an archive.
+    /// Returns the flaw as one in a part of an archive.
     pub(super) fn within(self, part: &'static str) -> Self {
         let line = if let Place::Line(line) = self.place { Some(line) } else { None };
         Self { place: Place::Part(part, line), flaw: self.flaw }

@@ -9,13 +9,14 @@ use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use serde_json::Value;
 
 use super::error::{Flaw, PlacedFlaw};
+use super::json::problem;
 use super::positions::Coordinates;
 use meshbrush_core::domain::MOST_CORNERS;
 use meshbrush_mesh::text::Grouped;
 
 /// Which geometries a reader wants.
 pub(super) trait Wanted {
-    /// Whether geometries of this kind, such as `Polygon`, are wanted.
+    /// Returns whether geometries of this kind, such as `Polygon`, are wanted.
     fn is_wanted(kind: &str) -> bool;
 }
 
@@ -63,12 +64,12 @@ impl<W: Wanted> Object<W> {
 }
 
 impl<W> Object<W> {
-    /// The name of the coordinate reference system, if the object has one.
+    /// Returns the name of the coordinate reference system, if the object has one.
     pub(super) fn crs_name(&self) -> Option<String> {
         self.crs.as_ref().and_then(|crs| crs["properties"]["name"].as_str()).map(str::to_owned)
     }
 
-    /// The objects inside this one.
+    /// Returns the objects inside this one.
     pub(super) fn into_inner(self) -> impl Iterator<Item = Self> {
         self.geometry.map(|geometry| *geometry).into_iter().chain(self.geometries).chain(self.features)
     }
@@ -117,7 +118,7 @@ fn name_of<'de, D: Deserializer<'de>>(json: D) -> Result<String, D::Error> {
     Ok(found.unwrap_or_default())
 }
 
-/// The input without the byte order mark that it may begin with.
+/// Returns the input without the byte order mark that it may begin with.
 fn without_mark(mut input: impl Read) -> io::Result<impl Read> {
     const MARK: [u8; 3] = *b"\xef\xbb\xbf";
     let mut start = Vec::new();
@@ -128,7 +129,7 @@ fn without_mark(mut input: impl Read) -> io::Result<impl Read> {
     Ok(Cursor::new(start).chain(input))
 }
 
-/// The error of serde_json with its line.
+/// Returns the error of serde_json with its line.
 fn placed(error: serde_json::Error) -> PlacedFlaw {
     let line = error.line();
     if error.is_eof() {
@@ -137,7 +138,5 @@ fn placed(error: serde_json::Error) -> PlacedFlaw {
     if error.is_io() {
         return Flaw::Io(error.into()).into();
     }
-    let text = error.to_string();
-    let problem = text.split(" at line ").next().unwrap_or(&text);
-    Flaw::Syntax(format!("this is not valid GeoJSON: {problem}.")).at(line.max(1))
+    Flaw::Syntax(format!("this is not valid GeoJSON: {}.", problem(&error))).at(line.max(1))
 }

@@ -12,7 +12,7 @@ pub const MOST_ENTRIES: usize = 20_000;
 /// A file or a folder in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FolderEntry {
-    /// Its name within the folder.
+    /// The name of the entry within the folder.
     pub name: OsString,
     /// Whether it is a folder, or a link to one.
     pub is_folder: bool,
@@ -20,7 +20,7 @@ pub struct FolderEntry {
     pub bytes: u64,
 }
 
-/// What is in a folder: folders first, then files, by name without regard to capitals.
+/// The contents of a folder: folders first, then files, sorted by name without regard to capitals.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FolderListing {
     /// The entries that can be read, at most [`MOST_ENTRIES`].
@@ -32,7 +32,7 @@ pub struct FolderListing {
 /// Lists a folder.
 ///
 /// # Errors
-/// When it is not a folder or cannot be read.
+/// Fails when it is not a folder or cannot be read.
 pub fn list_folder(path: &Path) -> io::Result<FolderListing> {
     let mut listing = FolderListing::default();
     for entry in fs::read_dir(path)? {
@@ -52,13 +52,13 @@ pub fn list_folder(path: &Path) -> io::Result<FolderListing> {
     Ok(listing)
 }
 
-/// Whether there is a folder at a path.
+/// Returns whether there is a folder at a path.
 pub fn is_folder(path: &Path) -> bool {
     path.is_dir()
 }
 
-/// The path that a person means by a text: `~` is the home folder, and a relative path begins at `folder`.
-/// Steps `.` and `..` are resolved without regard to links.
+/// Returns the path that a person means by a text: `~` is the home folder, and a relative path begins at
+/// `folder`. Steps `.` and `..` are resolved without regard to links.
 pub fn resolve(text: &str, folder: &Path, home: Option<&Path>) -> PathBuf {
     let text = text.trim();
     let in_home = text.strip_prefix('~').filter(|rest| rest.is_empty() || rest.starts_with('/'));

@@ -14,7 +14,7 @@ use meshbrush_mesh::text::LengthUnit;
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
 
-/// What a file says of a domain.
+/// The domain in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     /// The polygons with their names.
@@ -24,9 +24,9 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Whether the polygons end at the antimeridian on both sides of it: coordinates are degrees, and edges
-    /// along the longitudes 180° and −180° lie at the same latitudes. Files are cut there (RFC 7946, section
-    /// 3.1.9), and a mesh does not join the halves.
+    /// Returns whether the polygons end at the antimeridian on both sides of it: coordinates are degrees, and
+    /// edges along the longitudes 180° and −180° lie at the same latitudes. Files are cut there (RFC 7946,
+    /// section 3.1.9), and a mesh does not join the halves.
     pub fn is_cut_at_antimeridian(&self) -> bool {
         let rings = || self.polygons.iter().flat_map(|named| &named.polygon);
         self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
@@ -40,7 +40,7 @@ impl Outline {
 /// position.
 ///
 /// # Errors
-/// When the file cannot be read, is not GeoJSON, has no polygon, or more than
+/// Fails when the file cannot be read, is not GeoJSON, has no polygon, or more than
 /// [`MOST_CORNERS`](meshbrush_core::domain::MOST_CORNERS) corners.
 pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
     read_named(path).map(without_names)
@@ -50,7 +50,7 @@ pub fn read(path: &Path) -> Result<Vec<Polygon>, ReadError> {
 /// `title` and `id` of its feature that is text or a number.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_named(path: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
     read_named_metered(path, &Meter::default())
 }
@@ -58,7 +58,7 @@ pub fn read_named(path: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
 /// Reads as [`read_named`] does, and counts the bytes of the file.
 ///
 /// # Errors
-/// As [`read_outline`].
+/// Fails as [`read_outline`] does.
 pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
     read_outline(path, meter).map(|outline| outline.polygons)
 }
@@ -66,7 +66,7 @@ pub fn read_named_metered(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon
 /// Reads polygons with their names and their unit, and counts the bytes of the file.
 ///
 /// # Errors
-/// As [`read`], and when the work was cancelled.
+/// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
     read_metered(path, meter, parse)
 }
@@ -97,7 +97,7 @@ pub(super) fn read_metered<T>(
 /// Reads as [`read`] does, from any input, such as bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadError> {
     read_named_from(input, name).map(without_names)
 }
@@ -105,7 +105,7 @@ pub fn read_from(input: impl Read, name: &Path) -> Result<Vec<Polygon>, ReadErro
 /// Reads as [`read_named`] does, from any input, such as standard input. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_named_from(input: impl Read, name: &Path) -> Result<Vec<NamedPolygon>, ReadError> {
     read_outline_from(input, name).map(|outline| outline.polygons)
 }
@@ -113,7 +113,7 @@ pub fn read_named_from(input: impl Read, name: &Path) -> Result<Vec<NamedPolygon
 /// Reads as [`read_outline`] does, from any input. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_outline_from(input: impl Read, name: &Path) -> Result<Outline, ReadError> {
     read_limited(input, name, |input| parse(input))
 }
@@ -131,7 +131,7 @@ pub(super) fn read_limited<T, R: Read>(
     flaw.map_or(read, Err).map_err(|flaw| flaw.in_file(name))
 }
 
-/// The polygons alone.
+/// Returns the polygons alone.
 pub(super) fn without_names(polygons: Vec<NamedPolygon>) -> Vec<Polygon> {
     polygons.into_iter().map(|named| named.polygon).collect()
 }
@@ -164,7 +164,7 @@ pub(super) fn parse(input: impl Read) -> Result<Outline, PlacedFlaw> {
 /// bit.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, polygons: &[Polygon]) -> io::Result<()> {
     writeln!(out, "{{\"type\":\"MultiPolygon\",\"coordinates\":[")?;
     for (i, polygon) in polygons.iter().enumerate() {
@@ -200,7 +200,7 @@ impl Wanted for Polygons {
     }
 }
 
-/// Collects polygons with their names, and the kind of the first other geometry. `name` is that of the
+/// Collects polygons with their names, and the kind of the first other geometry. `name` is the name of the
 /// object around this one. The recursion is bounded, as the parser bounds the nesting.
 fn collect(
     mut object: Object<Polygons>,

@@ -16,10 +16,10 @@ pub struct Interruption {
 }
 
 impl Interruption {
-    /// Begins to listen. A signal that this process was told to ignore, as by `nohup`, stays ignored.
+    /// Begins to listen. A signal that this process ignores, for example because of `nohup`, stays ignored.
     ///
     /// # Errors
-    /// When the operating system refuses.
+    /// Fails when the operating system refuses.
     #[cfg(unix)]
     pub fn listen() -> io::Result<Self> {
         use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -35,13 +35,13 @@ impl Interruption {
         Ok(own)
     }
 
-    /// Elsewhere the system ends the program at once.
+    /// On other systems, the system ends the program at once.
     #[cfg(not(unix))]
     pub fn listen() -> io::Result<Self> {
         Ok(Self::default())
     }
 
-    /// A meter that a signal cancels.
+    /// Returns a meter that a signal cancels.
     pub fn meter(&self) -> Meter {
         Meter::cancelled_by(self.cancelled.clone())
     }
@@ -59,7 +59,7 @@ impl Interruption {
     }
 }
 
-/// Whether the process ignores a signal; the kernel shows this on Linux only.
+/// Returns whether the process ignores a signal; the kernel shows this on Linux only.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -54,7 +54,7 @@ impl Journal {
     /// `home` is the project's file, if it has one; `time` is in seconds since 1970.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn begin(folder: &Path, project: &Project, home: Option<&Path>, time: u64) -> io::Result<Self> {
         fs::create_dir_all(folder)?;
         // Locked before it gets the name by which journals are found.
@@ -80,7 +80,7 @@ impl Journal {
     /// before it.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn add_paint(&mut self, before: &PaintLayers, after: &PaintLayers, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
         project::write_paint_changes(&mut content, before, after)?;
@@ -90,7 +90,7 @@ impl Journal {
     /// Adds the settings after a gesture.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn add_settings(&mut self, settings: Settings, time: u64) -> io::Result<()> {
         let mut content = Vec::new();
         let project = Project { settings, paint: PaintLayers::default() };
@@ -101,20 +101,20 @@ impl Journal {
     /// Marks that nothing is unsaved, and which file the project belongs to.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn mark_clean(&mut self, home: Option<&Path>, time: u64) -> io::Result<()> {
         self.append(CLEAN, time, &home_bytes(home))
     }
 
-    /// A handle to wait for the disk on another thread.
+    /// Returns a handle to wait for the disk on another thread.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn syncing(&self) -> io::Result<Syncing> {
         self.file.try_clone().map(Syncing)
     }
 
-    /// Whether so much was added that a new journal would be much smaller.
+    /// Returns whether so much was added that a new journal would be much smaller.
     pub fn is_long(&self) -> bool {
         self.grown > MOST_GROWTH
     }
@@ -122,7 +122,7 @@ impl Journal {
     /// Deletes the journal.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(&self.path)
     }
@@ -135,7 +135,8 @@ impl Journal {
         record.extend(checksum(&record, content).to_le_bytes());
         record.extend(content);
         self.grown += record.len() as u64;
-        // In one call: what is written before the program is killed belongs to the system and is not lost.
+        // One call writes the record: bytes written before the program is killed belong to the system and are
+        // not lost.
         self.file.write_all(&record)
     }
 }
@@ -148,7 +149,7 @@ impl Syncing {
     /// Waits until everything added so far is on the disk, which can take seconds.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn wait(&self) -> io::Result<()> {
         self.0.sync_data()
     }
@@ -188,7 +189,7 @@ fn checksum(head: &[u8], content: &[u8]) -> u32 {
     crc.finalize()
 }
 
-/// The length of a path and the path in UTF-8; empty without a path, or if it is not UTF-8.
+/// Returns the length of a path and the path in UTF-8; empty without a path, or if it is not UTF-8.
 fn home_bytes(home: Option<&Path>) -> Vec<u8> {
     let text = home.and_then(Path::to_str).unwrap_or_default();
     [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat()
@@ -211,13 +212,13 @@ impl Abandoned {
     /// Deletes the journal.
     ///
     /// # Errors
-    /// Errors of the file system.
+    /// Fails with the errors of the file system.
     pub fn remove(self) -> io::Result<()> {
         fs::remove_file(&self.path)
     }
 }
 
-/// What an earlier run left in a journal.
+/// The contents of a journal that an earlier run left.
 #[derive(Debug)]
 pub enum Left {
     /// Unsaved work.
@@ -231,8 +232,8 @@ pub enum Left {
     },
 }
 
-/// What earlier runs left in the journals in a folder, one journal at a time: those that no running program
-/// has locked. Journals without unsaved work are deleted.
+/// Returns the contents of the journals of earlier runs in a folder, one journal at a time. Journals that a
+/// running program has locked are skipped; journals without unsaved work are deleted.
 pub fn left(folder: &Path) -> impl Iterator<Item = Left> + use<> {
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
@@ -252,7 +253,7 @@ pub fn left(folder: &Path) -> impl Iterator<Item = Left> + use<> {
 
 /// Opens a file and locks it; `None` if another program has locked it.
 fn locked(path: &Path) -> io::Result<Option<File>> {
-    // Some network disks lock only what is open for writing.
+    // Some network disks lock only files that are open for writing.
     let file = File::options().read(true).write(true).open(path)?;
     match file.try_lock() {
         Ok(()) => Ok(Some(file)),
@@ -261,7 +262,7 @@ fn locked(path: &Path) -> io::Result<Option<File>> {
     }
 }
 
-/// The unsaved work of a journal, if it has any.
+/// Returns the unsaved work of a journal, if it has any.
 fn taken_over(path: &Path) -> Result<Option<Box<Abandoned>>, String> {
     let Some(file) = locked(path).map_err(|error| error.to_string())? else { return Ok(None) };
     let mut bytes = Vec::new();
@@ -284,10 +285,10 @@ struct Kept {
 }
 
 impl Kept {
-    /// What all records up to the first incomplete one come to.
+    /// Combines all records up to the first incomplete one.
     ///
     /// # Errors
-    /// Why the first record cannot be read, as a sentence without its full stop.
+    /// Fails with the reason why the first record cannot be read, as a sentence without its full stop.
     fn parse(bytes: &[u8]) -> Result<Self, String> {
         let mut rest = bytes.strip_prefix(MAGIC).ok_or("another version of Meshbrush wrote it")?;
         let damaged = "its first record is damaged";

@@ -1,10 +1,10 @@
-//! Points with the triangle around each of them, as a table: what `meshbrush locate` prints, and what the
-//! window writes of the pins.
+//! Points with the triangle around each of them, as a table: the output of `meshbrush locate`, and the file
+//! that the window writes for pins.
 //!
 //! Columns: `x` and `y` in world units; `where` the point lies; the `triangle` and its `level`; its nodes
-//! `v1,v2,v3` in the order of mesh files; the point's barycentric coordinates `zeta1,zeta2,zeta3`, each at
-//! the place of its node; and the `value` that they interpolate. Where no triangle contains the point, the
-//! columns from `triangle` on are empty.
+//! `v1,v2,v3` in the order of mesh files; the point's barycentric coordinates `zeta1,zeta2,zeta3`, in the
+//! order of the nodes; and the `value` that they interpolate. If no triangle contains the point, the columns
+//! from `triangle` on are empty.
 
 use std::io::{self, Write};
 
@@ -22,19 +22,19 @@ use meshbrush_mesh::mesh::{
 
 const HEADER: &str = "x,y,where,triangle,level,v1,v2,v3,zeta1,zeta2,zeta3,value";
 
-/// With more than one point for this many triangles, building a search tree pays off.
+/// A search tree is built if there is more than one point for this many triangles.
 const TRIANGLES_PER_POINT: usize = 16;
 
 /// Pixels or triangles between two checks whether the work was cancelled.
 const SLICE: usize = 1 << 16;
 
-/// A mesh in which points are located, and what is interpolated there.
+/// A mesh in which points are located, with the values to interpolate.
 pub struct LocatedIn<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
-    /// What differs from it in files.
+    /// The differences of the exported mesh from this mesh.
     pub patch: &'a MeshPatch,
-    /// The mesh as files have it: the numbers in the table are those of a file.
+    /// The exported mesh. The numbers in the table are its numbers.
     pub extract: &'a Extract<'a>,
     /// The value at a node, in world units.
     pub value_at: &'a dyn Fn(DVec2) -> f64,
@@ -44,7 +44,7 @@ impl LocatedIn<'_> {
     /// Writes the header and one row for each point, in their order.
     ///
     /// # Errors
-    /// Errors of `out`.
+    /// Fails with the errors of `out`.
     pub fn write(&self, points: &[DVec2], out: &mut dyn Write) -> io::Result<()> {
         let many = points.len() > self.mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
         let locator = many.then(|| Locator::new(self.mesh));
@@ -93,7 +93,7 @@ impl LocatedIn<'_> {
 /// numbers.
 ///
 /// # Errors
-/// When the mesh cannot be made, when the work was cancelled, and errors of `out`.
+/// Fails when the mesh cannot be made, when the work was cancelled, and with the errors of `out`.
 pub fn write_of_document(
     out: &mut dyn Write,
     settings: &Settings,

@@ -17,11 +17,11 @@ pub struct MeshFormat {
 pub struct FormatSpec {
     /// The file name extension, in lower case and without the dot.
     pub ending: &'static str,
-    /// The programs that read it, and what it holds: a few words for a list of formats.
+    /// The programs that read the format, and its contents, in a few words for a list of formats.
     pub purpose: &'static str,
     /// How long its files are.
     pub size: TypicalSize,
-    /// The files beside it: extensions and writers.
+    /// The further files of the format: extensions and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
     pub write: WriteMesh,
@@ -42,17 +42,17 @@ pub struct TypicalSize {
 pub type WriteMesh = fn(&mut dyn Write, &Extract, &MeshData, &Meter) -> io::Result<()>;
 
 impl MeshFormat {
-    /// All formats.
+    /// Returns all formats.
     pub fn all() -> impl Iterator<Item = Self> {
         MESH_FORMATS.into_iter().map(|spec| Self { spec, is_binary: false })
     }
 
-    /// The binary form of a format that is text otherwise, if there is one: of `.msh`.
+    /// Returns the binary form of a format that is text otherwise, if there is one: of `.msh`.
     pub fn binary(self) -> Option<Self> {
         self.spec.write_binary.is_some().then_some(Self { is_binary: true, ..self })
     }
 
-    /// The format of a file name extension, in lower case and without the dot.
+    /// Returns the format of a file name extension, in lower case and without the dot.
     pub fn from_ending(ending: &str) -> Option<Self> {
         Self::all().find(|format| format.ending() == ending)
     }
@@ -62,20 +62,20 @@ impl MeshFormat {
         self.spec.ending
     }
 
-    /// The programs that read it, and what it holds, in a few words.
+    /// Returns the programs that read the format, and its contents, in a few words.
     pub fn purpose(self) -> &'static str {
         self.spec.purpose
     }
 
-    /// About how many bytes the files of a mesh have, all together; the text is up to a third longer or
-    /// shorter where coordinates are.
+    /// Returns about how many bytes the files of a mesh have, all together; the text is up to a third longer
+    /// or shorter where coordinates are.
     pub fn approximate_bytes(self, triangles: usize) -> u64 {
         let TypicalSize { bytes, bytes_per_digit } = self.spec.size;
         let further_digits = libm::log10(triangles.max(1) as f64) - 4.0;
         (triangles as f64 * (bytes + bytes_per_digit * further_digits).max(1.0)) as u64
     }
 
-    /// The files that an export to `path` writes, `path` first.
+    /// Returns the files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         let beside = self.spec.beside.iter().map(|(ending, _)| path.with_extension(ending));
         std::iter::once(path.to_owned()).chain(beside).collect()
@@ -92,8 +92,8 @@ impl MeshFormat {
     /// bytes in all only for `.vtu` and `.stl`.
     ///
     /// # Errors
-    /// Errors of the file system, and when the work was cancelled. The old files are then untouched, except
-    /// for Triangle's four files if the file system fails between two of them.
+    /// Fails with the errors of the file system, and when the work was cancelled. The old files are then
+    /// untouched, except for Triangle's four files if the file system fails between two of them.
     pub fn write(
         self,
         path: &Path,
@@ -115,7 +115,7 @@ impl MeshFormat {
     /// Writes a mesh to a stream; `None` for a format of several files.
     ///
     /// # Errors
-    /// Errors of the stream, and when the work was cancelled.
+    /// Fails with the errors of the stream, and when the work was cancelled.
     pub fn write_to(
         self,
         out: &mut dyn Write,

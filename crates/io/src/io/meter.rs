@@ -7,8 +7,9 @@ const BLOCK: u64 = 1 << 16;
 
 /// Counts the progress of work on a file, and cancels it.
 ///
-/// Clones are the same meter: one thread works with one, another reads or cancels it. Bytes are those of a
-/// file, or those before compression; in both cases the work is complete when the expected number is done.
+/// Clones share one state: one thread works with a clone, another reads or cancels it. The meter counts bytes
+/// of a file, or bytes before compression; in both cases the work is complete when the expected number is
+/// done.
 #[derive(Clone, Debug, Default)]
 pub struct Meter(Arc<Readings>);
 
@@ -33,7 +34,7 @@ impl From<Cancelled> for io::Error {
 }
 
 impl Meter {
-    /// A meter that is cancelled by this flag, as by a signal.
+    /// Returns a meter that is cancelled by this flag, as by a signal.
     pub fn cancelled_by(flag: Arc<AtomicBool>) -> Self {
         Self(Arc::new(Readings { cancelled: flag, ..Readings::default() }))
     }
@@ -43,7 +44,8 @@ impl Meter {
         self.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work was cancelled. It may still complete, if it was cancelled after the last check.
+    /// Returns whether the work was cancelled. It may still complete, if it was cancelled after the last
+    /// check.
     pub fn is_cancelled(&self) -> bool {
         self.0.cancelled.load(Ordering::Relaxed)
     }
@@ -51,7 +53,7 @@ impl Meter {
     /// Call this between the steps of long work.
     ///
     /// # Errors
-    /// When the work was cancelled.
+    /// Fails when the work was cancelled.
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
@@ -65,18 +67,18 @@ impl Meter {
     /// Adds to the number of bytes done.
     ///
     /// # Errors
-    /// When the work was cancelled.
+    /// Fails when the work was cancelled.
     pub fn add(&self, bytes: u64) -> Result<(), Cancelled> {
         self.0.done.fetch_add(bytes, Ordering::Relaxed);
         self.check()
     }
 
-    /// The number of bytes done.
+    /// Returns the number of bytes done.
     pub fn done(&self) -> u64 {
         self.0.done.load(Ordering::Relaxed)
     }
 
-    /// The number of bytes in all, if it is known.
+    /// Returns the number of bytes in all, if it is known.
     pub fn total(&self) -> Option<u64> {
         Some(self.0.total.load(Ordering::Relaxed)).filter(|&total| total > 0)
     }

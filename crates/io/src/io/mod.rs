@@ -19,6 +19,7 @@ mod claim;
 mod coordinates;
 pub mod csv;
 mod error;
+mod fault;
 mod features;
 mod folder;
 mod interrupt;
@@ -26,6 +27,7 @@ mod mesh_file;
 mod meter;
 pub mod geojson;
 pub mod journal;
+mod json;
 pub mod layers;
 pub mod located;
 pub mod msh;
@@ -35,24 +37,23 @@ mod parallel_rows;
 pub mod path;
 pub mod png;
 pub mod points;
-pub mod plot;
 mod positions;
 pub mod project;
 mod provenance;
 pub mod recipe;
 pub mod recording;
 mod rows;
+pub mod settings;
 pub mod shapes;
 pub mod sms;
 mod stamp;
-pub mod steps;
 pub mod stl;
 pub mod svg;
 mod table;
 pub mod threats;
 mod triangle_pieces;
+mod values;
 pub mod vtu;
-mod words;
 pub mod world_file;
 
 use std::io::{self, Write};
@@ -60,6 +61,7 @@ use std::io::{self, Write};
 pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
 pub use error::{Flaw, Place, ReadError};
+pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use interrupt::Interruption;
 pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
@@ -89,7 +91,7 @@ pub struct MeshData<'a> {
     ///
     /// [`Extract::part_numbers`]: meshbrush_mesh::mesh::Extract::part_numbers
     pub parts: &'a [u32],
-    /// Where the mesh comes from: in all formats but `.csv`, whose readers take no comments.
+    /// The origin of the mesh, for all formats except `.csv`, whose readers take no comments.
     pub provenance: &'a Provenance,
 }
 
@@ -103,7 +105,7 @@ pub struct NodeValues {
 }
 
 impl MeshData<'_> {
-    /// Where the mesh comes from, in lines that a format takes for comments.
+    /// Writes the origin of the mesh in lines that a format takes for comments.
     fn write_comments(&self, out: &mut impl Write) -> io::Result<()> {
         self.provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))
     }

@@ -1,9 +1,9 @@
 //! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
 //!
-//! The triangles are the physical surface `domain` (1). Each piece of the boundary of which the mesh has
-//! edges is a physical curve with the name of the piece and its marker, with the domain on the left. h̄ and
-//! the quantities are node data; `level` and `part` (the number of the connected part, from 0 for the
-//! largest) are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
+//! The triangles are the physical surface `domain` (1). Each piece of the boundary that has edges in the mesh
+//! is a physical curve with the name and the marker of the piece, with the domain on the left. h̄ and the
+//! quantities are node data; `level` and `part` (the number of the connected part, from 0 for the largest)
+//! are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
 //!
 //! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
 //! little-endian on every machine.
@@ -33,7 +33,7 @@ const SURFACE: i32 = 1;
 /// Writes the mesh with its boundary as text.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     Writer { out, is_binary: false }.write(mesh, data)
 }
@@ -41,7 +41,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Writes the mesh with its boundary in binary form.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_binary(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     Writer { out, is_binary: true }.write(mesh, data)
 }
@@ -72,7 +72,8 @@ impl<W: Write> Writer<'_, W> {
         for (name, values) in data.node_values() {
             self.write_values("NodeData", name, values.len(), |node| values[node])?;
         }
-        // meshio requires element data for all elements or none: a boundary edge gets that of its triangle.
+        // meshio requires element data for all elements or none, so a boundary edge gets the data of its
+        // triangle.
         let lines: Vec<usize> =
             curves.iter().flat_map(|curve| &curve.edges).map(|edge| edge.triangle).collect();
         let triangles = mesh.triangles().len();
@@ -218,7 +219,7 @@ struct Curve {
 }
 
 impl Curve {
-    /// Those of all pieces of which the mesh has edges, by number.
+    /// Returns the curves of all pieces that have edges in the mesh, by number.
     fn all(mesh: &Extract, data: &MeshData) -> Vec<Self> {
         let mut edges = vec![Vec::new(); data.boundary.pieces().list().len()];
         for (edge, &piece) in mesh.boundary_edges().zip(data.boundary.piece_of_edge()) {
@@ -238,7 +239,7 @@ impl Curve {
     }
 }
 
-/// The lower and the upper corner of a box that is flat.
+/// Returns the lower and the upper corner of a box that is flat.
 fn box_values(bounds: &Rect) -> [Value; 6] {
     let Rect { min, max } = bounds;
     [Real(min.x), Real(min.y), Real(0.0), Real(max.x), Real(max.y), Real(0.0)]

@@ -4,9 +4,9 @@
 //! Numbers start at zero. Node attributes are h̄ and then the quantities. The attribute of an element is its
 //! level. Neighbour i is opposite corner i; −1 is the boundary. `.edge` has all edges.
 //!
-//! The boundary marker of edges and nodes is that of the piece of the boundary, and 0 inside; of a node in
-//! which pieces meet, the lower one. The format has no place for names. Comments at the end of each file say
-//! where the mesh comes from.
+//! The boundary marker of edges and nodes is the marker of the piece of the boundary, the lower one for a
+//! node in which pieces meet, and 0 inside. The format has no place for names. Comments at the end of each
+//! file describe the origin of the mesh.
 
 use std::io::{self, Write};
 
@@ -31,7 +31,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// Writes the `.node` file: coordinates, h̄, quantities and boundary marker of each node.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let markers = data.boundary.node_markers(mesh);
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
@@ -49,7 +49,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Writes the `.ele` file: corners and level of each triangle.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
@@ -63,7 +63,7 @@ pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> 
 /// Writes the `.neigh` file: the triangle opposite each corner.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "{} 3", mesh.triangles().len())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
@@ -77,7 +77,7 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -
 /// Writes the `.edge` file: the ends of each edge, and its marker.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_edges(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let mut count = 0;
     let first_ids = (0..mesh.triangles().len()).map(|triangle| {

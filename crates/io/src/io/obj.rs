@@ -21,7 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// Writes the mesh, one group for each level.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     data.write_comments(out)?;
     writeln!(out, "# {} nodes, {} triangles", mesh.nodes().len(), mesh.triangles().len())?;

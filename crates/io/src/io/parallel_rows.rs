@@ -13,7 +13,7 @@ const ROWS: usize = 4096;
 /// the number of threads.
 ///
 /// # Errors
-/// Errors of `out`, and the error of the first group with a row that has one.
+/// Fails with the errors of `out`, and the error of the first group with a row that has one.
 pub(super) fn write_rows(
     out: &mut impl Write,
     count: usize,

@@ -9,7 +9,7 @@ use meshbrush_mesh::text::Number;
 /// Writes a path as a GeoJSON feature with its figures. `samples` are the points to write.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_geojson(
     out: &mut dyn Write,
     solution: &Solution,
@@ -42,7 +42,7 @@ pub fn write_geojson(
 /// the path costs up to there, the risk, and the cost per unit of length.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_csv(out: &mut dyn Write, samples: &[PathSample]) -> io::Result<()> {
     writeln!(out, "x,y,distance,cost,risk,density")?;
     for sample in samples {

@@ -33,8 +33,8 @@ pub enum Behind {
 /// image is the last row of the raster.
 ///
 /// # Errors
-/// When the file cannot be read, is not a PNG image, is cut off, or has too many pixels for a raster. The
-/// size is checked before memory is allocated.
+/// Fails when the file cannot be read, is not a PNG image, is cut off, or has too many pixels for a raster.
+/// The size is checked before memory is allocated.
 pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadError> {
     read_metered(path, bounds, behind, &Meter::default())
 }
@@ -42,7 +42,7 @@ pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadErr
 /// Reads as [`read`] does, and counts the bytes of the file.
 ///
 /// # Errors
-/// As [`read`], and when the work was cancelled.
+/// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, bounds: Rect, behind: Behind, meter: &Meter) -> Result<Raster, ReadError> {
     let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.metadata()?.len());
@@ -54,7 +54,7 @@ pub fn read_metered(path: &Path, bounds: Rect, behind: Behind, meter: &Meter) ->
 /// Reads as [`read`] does, from any source of bytes.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Result<Raster, Flaw> {
     let mut decoder = Decoder::new(source);
     // Palettes and low depths become 8 bits, a transparent colour an alpha channel.
@@ -69,7 +69,8 @@ pub fn decode(source: impl BufRead + Seek, bounds: Rect, behind: Behind) -> Resu
     Ok(Raster::from_values(bounds, size, values))
 }
 
-/// The values of an image of [columns, rows], the top row first. Memory grows with the rows in the file.
+/// Returns the values of an image of [columns, rows], the top row first. Memory grows with the rows in the
+/// file.
 fn top_row_first<R: BufRead + Seek>(
     decoder: Decoder<R>,
     size: [u32; 2],
@@ -110,8 +111,8 @@ fn value_of_pixel(pixel: &[u8], color: ColorType, depth: BitDepth, behind: Behin
 /// Reads an image in colour, and counts the bytes of the file.
 ///
 /// # Errors
-/// When the file cannot be read or is not a PNG image, when it has more than [`Picture::MOST_PIXELS`] pixels,
-/// and when the work was cancelled.
+/// Fails when the file cannot be read or is not a PNG image, when it has more than [`Picture::MOST_PIXELS`]
+/// pixels, and when the work was cancelled.
 pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
     let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.metadata()?.len());
@@ -120,7 +121,7 @@ pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
     decoded.map_err(|flaw| flaw.in_file(path))
 }
 
-/// A reader of the samples, after a check that the decoder needs.
+/// Returns a reader of the samples, after a check that the decoder needs.
 fn checked_reader<R: BufRead + Seek>(decoder: Decoder<R>) -> Result<Reader<R>, Flaw> {
     let reader = decoder.read_info()?;
     // The decoder relies on three bytes for each colour.
@@ -140,7 +141,7 @@ fn check_frame<R: BufRead + Seek>(reader: &Reader<R>, size: [u32; 2]) -> Result<
     }
 }
 
-/// The samples of an image of [columns, rows], and their format.
+/// Returns the samples of an image of [columns, rows], and their format.
 fn whole_frame<R: BufRead + Seek>(
     mut reader: Reader<R>,
     size: [u32; 2],
@@ -154,7 +155,7 @@ fn whole_frame<R: BufRead + Seek>(
 /// Reads as [`read_picture`] does, from any source of bytes.
 ///
 /// # Errors
-/// As [`read_picture`].
+/// Fails as [`read_picture`] does.
 pub fn decode_picture(source: impl BufRead + Seek) -> Result<Picture, Flaw> {
     let mut decoder = Decoder::new(source);
     decoder.set_transformations(Transformations::EXPAND | Transformations::ALPHA | Transformations::STRIP_16);
@@ -179,7 +180,7 @@ pub fn decode_picture(source: impl BufRead + Seek) -> Result<Picture, Flaw> {
     Ok(Picture { size, rgba })
 }
 
-/// The value of a pixel from its samples, each 0 to 1.
+/// Returns the value of a pixel from its samples, each 0 to 1.
 fn value(color: ColorType, sample: impl Fn(usize) -> f64, behind: Behind) -> f64 {
     let luma = || 0.2126 * sample(0) + 0.7152 * sample(1) + 0.0722 * sample(2);
     let ground = if behind == Behind::White { 1.0 } else { 0.0 };
@@ -205,15 +206,15 @@ impl From<DecodingError> for Flaw {
 /// Writes a picture of `size` pixels, four bytes each (red, green, blue, opacity), the top row first.
 ///
 /// # Errors
-/// Errors of `out`, and when the number of bytes does not match `size`.
+/// Fails with the errors of `out`, and when the number of bytes does not match `size`.
 pub fn write(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     encode(Encoder::new(out, size[0], size[1]), ColorType::Rgba, rgba)
 }
 
-/// Writes a picture as [`write()`] does, with texts that say where it comes from.
+/// Writes a picture as [`write()`] does, with texts that describe its origin.
 ///
 /// # Errors
-/// As [`write()`].
+/// Fails as [`write()`] does.
 pub fn write_described(
     out: &mut impl Write,
     size: [u32; 2],
@@ -244,7 +245,7 @@ pub fn write_described(
 /// Writes an opaque picture as [`write()`] does, in a smaller file and more slowly.
 ///
 /// # Errors
-/// As [`write()`].
+/// Fails as [`write()`] does.
 pub fn write_small(out: &mut impl Write, size: [u32; 2], rgba: &[u8]) -> io::Result<()> {
     let mut encoder = Encoder::new(out, size[0], size[1]);
     encoder.set_compression(Compression::High);

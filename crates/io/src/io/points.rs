@@ -22,8 +22,8 @@ const NAMES: [&[&str]; 2] = [&["x", "lon", "lng", "long", "longitude"], &["y", "
 /// `inf` are read as numbers: the location of such a point answers that it is invalid.
 ///
 /// # Errors
-/// When the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error names
-/// the line.
+/// Fails when the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error
+/// names the line.
 pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
     read.map_err(|flaw| flaw.in_file(path))
@@ -33,7 +33,7 @@ pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
 /// the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadError> {
     parse(input).map_err(|flaw| flaw.in_file(name))
 }

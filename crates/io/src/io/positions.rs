@@ -23,7 +23,7 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// The polygons, if the positions are nested `depth` deep.
+    /// Returns the polygons, if the positions are nested `depth` deep.
     pub(super) fn polygons(mut self, kind: &str, depth: usize) -> Result<Vec<Polygon>, String> {
         if self.positions.is_empty() {
             return Ok(Vec::new());
@@ -47,7 +47,7 @@ impl Coordinates {
         Ok(self.polygon_ends.iter().copied().map(polygon).filter(|polygon| !polygon.is_empty()).collect())
     }
 
-    /// The rings, without the repeated last position.
+    /// Returns the rings, without the repeated last position.
     fn rings(&self) -> Vec<Vec<DVec2>> {
         let mut rings = self.lists();
         for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
@@ -56,7 +56,7 @@ impl Coordinates {
         rings
     }
 
-    /// The lists of positions, as rings and lines are.
+    /// Returns the lists of positions, as rings and lines are.
     pub(super) fn lists(&self) -> Vec<Vec<DVec2>> {
         let mut start = 0;
         let list = |&end: &usize| self.positions[std::mem::replace(&mut start, end)..end].to_vec();

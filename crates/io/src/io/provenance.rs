@@ -1,16 +1,16 @@
-//! Where a file comes from, as text for the formats that have a place for it.
+//! The origin of a file, as text for the formats that have a place for it.
 
 use meshbrush_mesh::mesh::Fingerprint;
 use meshbrush_mesh::text::LengthUnit;
 
-/// Where a file comes from. It has no time and no path that nobody typed: the same input gives the same
-/// file.
+/// The origin of a file. It contains no time and only paths that a person typed, so the same input gives the
+/// same file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     lines: Vec<(&'static str, String)>,
 }
 
-/// What a mesh was made from.
+/// The source that a mesh was made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum MeshSource<'a> {
@@ -21,8 +21,8 @@ pub enum MeshSource<'a> {
 }
 
 impl Provenance {
-    /// That of a mesh: the program with its version, the source, the fingerprint, and what the coordinates
-    /// are, such as `x, y`.
+    /// Describes a mesh: the program with its version, the source, the fingerprint, and the meaning of the
+    /// coordinates, such as `x, y`.
     pub fn new(source: MeshSource, fingerprint: Fingerprint, coordinates: &str) -> Self {
         let (key, source) = match source {
             MeshSource::Command(command) => ("command", command),
@@ -38,7 +38,7 @@ impl Provenance {
         Self { lines: lines.into() }
     }
 
-    /// With the unit of coordinates and lengths, if there is one.
+    /// Adds the unit of coordinates and lengths, if there is one.
     #[must_use]
     pub fn with_unit(mut self, unit: LengthUnit) -> Self {
         if unit != LengthUnit::None {
@@ -47,12 +47,12 @@ impl Provenance {
         self
     }
 
-    /// What is known, as pairs of a word and one line of text.
+    /// Returns the entries, as pairs of a key and one line of text.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, &str)> {
         self.lines.iter().map(|(key, text)| (*key, text.as_str()))
     }
 
-    /// The entries as lines, `word: text`.
+    /// Returns the entries as lines, `word: text`.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         self.entries().map(|(key, text)| format!("{key}: {text}"))
     }

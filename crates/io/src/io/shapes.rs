@@ -13,7 +13,7 @@ use meshbrush_core::domain::MOST_CORNERS;
 use meshbrush_core::layers::ShapeList;
 use meshbrush_mesh::text::{Grouped, LengthUnit};
 
-/// What a file says of shapes.
+/// The shapes in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeFile {
     /// The shapes, each kind in the order of the file.
@@ -29,8 +29,8 @@ pub struct ShapeFile {
 /// position.
 ///
 /// # Errors
-/// When the file cannot be read, is not GeoJSON, has no shape, or more than [`MOST_CORNERS`] points; and when
-/// the work was cancelled.
+/// Fails when the file cannot be read, is not GeoJSON, has no shape, or more than [`MOST_CORNERS`] points;
+/// and when the work was cancelled.
 pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
     geojson::read_metered(path, meter, parse)
 }
@@ -38,7 +38,7 @@ pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
 /// Reads shapes as [`read`] does, from any input, such as bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> {
     geojson::read_limited(input, name, |input| parse(input))
 }
@@ -72,7 +72,7 @@ fn parse(input: impl Read) -> Result<ShapeFile, PlacedFlaw> {
     Ok(ShapeFile { shapes, unit })
 }
 
-/// All positions of the shapes.
+/// Returns all positions of the shapes.
 fn places(shapes: &ShapeList) -> impl Iterator<Item = DVec2> {
     let rings = shapes.polygons.iter().flatten().flatten();
     shapes.points.iter().chain(shapes.lines.iter().flatten()).chain(rings).copied()
@@ -89,7 +89,7 @@ fn collect(mut object: Object<AllShapes>, shapes: &mut ShapeList) -> Result<(), 
     object.into_inner().try_for_each(|object| collect(object, shapes))
 }
 
-/// How deep the positions of a geometry are nested.
+/// Returns how deep the positions of a geometry are nested.
 fn depth_of(kind: &str) -> Option<usize> {
     match kind {
         "Point" => Some(1),
@@ -127,7 +127,7 @@ fn take(kind: &str, coordinates: Coordinates, depth: usize, shapes: &mut ShapeLi
 /// Writes shapes as one collection of geometries. [`read`] returns the same shapes bit for bit.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, shapes: &ShapeList) -> io::Result<()> {
     let array = |list: &[DVec2]| list.iter().map(|p| p.to_array()).collect::<Vec<_>>();
     let lines: Vec<_> = shapes.lines.iter().map(|line| array(line)).collect();

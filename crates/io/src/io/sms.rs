@@ -28,7 +28,7 @@ const NODES_A_LINE: usize = 10;
 /// Writes elements, nodes, and a nodestring for each piece of the boundary.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     writeln!(out, "MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1")?;
     data.write_comments(out)?;

@@ -1,4 +1,4 @@
-//! What tells the contents of a file apart: whether somebody else changed it.
+//! A stamp of the contents of a file, to find out whether another program changed it.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -14,15 +14,15 @@ pub struct FileStamp {
 }
 
 impl FileStamp {
-    /// The stamp of these bytes.
+    /// Returns the stamp of these bytes.
     pub fn of(bytes: &[u8]) -> Self {
         Self { bytes: bytes.len() as u64, checksum: crc32fast::hash(bytes) }
     }
 
-    /// The stamp of a file as it is on the disk; `None` if there is no such file, or it is no regular one.
+    /// Returns the stamp of a file on the disk; `None` if there is no such file, or it is not a regular file.
     ///
     /// # Errors
-    /// Errors of the file system, and when the work was cancelled.
+    /// Fails with the errors of the file system, and when the work was cancelled.
     pub fn of_file(path: &Path, meter: &Meter) -> io::Result<Option<Self>> {
         if !fs::metadata(path).is_ok_and(|metadata| metadata.is_file()) {
             return Ok(None);
@@ -47,12 +47,12 @@ pub struct Stamping<W> {
 }
 
 impl<W: Write> Stamping<W> {
-    /// No bytes yet.
+    /// Returns counts and checks the bytes that are written to `out`, from none on.
     pub fn new(out: W) -> Self {
         Self { out, bytes: 0, checksum: crc32fast::Hasher::new() }
     }
 
-    /// The stamp of all bytes so far.
+    /// Returns the stamp of all bytes so far.
     pub fn stamp(&self) -> FileStamp {
         FileStamp { bytes: self.bytes, checksum: self.checksum.clone().finalize() }
     }

@@ -28,7 +28,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
 const HEAD: u64 = 84;
 const TRIANGLE: u64 = 50;
 
-/// The size of the file in bytes.
+/// Returns the size of the file in bytes.
 pub fn bytes(mesh: &Extract) -> u64 {
     HEAD + TRIANGLE * mesh.triangles().len() as u64
 }
@@ -36,8 +36,8 @@ pub fn bytes(mesh: &Extract) -> u64 {
 /// Writes the triangles, in the mesh's order, each anticlockwise.
 ///
 /// # Errors
-/// Errors of `out`, when f32 is too coarse for the coordinates, and when there are more triangles than `u32`
-/// counts.
+/// Fails with the errors of `out`, when f32 is too coarse for the coordinates, and when there are more
+/// triangles than `u32` counts.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
     out.write_all(&title(data))?;

@@ -12,6 +12,7 @@ use glam::DVec2;
 use super::Provenance;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Extract, NodeId, bisection_edge_length};
+use meshbrush_mesh::text::xml_text;
 
 /// Size and colours of the drawing.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +34,7 @@ pub struct SvgStyle<'a> {
 /// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(
     out: &mut impl Write,
     mesh: &Extract,
@@ -51,7 +52,7 @@ pub fn write(
     let triangles = mesh.triangles().len();
     writeln!(out, "<title>{triangles} triangles, {} nodes</title>", mesh.nodes().len())?;
     write!(out, "<desc>")?;
-    provenance.lines().try_for_each(|line| writeln!(out, "{}", escaped(&line)))?;
+    provenance.lines().try_for_each(|line| writeln!(out, "{}", xml_text(&line)))?;
     writeln!(out, "</desc>")?;
     let [r, g, b] = style.background;
     writeln!(
@@ -91,11 +92,6 @@ fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyl
         writeln!(out, "\"/>")?;
     }
     Ok(())
-}
-
-/// Text without the characters that are markup.
-pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {
@@ -147,7 +143,7 @@ fn write_edges(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgSty
     writeln!(out, "</g>")
 }
 
-/// Every edge once, with its level.
+/// Returns every edge once, with its level.
 fn edges<'a>(mesh: &'a Extract) -> impl Iterator<Item = (u32, [NodeId; 2])> + Clone + 'a {
     mesh.triangles().iter().enumerate().flat_map(move |(index, triangle)| {
         let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
@@ -174,14 +170,14 @@ impl Page {
         Self { width: x >> shift, height: y >> shift, shift }
     }
 
-    /// The largest power of two, in units of the page, that all these nodes are multiples of.
+    /// Returns the largest power of two, in units of the page, that all these nodes are multiples of.
     fn scale_for(&self, mesh: &Extract, nodes: impl Iterator<Item = NodeId>) -> u32 {
         let bits = nodes.map(|node| mesh.node(node)).fold(0, |bits, node| bits | node.x | node.y);
         let common = (bits >> self.shift) | self.width | self.height;
         1 << common.trailing_zeros()
     }
 
-    /// The place of a node, in units of `scale` units of the page.
+    /// Returns the place of a node, in units of `scale` units of the page.
     fn place(&self, mesh: &Extract, node: NodeId, scale: u32) -> [i64; 2] {
         let LatticePoint { x, y } = mesh.node(node);
         [x >> self.shift, self.height - (y >> self.shift)].map(|place| i64::from(place / scale))

@@ -15,7 +15,7 @@ use meshbrush_mesh::text::excerpt;
 /// Longest line that is read, in bytes. Without a limit a file without line breaks would fill the memory.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// What separates fields: the first of these under which the header names the columns that must be there.
+/// Characters that may separate fields. The first one counts with which the header has the required columns.
 const DELIMITERS: [u8; 3] = *b",;\t";
 
 fn parser(delimiter: u8) -> csv_core::Reader {
@@ -44,7 +44,7 @@ impl<R: BufRead> Rows<R> {
     /// Reads the header, finds out what separates the fields, and returns the column of each name.
     ///
     /// # Errors
-    /// When one of the first `required` columns has no name in the header, or a column is there twice.
+    /// Fails when one of the first `required` columns has no name in the header, or a column is there twice.
     pub(super) fn read_header<const COUNT: usize>(
         &mut self,
         names: [&[&str]; COUNT],
@@ -74,7 +74,8 @@ impl<R: BufRead> Rows<R> {
         Err(Flaw::Syntax(problem).at(self.line))
     }
 
-    /// Refuses a header in which several columns have one of these names: nothing says which of them counts.
+    /// Refuses a header in which several columns have one of these names, since it is unknown which of them
+    /// counts.
     fn check_once(&self, names: &[&str]) -> Result<(), PlacedFlaw> {
         let is_meant = |field: &&str| names.iter().any(|name| field.eq_ignore_ascii_case(name));
         let columns: Vec<String> =
@@ -96,7 +97,7 @@ impl<R: BufRead> Rows<R> {
         }
     }
 
-    /// The next line that is not blank, with its line break.
+    /// Returns the next line that is not blank, with its line break.
     fn next_line(&mut self) -> Result<Option<Vec<u8>>, PlacedFlaw> {
         loop {
             let mut bytes = Vec::new();
@@ -134,18 +135,18 @@ impl<R: BufRead> Rows<R> {
         Ok(())
     }
 
-    /// The fields of the current row, without the white space around them.
+    /// Returns the fields of the current row, without the white space around them.
     fn fields(&self) -> impl Iterator<Item = &str> {
         (0..self.ends.len()).filter_map(|column| self.field(column))
     }
 
-    /// A field of the current row, `None` if the row is shorter.
+    /// Returns a field of the current row, `None` if the row is shorter.
     pub(super) fn field(&self, column: usize) -> Option<&str> {
         let start = if column == 0 { 0 } else { *self.ends.get(column - 1)? };
         self.text.get(start..*self.ends.get(column)?).map(str::trim)
     }
 
-    /// The number in a column of the current row.
+    /// Returns the number in a column of the current row.
     pub(super) fn number(&self, column: usize, name: &str) -> Result<f64, PlacedFlaw> {
         let flaw = |problem| Flaw::Syntax(problem).at(self.line);
         let text = self.field(column).filter(|text| !text.is_empty());

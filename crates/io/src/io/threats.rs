@@ -24,8 +24,8 @@ const NAMES: [&[&str]; 5] =
 /// separators are as in [`points::read`](super::points::read). The meter counts the bytes of the file.
 ///
 /// # Errors
-/// When the file cannot be read, its header lacks a column, or a field is not valid, with the line and the
-/// column; and when the work was cancelled.
+/// Fails when the file cannot be read, its header lacks a column, or a field is not valid, with the line and
+/// the column; and when the work was cancelled.
 pub fn read(path: &Path, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.metadata()?.len());
@@ -37,7 +37,7 @@ pub fn read(path: &Path, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
 /// Reads threats as [`read`] does, from any input, such as bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<Threat>, ReadError> {
     parse(input).map_err(|flaw| flaw.in_file(name))
 }
@@ -69,7 +69,7 @@ fn law_named(name: &str) -> Result<ThreatLaw, Flaw> {
     })
 }
 
-/// What is wrong with a row, with the name of the column.
+/// Returns the mistake in a row, with the name of the column.
 fn sentence(error: ThreatError) -> String {
     match error {
         ThreatError::Place { x, y } => format!("x and y are {x} and {y}, and they must be finite numbers."),
@@ -85,7 +85,7 @@ fn sentence(error: ThreatError) -> String {
 /// Writes threats as [`read`] reads them, bit for bit.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, threats: &[Threat]) -> io::Result<()> {
     writeln!(out, "x,y,range,peak,law")?;
     for Threat { at, range, peak, law } in threats {

@@ -12,13 +12,13 @@ pub(super) struct TrianglePieces<'a> {
 }
 
 impl<'a> TrianglePieces<'a> {
-    /// Those of a mesh, by its boundary.
+    /// Finds the pieces at the triangles of a mesh, from its boundary.
     pub(super) fn new(mesh: &Extract, boundary: &'a MeshBoundary) -> Self {
         let triangles = mesh.boundary_edges().map(|edge| edge.triangle).collect();
         Self { triangles, pieces: boundary.piece_of_edge() }
     }
 
-    /// The number of the piece of each boundary edge of a triangle, in the order of its edges.
+    /// Returns the number of the piece of each boundary edge of a triangle, in the order of its edges.
     pub(super) fn of(&self, triangle: usize) -> impl Iterator<Item = u32> + '_ {
         let first = self.triangles.partition_point(|&other| other < triangle);
         let own = self.triangles[first..].iter().zip(&self.pieces[first..]);

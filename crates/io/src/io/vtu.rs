@@ -6,8 +6,8 @@
 //!
 //! Field data: `boundary_names`, the names of the pieces in the order of their markers, a line for each, as
 //! bytes of UTF-8; the line of a piece that has no edge in the mesh is empty. (VTK has arrays of strings, but
-//! meshio refuses them.) A processing instruction `<?meshbrush …?>` says where the mesh comes from; a comment
-//! could not hold the `--` of a command.
+//! meshio refuses them.) A processing instruction `<?meshbrush …?>` describes the origin of the mesh; a
+//! comment could not contain the `--` of a command.
 //!
 //! The header has the offset of each array, and so depends on the compressed sizes of the arrays before it.
 //! Therefore every array is compressed twice, first to measure and then to write: that costs time, but only
@@ -81,14 +81,14 @@ impl<'a> Array<'a> {
         blocks.finish()
     }
 
-    /// The table before the blocks: the number of blocks, the size of a block and of the last one (0 if it is
-    /// full) before compression, and the size of each block after compression.
+    /// Returns the table before the blocks: the number of blocks, the size of a block and of the last one (0
+    /// if it is full) before compression, and the size of each block after compression.
     fn table(&self) -> impl Iterator<Item = u64> {
         let start = [self.compressed.len(), BLOCK, self.bytes % BLOCK].map(|n| n as u64);
         start.into_iter().chain(self.compressed.iter().copied())
     }
 
-    /// Bytes in the file, the table included.
+    /// Returns the bytes in the file, the table included.
     fn length(&self) -> u64 {
         (size_of::<u64>() * self.table().count()) as u64 + self.compressed.iter().sum::<u64>()
     }
@@ -113,7 +113,7 @@ impl<'a> Array<'a> {
 /// Writes the mesh as a VTK unstructured grid.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     write_metered(out, mesh, data, &Meter::default())
 }
@@ -122,7 +122,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// passes.
 ///
 /// # Errors
-/// As [`write()`], and when the work was cancelled.
+/// Fails as [`write()`] does, and when the work was cancelled.
 pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, meter: &Meter) -> io::Result<()> {
     let markers = data.boundary.node_markers(mesh);
     let mut sections = [

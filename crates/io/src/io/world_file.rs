@@ -1,4 +1,4 @@
-//! World files (`.pgw`, `.wld`): six lines that say where a picture lies.
+//! World files (`.pgw`, `.wld`): six lines with the position of a picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,11 +13,11 @@ const ENDINGS: [&str; 4] = ["pgw", "pngw", "wld", "PGW"];
 /// Most bytes of a world file: six numbers take fewer.
 const MOST_BYTES: u64 = 4096;
 
-/// The rectangle of a picture of `size` = [columns, rows] from the world file beside it; `None` if there is
-/// no such file.
+/// Returns the rectangle of a picture of `size` = [columns, rows] from the world file beside it; `None` if
+/// there is no such file.
 ///
 /// # Errors
-/// When the file cannot be read, has no six numbers, or turns or mirrors the picture.
+/// Fails when the file cannot be read, has no six numbers, or turns or mirrors the picture.
 pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, ReadError> {
     let files = ENDINGS.iter().map(|ending| picture.with_extension(ending));
     let Some(file) = files.into_iter().find(|file: &PathBuf| file.is_file()) else { return Ok(None) };
@@ -31,8 +31,8 @@ pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, Rea
     read().map(Some).map_err(|flaw| flaw.in_file(&file))
 }
 
-/// The rectangle from the text of a world file: width of a pixel, two rotations, minus its height, and x and
-/// y of the centre of the upper left pixel.
+/// Returns the rectangle from the text of a world file: width of a pixel, two rotations, minus its height,
+/// and x and y of the centre of the upper left pixel.
 fn bounds(text: &str, [columns, rows]: [u32; 2]) -> Result<Rect, String> {
     let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     let [width, turn_y, turn_x, minus_height, x, y] = numbers[..] else {

@@ -20,12 +20,12 @@ use std::collections::BinaryHeap;
 /// ```
 #[derive(Clone, Debug)]
 pub struct BestFirst<T> {
-    heap: BinaryHeap<Part<T>>,
+    heap: BinaryHeap<OpenPart<T>>,
     added: u32,
 }
 
 #[derive(Clone, Debug)]
-struct Part<T> {
+struct OpenPart<T> {
     bound: f64,
     number: u32,
     part: T,
@@ -41,45 +41,50 @@ impl<T> BestFirst<T> {
     /// Adds a part in which no value is below `bound`.
     pub fn push(&mut self, bound: f64, part: T) {
         self.added = self.added.wrapping_add(1);
-        self.heap.push(Part { bound, number: self.added, part });
+        self.heap.push(OpenPart { bound, number: self.added, part });
     }
 
     /// Takes the part with the lowest bound. No value of all parts is below that bound.
     pub fn pop(&mut self) -> Option<(f64, T)> {
-        self.heap.pop().map(|Part { bound, part, .. }| (bound, part))
+        self.heap.pop().map(|OpenPart { bound, part, .. }| (bound, part))
     }
 
-    /// The number of parts that are left.
+    /// Returns the parts that are left with their bounds, in no particular order.
+    pub fn into_parts(self) -> impl Iterator<Item = (f64, T)> {
+        self.heap.into_iter().map(|OpenPart { bound, part, .. }| (bound, part))
+    }
+
+    /// Returns the number of parts that are left.
     pub fn len(&self) -> usize {
         self.heap.len()
     }
 
-    /// Whether no part is left.
+    /// Returns whether no part is left.
     pub fn is_empty(&self) -> bool {
         self.heap.is_empty()
     }
 }
 
-impl<T> Ord for Part<T> {
+impl<T> Ord for OpenPart<T> {
     fn cmp(&self, other: &Self) -> Ordering {
         // The heap takes the greatest.
         other.bound.total_cmp(&self.bound).then(self.number.cmp(&other.number))
     }
 }
 
-impl<T> PartialOrd for Part<T> {
+impl<T> PartialOrd for OpenPart<T> {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl<T> PartialEq for Part<T> {
+impl<T> PartialEq for OpenPart<T> {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl<T> Eq for Part<T> {}
+impl<T> Eq for OpenPart<T> {}
 
 #[cfg(test)]
 mod tests {
@@ -92,6 +97,9 @@ mod tests {
             parts.push(bound, name);
         }
         assert_eq!(parts.len(), 5);
+        let mut left: Vec<char> = parts.clone().into_parts().map(|(_, name)| name).collect();
+        left.sort_unstable();
+        assert_eq!(left, ['a', 'b', 'c', 'd', 'e']);
         let order: String = std::iter::from_fn(|| parts.pop()).map(|(_, name)| name).collect();
         assert_eq!(order, "edbac");
         assert!(parts.is_empty());

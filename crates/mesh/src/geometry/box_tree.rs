@@ -21,9 +21,9 @@ const FANOUT: usize = 8;
 pub struct BoxTree {
     /// The items along the curve.
     items: Vec<u32>,
-    /// Their boxes.
+    /// The boxes of the items.
     boxes: Vec<Rect>,
-    /// For each item its place along the curve.
+    /// For each item, its position along the curve.
     places: Vec<u32>,
     /// The boxes of the groups, from groups of items up to a single one; empty without items.
     levels: Vec<Vec<Rect>>,
@@ -34,7 +34,7 @@ pub struct BoxTree {
 pub struct BoxGroup {
     /// 0 for a group of items.
     pub level: usize,
-    /// Its number on the level.
+    /// The number of the box on its level.
     pub index: usize,
 }
 
@@ -60,12 +60,12 @@ impl BoxTree {
         Self { items, boxes, places, levels }
     }
 
-    /// The smallest rectangle that holds all.
+    /// Returns the smallest rectangle that holds all.
     pub fn bounds(&self) -> Option<Rect> {
         self.levels.last().and_then(|top| top.first()).copied()
     }
 
-    /// Memory, in bytes.
+    /// Returns memory, in bytes.
     pub fn bytes(&self) -> usize {
         let groups: usize = self.levels.iter().map(|level| size_of_val(&**level)).sum();
         size_of_val(&*self.items) + size_of_val(&*self.places) + size_of_val(&*self.boxes) + groups
@@ -84,30 +84,31 @@ impl BoxTree {
         }
     }
 
-    /// The groups that an item is in, the smallest first.
+    /// Returns the groups that an item is in, the smallest first.
     pub fn groups_of(&self, item: u32) -> impl Iterator<Item = BoxGroup> + use<> {
         let place = self.places[item as usize] as usize;
         let levels = self.levels.len() as u32;
         (0..levels).map(move |level| BoxGroup { level: level as usize, index: place / FANOUT.pow(level + 1) })
     }
 
-    /// The number of levels of groups.
+    /// Returns the number of levels of groups.
     pub fn level_count(&self) -> usize {
         self.levels.len()
     }
 
-    /// The number of groups of a level.
+    /// Returns the number of groups of a level.
     pub fn group_count(&self, level: usize) -> usize {
         self.levels[level].len()
     }
 
-    /// The members of a group: places along the curve for level 0, numbers on the level below for others.
+    /// Returns the members of a group: places along the curve for level 0, numbers on the level below for
+    /// others.
     pub fn members(&self, group: BoxGroup) -> Range<usize> {
         let count = if group.level == 0 { self.items.len() } else { self.levels[group.level - 1].len() };
         group.index * FANOUT..count.min((group.index + 1) * FANOUT)
     }
 
-    /// The item at a place along the curve.
+    /// Returns the item at a place along the curve.
     pub fn item_at(&self, place: usize) -> u32 {
         self.items[place]
     }
@@ -157,9 +158,9 @@ impl BoxTree {
         )
     }
 
-    /// The item for which `squared_distance` is least, with that. It must not be less than the squared
-    /// distance from `p` to the rectangle of the item, but for rounding; ∞ leaves an item out. Of several
-    /// items at the same distance, the first in the list.
+    /// Returns the item for which `squared_distance` is least, with that. It must not be less than the
+    /// squared distance from `p` to the rectangle of the item, but for rounding; ∞ leaves an item out. Of
+    /// several items at the same distance, the first in the list.
     pub fn nearest(&self, p: DVec2, mut squared_distance: impl FnMut(u32) -> f64) -> Option<(u32, f64)> {
         let mut nearest = (f64::INFINITY, u32::MAX);
         if let Some(levels) = self.levels.len().checked_sub(1) {
@@ -205,7 +206,7 @@ impl BoxTree {
     }
 }
 
-/// Whether two closed rectangles meet.
+/// Returns whether two closed rectangles meet.
 fn meet(a: &Rect, b: &Rect) -> bool {
     a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }
@@ -214,7 +215,7 @@ fn union(boxes: &[Rect]) -> Option<Rect> {
     boxes.iter().copied().reduce(|a, b| a.union(&b))
 }
 
-/// The squared distance from a point to a rectangle, less a margin for rounding errors.
+/// Returns the squared distance from a point to a rectangle, less a margin for rounding errors.
 fn squared_distance_to(rect: &Rect, p: DVec2) -> f64 {
     (p - p.clamp(rect.min, rect.max)).length_squared() * (1.0 - 1e-12)
 }

@@ -21,12 +21,12 @@ pub struct LatticePoint {
 }
 
 impl LatticePoint {
-    /// The point with the given lattice coordinates.
+    /// Returns the point with the given lattice coordinates.
     pub const fn new(x: u32, y: u32) -> Self {
         Self { x, y }
     }
 
-    /// The point half way to `other`. Exact for the bisection edges of a mesh within its level cap.
+    /// Returns the point half way to `other`. Exact for the bisection edges of a mesh within its level cap.
     #[inline]
     pub fn midpoint(self, other: Self) -> Self {
         debug_assert!((self.x ^ other.x) & 1 == 0 && (self.y ^ other.y) & 1 == 0);
@@ -34,7 +34,7 @@ impl LatticePoint {
         Self::new((self.x + other.x) / 2, (self.y + other.y) / 2)
     }
 
-    /// Lattice coordinates as real numbers; exact.
+    /// Returns the lattice coordinates as real numbers; exact.
     #[inline]
     pub fn as_dvec2(self) -> DVec2 {
         DVec2::new(f64::from(self.x), f64::from(self.y))
@@ -88,7 +88,7 @@ pub enum GridError {
         /// Most coarse triangles allowed.
         limit: usize,
     },
-    /// The domain is so narrow that cells as wide as it is make too many along the other side.
+    /// The domain is so narrow that cells of its width are too many along the other side.
     TooNarrow {
         /// Width and height of the domain.
         size: DVec2,
@@ -162,7 +162,7 @@ impl Lattice {
     /// Lays a grid of cells no wider than `spacing` (δ̄) over `bounds`, both in world units.
     ///
     /// # Errors
-    /// When `bounds` or `spacing` make no grid, or one of more than `max_triangles` coarse triangles.
+    /// Fails when `bounds` or `spacing` make no grid, or one of more than `max_triangles` coarse triangles.
     ///
     /// ```
     /// # use meshbrush_mesh::geometry::{Lattice, Rect};
@@ -211,47 +211,47 @@ impl Lattice {
         Ok(Self { bounds, cells, halvings: halvings as u32, step })
     }
 
-    /// The rectangle that the grid covers, in world units.
+    /// Returns the rectangle that the grid covers, in world units.
     pub fn bounds(&self) -> Rect {
         self.bounds
     }
 
-    /// Cells per row and rows (N_e per side).
+    /// Returns cells per row and rows (N_e per side).
     pub fn cells(&self) -> [u32; 2] {
         self.cells
     }
 
-    /// The side of a coarse cell δ in world units; the longer one where cells are not square.
+    /// Returns the side of a coarse cell δ in world units; the longer one where cells are not square.
     pub fn spacing(&self) -> f64 {
         (self.step * f64::from(self.cell_steps())).max_element()
     }
 
-    /// Lattice steps along the side of a coarse cell, a power of two.
+    /// Returns lattice steps along the side of a coarse cell, a power of two.
     pub fn cell_steps(&self) -> u32 {
         1 << self.halvings
     }
 
-    /// How often a coarse cell can be halved before nodes would leave the lattice.
+    /// Returns how often a coarse cell can be halved before nodes would leave the lattice.
     pub fn halvings(&self) -> u32 {
         self.halvings
     }
 
-    /// The deepest level of refinement whose nodes still lie on the lattice.
+    /// Returns the deepest level of refinement whose nodes are lattice points.
     pub fn deepest_level(&self) -> u32 {
         2 * self.halvings
     }
 
-    /// World length of one lattice step along x and y.
+    /// Returns the world length of one lattice step along x and y.
     pub fn step(&self) -> DVec2 {
         self.step
     }
 
-    /// The lattice coordinates of the upper right corner.
+    /// Returns the lattice coordinates of the upper right corner.
     pub fn extent(&self) -> LatticePoint {
         LatticePoint::new(self.cells[0] << self.halvings, self.cells[1] << self.halvings)
     }
 
-    /// World coordinates of a lattice point (u of Eq. A2), exact at the four corners.
+    /// Returns the world coordinates of a lattice point (u of Eq. A2), exact at the four corners.
     #[inline]
     pub fn world_from_lattice(&self, p: LatticePoint) -> DVec2 {
         let extent = self.extent();
@@ -261,7 +261,7 @@ impl Lattice {
         )
     }
 
-    /// Lattice coordinates of any point of the plane (u⁻¹ of Eq. A3), as real numbers.
+    /// Returns the lattice coordinates of any point of the plane (u⁻¹ of Eq. A3), as real numbers.
     ///
     /// Consistent with [`Self::world_from_lattice`] in order, not only to rounding: a point with the x of a
     /// node gets the node's lattice x, and one ulp to its right gets more. NaN stays NaN.
@@ -283,7 +283,7 @@ impl Lattice {
         )
     }
 
-    /// The lattice point nearest to a point in world units; one of the rim for a point beyond.
+    /// Returns the lattice point nearest to a point in world units; one of the rim for a point beyond.
     pub fn nearest(&self, p: DVec2) -> LatticePoint {
         let (p, extent) = (self.lattice_from_world(p), self.extent());
         let nearest = (p + DVec2::splat(0.5)).floor().clamp(DVec2::ZERO, extent.as_dvec2());
@@ -314,8 +314,8 @@ fn lattice_coordinate(min: f64, max: f64, step: f64, extent: u32, world: f64) ->
     }
 }
 
-/// Cells along x and y: at least ⌈side / spacing⌉ each (Eq. A4), with the smallest counts that make the
-/// cells square to within 5 %.
+/// Returns cells along x and y: at least ⌈side / spacing⌉ each (Eq. A4), with the smallest counts that make
+/// the cells square to within 5 %.
 fn cells_per_side(size: DVec2, spacing: f64) -> [f64; 2] {
     let wide = size.x >= size.y;
     let (long, short) = if wide { (size.x, size.y) } else { (size.y, size.x) };
@@ -339,8 +339,8 @@ fn cells_per_side(size: DVec2, spacing: f64) -> [f64; 2] {
     if wide { [long_cells, short_cells] } else { [short_cells, long_cells] }
 }
 
-/// How often a cell can be halved: the lattice must fit its bits, and its step must span several ulps of the
-/// largest coordinate, so that distinct nodes have distinct world coordinates.
+/// Returns how often a cell can be halved: the lattice must fit its bits, and its step must span several ulps
+/// of the largest coordinate, so that distinct nodes have distinct world coordinates.
 fn halvings_within(cells: [u32; 2], cell: DVec2, reach: f64) -> i32 {
     let by_bits = LATTICE_BITS as i32 - ceil_log2(cells[0].max(cells[1]));
     let ulp = reach.next_up() - reach;

@@ -20,7 +20,7 @@ impl LatticeRect {
         }
     }
 
-    /// Whether the rectangle and a closed triangle of a mesh have a point in common.
+    /// Returns whether the rectangle and a closed triangle of a mesh have a point in common.
     ///
     /// The edges of such a triangle run along axes and diagonals of the lattice, so that the two meet when
     /// their extents along x, y, x + y and x − y do: one of these is always a separating axis if there is
@@ -42,8 +42,8 @@ fn meets([a, b, c]: [i64; 3], low: i64, high: i64) -> bool {
 }
 
 impl Lattice {
-    /// The smallest rectangle of the lattice around the part of `area` (in world units) that lies in the
-    /// bounds; `None` where nothing does.
+    /// Returns the smallest rectangle of the lattice around the part of `area` (in world units) that lies in
+    /// the bounds; `None` where nothing does.
     pub fn rect_around(&self, area: &Rect) -> Option<LatticeRect> {
         let common = area.intersection(&self.bounds())?;
         let (min, max) =

@@ -38,7 +38,7 @@ pub struct Octagon {
 }
 
 impl Octagon {
-    /// A triangle of a mesh.
+    /// Returns a triangle of a mesh.
     #[inline]
     pub fn triangle(corners: [LatticePoint; 3]) -> Self {
         let x = corners.map(|c| i64::from(c.x));
@@ -51,7 +51,7 @@ impl Octagon {
         }
     }
 
-    /// The closed rectangle between two corners, which may lie beyond the lattice.
+    /// Returns the closed rectangle between two corners, which may lie beyond the lattice.
     #[inline]
     pub fn rect([x0, y0]: [i64; 2], [x1, y1]: [i64; 2]) -> Self {
         Self {
@@ -62,7 +62,7 @@ impl Octagon {
         }
     }
 
-    /// Whether the shapes have a point in common.
+    /// Returns whether the shapes have a point in common.
     #[inline]
     pub fn meets(&self, other: &Self) -> bool {
         self.x.intersects(&other.x)
@@ -71,7 +71,7 @@ impl Octagon {
             && self.difference.intersects(&other.difference)
     }
 
-    /// Whether `other` lies within this shape.
+    /// Returns whether `other` lies within this shape.
     #[inline]
     pub fn contains(&self, other: &Self) -> bool {
         self.x.contains(&other.x)
@@ -80,7 +80,7 @@ impl Octagon {
             && self.difference.contains(&other.difference)
     }
 
-    /// The lower left and the upper right corner of the smallest rectangle around the shape.
+    /// Returns the lower left and the upper right corner of the smallest rectangle around the shape.
     #[inline]
     pub fn bounds(&self) -> [[i64; 2]; 2] {
         [[self.x.low, self.y.low], [self.x.high, self.y.high]]

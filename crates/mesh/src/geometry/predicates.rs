@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::LatticePoint;
 
-/// Where a point lies, seen along a directed edge.
+/// The side of a directed edge on which a point is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Strictly to the left: inside, for an edge that runs anticlockwise around a triangle.
@@ -15,7 +15,7 @@ pub enum Side {
     Right,
 }
 
-/// The orientation test of the report (Figure 6), without its rounding errors.
+/// Returns the orientation test of the report (Figure 6), without its rounding errors.
 ///
 /// The edge runs from `from` to `to`; both are lattice nodes, `point` is in lattice coordinates.
 /// Edges of a mesh run in one of eight directions only (along an axis or a diagonal), so that the
@@ -80,7 +80,8 @@ pub fn exact_sum_sign(a: f64, b: f64, c: f64) -> Ordering {
     error.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
-/// As [`side_of_edge`], for any two different lattice points.
+/// Returns the side of the line from `from` to `to` on which a point is, for any two different lattice points
+/// ([`side_of_edge`] is faster for edges of a mesh).
 pub fn side_of_line(from: LatticePoint, to: LatticePoint, point: DVec2) -> Side {
     let run = f64::from(to.x) - f64::from(from.x);
     let rise = f64::from(to.y) - f64::from(from.y);
@@ -101,8 +102,9 @@ pub fn side_of_line(from: LatticePoint, to: LatticePoint, point: DVec2) -> Side 
     }
 }
 
-/// The side of the line from `from` to `to` on which a point lies, for any three finite points: the sign of
-/// (to − from) × (point − from) without rounding errors, as long as no product overflows or is below 10⁻²⁹⁰.
+/// Returns the side of the line from `from` to `to` on which a point lies, for any three finite points: the
+/// sign of (to − from) × (point − from) without rounding errors, as long as no product overflows or is below
+/// 10⁻²⁹⁰.
 ///
 /// ```
 /// # use meshbrush_mesh::geometry::{Side, side_of_points};
@@ -141,8 +143,8 @@ pub fn side_of_points(from: DVec2, to: DVec2, point: DVec2) -> Side {
     }
 }
 
-/// The sign of the exact sum of some numbers: each is added to an expansion, a list of numbers that do not
-/// overlap and have the same sum, the smallest first. The largest of them decides.
+/// Returns the sign of the exact sum of some numbers: each is added to an expansion, a list of numbers that
+/// do not overlap and have the same sum, the smallest first. The largest of them decides.
 fn sign_of_sum<const N: usize>(terms: [f64; N]) -> Ordering {
     let mut expansion = [0.0f64; N];
     for (count, term) in terms.into_iter().enumerate() {

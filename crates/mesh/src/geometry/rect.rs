@@ -10,7 +10,7 @@ pub struct Rect {
 }
 
 impl Rect {
-    /// The rectangle with the given lower left and upper right corners.
+    /// Returns the rectangle with the given lower left and upper right corners.
     pub const fn new(min: DVec2, max: DVec2) -> Self {
         Self { min, max }
     }
@@ -18,37 +18,37 @@ impl Rect {
     /// The unit square, the domain of the body of the report.
     pub const UNIT: Self = Self::new(DVec2::ZERO, DVec2::ONE);
 
-    /// The smallest rectangle that holds both points.
+    /// Returns the smallest rectangle that holds both points.
     pub fn spanning(a: DVec2, b: DVec2) -> Self {
         Self::new(a.min(b), a.max(b))
     }
 
-    /// The square of half side `radius` about `centre`.
+    /// Returns the square of half side `radius` about `centre`.
     pub fn around(centre: DVec2, radius: f64) -> Self {
         Self::new(centre - DVec2::splat(radius), centre + DVec2::splat(radius))
     }
 
-    /// Width and height.
+    /// Returns the width and height.
     pub fn size(&self) -> DVec2 {
         self.max - self.min
     }
 
-    /// The point in the middle.
+    /// Returns the point in the middle.
     pub fn center(&self) -> DVec2 {
         self.min + 0.5 * self.size()
     }
 
-    /// Whether the point lies in the closed rectangle. False for NaN.
+    /// Returns whether the point lies in the closed rectangle. False for NaN.
     pub fn contains(&self, p: DVec2) -> bool {
         p.cmpge(self.min).all() && p.cmple(self.max).all()
     }
 
-    /// The smallest rectangle that holds this one and `other`.
+    /// Returns the smallest rectangle that holds this one and `other`.
     pub fn union(&self, other: &Self) -> Self {
         Self::new(self.min.min(other.min), self.max.max(other.max))
     }
 
-    /// The common part, or `None` where the two do not meet.
+    /// Returns the common part, or `None` where the two do not meet.
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         let common = Self::new(self.min.max(other.min), self.max.min(other.max));
         common.min.cmple(common.max).all().then_some(common)
@@ -59,7 +59,7 @@ impl Rect {
         Self::new(self.min - DVec2::splat(margin), self.max + DVec2::splat(margin))
     }
 
-    /// Whether both sides are positive and all numbers are finite.
+    /// Returns whether both sides are positive and all numbers are finite.
     pub fn is_proper(&self) -> bool {
         self.min.is_finite() && self.max.is_finite() && self.min.cmplt(self.max).all()
     }

@@ -1,14 +1,14 @@
 use glam::DVec2;
 
-/// The place on the segment from `a` to `b` that is nearest to `p`: 0 at `a`, 1 at `b`; 0 where both are one
-/// point.
+/// Returns the place on the segment from `a` to `b` that is nearest to `p`: 0 at `a`, 1 at `b`; 0 where both
+/// are one point.
 pub fn nearest_share(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let length_squared = along.length_squared();
     if length_squared > 0.0 { ((p - a).dot(along) / length_squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The point of a segment that is nearest to `p`.
+/// Returns the point of a segment that is nearest to `p`.
 pub fn nearest_on_segment(p: DVec2, [a, b]: [DVec2; 2]) -> DVec2 {
     a + nearest_share(p, [a, b]) * (b - a)
 }

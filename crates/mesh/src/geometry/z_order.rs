@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::Rect;
 
-/// The place of a point within `bounds` along a Z-order curve, of 65,536 × 65,536 places.
+/// Returns the place of a point within `bounds` along a Z-order curve, of 65,536 × 65,536 places.
 pub fn z_order(p: DVec2, bounds: &Rect) -> u32 {
     let size = bounds.size();
     let share = |axis: usize| if size[axis] > 0.0 { (p[axis] - bounds.min[axis]) / size[axis] } else { 0.0 };
@@ -12,7 +12,7 @@ pub fn z_order(p: DVec2, bounds: &Rect) -> u32 {
     interleaved(place(0), place(1)) as u32
 }
 
-/// The bits of two numbers in turn, those of x first: bit n of x is bit 2n, and bit n of y is bit 2n + 1.
+/// Returns the bits of two numbers in turn: bit n of x becomes bit 2n, and bit n of y becomes bit 2n + 1.
 pub fn interleaved(x: u32, y: u32) -> u64 {
     spread(x) | spread(y) << 1
 }

@@ -12,34 +12,29 @@
 //! let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 //! mesh.refine(&Limits::default(), |element| {
 //!     let near = element.world_corners().iter().any(|x| x.length() < 0.3);
-//!     Ok(element.diameter() > if near { 0.1 } else { 0.5 })
+//!     element.diameter() > if near { 0.1 } else { 0.5 }
 //! })?;
 //! assert!(mesh.violations().is_empty());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Four parts: `kernel` makes and changes meshes, `extract` numbers what leaves the program, `query` asks,
-//! `steps` shows the algorithms at work. Each imports only from those before it.
+//! Three parts: `kernel` makes and changes meshes, `extract` numbers what leaves the program, `query` answers
+//! questions. Each imports only from those before it.
 
 mod kernel;
 mod extract;
 mod query;
-mod steps;
 
 pub use extract::{
     BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
 };
 pub use kernel::{
-    BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin, Limits,
-    MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator, Progress,
-    RefineError, Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle, TriangleId, Updater,
-    bisection_edge_length, level_for_diameter,
+    Answer, BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin,
+    Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator,
+    Progress, RefineError, Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle,
+    TriangleId, Updater, bisection_edge_length, level_for_diameter,
 };
 pub use query::{
     Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
     RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
-};
-pub use steps::{
-    Algorithm, BOUNDARY, NeighbourCase, Recording, ReportRow, RowChange, Step, StepAction, StepPart,
-    StepPlayer, StepRecorder,
 };

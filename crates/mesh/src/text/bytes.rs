@@ -5,9 +5,11 @@ use std::fmt;
 pub struct Bytes(pub usize);
 
 impl Bytes {
-    /// The bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 for units with an i.
+    /// Returns the bytes of a size as typed: a number with a unit, in powers of 1000, or of 1024 for units
+    /// with an i.
     ///
-    /// `None` for what is no such size. Negative sizes become 0, and those beyond `usize` its largest value.
+    /// Returns `None` for any other text. Negative sizes become 0, and sizes beyond `usize` its largest
+    /// value.
     ///
     /// ```
     /// # use meshbrush_mesh::text::Bytes;
@@ -34,7 +36,8 @@ impl Bytes {
         Some(bytes as usize)
     }
 
-    /// A text from which [`Self::parse`] reads the same size: that for a person, unless it is rounded.
+    /// Returns a text from which [`Self::parse`] reads the same size: that for a person, unless it is
+    /// rounded.
     ///
     /// ```
     /// # use meshbrush_mesh::text::Bytes;

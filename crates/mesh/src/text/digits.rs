@@ -53,7 +53,7 @@ pub fn with_unit(number: &str, unit: &str) -> String {
     }
 }
 
-/// A share in percent, rounded up: what is proved to be below it stays so. `1.24 %`, `0.004 %`.
+/// Returns a share in percent, rounded up, so that an upper bound stays one. `1.24 %`, `0.004 %`.
 pub fn percent_above(share: f64) -> String {
     let percent = 100.0 * share;
     let digits = if percent < 0.1 { 1000.0 } else { 100.0 };

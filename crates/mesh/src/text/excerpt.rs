@@ -1,4 +1,4 @@
-//! What a message quotes of a file, shortened: a word of a file may be as long as the file.
+//! Shortens texts from files for messages: a word of a file may be as long as the file.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ const LONGEST_LINE: usize = 500;
 /// Characters at the end of a line that is too long, which stay: what would help is said there.
 const END_OF_LINE: usize = 150;
 
-/// At most `most` characters of a text from a file, escaped, with an ellipsis where more follow.
+/// Returns at most `most` characters of a text from a file, escaped, with an ellipsis if more follow.
 pub fn excerpt(most: usize, text: &str) -> String {
     let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);
     let more = if end < text.len() { "…" } else { "" };
     format!("{}{more}", text[..end].escape_debug())
 }
 
-/// At most 60 characters of a name that a file may have given, as they are, with an ellipsis where more
+/// Returns at most 60 characters of a name that may come from a file, unchanged, with an ellipsis if more
 /// follow.
 pub fn short_name(name: &str) -> Cow<'_, str> {
     match name.char_indices().nth(LONGEST_QUOTE) {
@@ -25,9 +25,9 @@ pub fn short_name(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// A message whose parts between quotation marks may come from a file, with at most 60 characters of each,
-/// and of lines without quotation marks the beginning and the end. Parsers repeat in their messages what they
-/// did not expect.
+/// Shortens a message whose parts between quotation marks may come from a file: to at most 60 characters of
+/// each such part, and to the beginning and the end of lines without quotation marks. Parsers repeat
+/// unexpected text in their messages.
 ///
 /// ```text
 /// invalid type: string "aaaaaaaaaaaaaaaaaaaa", expected a number
@@ -38,7 +38,7 @@ pub fn abridged(message: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// The beginning and the end of a line that is too long.
+/// Returns the beginning and the end of a line that is too long.
 fn with_ends(line: &str) -> String {
     let count = line.chars().count();
     if count <= LONGEST_LINE {
@@ -70,7 +70,7 @@ fn with_short_quotes(line: &str) -> String {
     shortened + rest
 }
 
-/// Where the text after an opening quotation mark ends.
+/// Returns the end of the text after an opening quotation mark.
 fn end_of_quote(quoted: &str, mark: char) -> Option<usize> {
     let mut is_escaped = false;
     for (at, c) in quoted.char_indices() {

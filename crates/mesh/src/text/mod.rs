@@ -1,4 +1,4 @@
-//! What messages for a person are made of: counts, lengths and their unit, sizes in bytes, excerpts of files.
+//! Parts of messages for a person: counts, lengths and their unit, sizes in bytes, excerpts of files.
 
 mod bytes;
 mod digits;
@@ -6,6 +6,7 @@ mod excerpt;
 mod grouped;
 mod number;
 mod unit;
+mod xml;
 
 pub use bytes::Bytes;
 pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
@@ -13,3 +14,4 @@ pub use excerpt::{abridged, excerpt, short_name};
 pub use grouped::{Grouped, group_digits};
 pub use number::Number;
 pub use unit::LengthUnit;
+pub use xml::xml_text;

@@ -1,4 +1,5 @@
-/// The unit of a document's coordinates and lengths. Numbers are never converted: it says what they mean.
+/// The unit of a document's coordinates and lengths. It gives numbers their meaning; they are never
+/// converted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum LengthUnit {
     /// Plain numbers.
@@ -16,7 +17,7 @@ impl LengthUnit {
     /// All units, in the order of menus.
     pub const ALL: [Self; 4] = [Self::None, Self::Metre, Self::Kilometre, Self::Degree];
 
-    /// The symbol after a number; empty without a unit.
+    /// Returns the symbol after a number; empty without a unit.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::None => "",
@@ -26,7 +27,7 @@ impl LengthUnit {
         }
     }
 
-    /// Its name in menus and files.
+    /// Returns the name in menus and files.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -36,7 +37,7 @@ impl LengthUnit {
         }
     }
 
-    /// A number with the symbol: `12 m`, `0.5°`.
+    /// Returns a number with the symbol: `12 m`, `0.5°`.
     ///
     /// ```
     /// use meshbrush_mesh::text::LengthUnit;

@@ -5,7 +5,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Element, InvalidTarget, Limits, Mesh, RefineError, Refiner, TriangleId};
 
-/// The unit square in 4 × 4 cells, without a corner and a node inside, so that diagonals are on the boundary.
+/// Returns the unit square in 4 × 4 cells, without a corner and a node inside, so that diagonals are on the
+/// boundary.
 fn with_a_hole() -> Mesh {
     let removed = [DVec2::ZERO, dvec2(0.5, 0.75)];
     Mesh::coarse_grid(
@@ -103,7 +104,7 @@ fn a_bad_target_is_refused_and_the_mesh_stays_conforming() {
         let error = mesh.refine(&Limits::default(), &rule).unwrap_err();
         assert_eq!(mesh.violations(), [], "{bad}");
         match error {
-            RefineError::InvalidTarget(InvalidTarget { at, value }) => {
+            RefineError::Rule(InvalidTarget { at, value }) => {
                 assert!(bad.is_nan() || bad <= 0.0, "{bad}: {error}");
                 assert!(at.x > 0.6 && (value == bad || value.is_nan() && bad.is_nan()));
             }
@@ -184,10 +185,10 @@ fn the_lattice_ends_with_an_error_at_its_deepest_level() {
         let deepest = mesh.lattice().deepest_level();
         let at_corner = |element: &Element| element.corners.contains(&corner);
         // Down to the deepest level is fine; one further is not.
-        mesh.refine(&Limits::default(), |e| Ok(at_corner(e) && e.triangle.level() < deepest)).unwrap();
+        mesh.refine(&Limits::default(), |e| at_corner(e) && e.triangle.level() < deepest).unwrap();
         assert_eq!(mesh.level_counts().len() as u32, deepest + 1);
         assert_eq!(mesh.violations(), []);
-        let error = mesh.refine(&Limits::default(), |e| Ok(at_corner(e))).unwrap_err();
+        let error = mesh.refine(&Limits::default(), |e| at_corner(e)).unwrap_err();
         assert!(matches!(error, RefineError::TooFine { level, .. } if level == deepest), "{error}");
         assert_eq!(mesh.violations(), []);
     }

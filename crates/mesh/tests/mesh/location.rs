@@ -18,8 +18,8 @@ use meshbrush_mesh::mesh::{
 
 const QUERIES_PER_MESH: usize = 170_000;
 
-/// What brute force finds: every triangle that contains the point (closed), and on how many of its edges the
-/// point lies.
+/// The result of brute force: every closed triangle that contains the point, and the number of its edges that
+/// contain the point.
 type Containing = Vec<(usize, usize)>;
 
 /// All triangles by size class and place: a triangle is listed under every cell of its own size that it
@@ -61,7 +61,7 @@ impl BruteForce {
         found
     }
 
-    /// The same without the lists.
+    /// Returns the triangles that contain a point, found by testing all of them without the lists.
     fn containing_of_all(&self, p: DVec2) -> Containing {
         let all = self.corners.iter().enumerate();
         all.filter_map(|(i, &corners)| edges_under(corners, p).map(|on| (i, on))).collect()
@@ -161,9 +161,9 @@ fn refined(mut mesh: Mesh, level: u32, towards: &[DVec2]) -> Mesh {
     mesh.refine(&limits, |element| {
         let size = bisection_edge_length(width, element.triangle.level());
         let corners = element.corners.map(LatticePoint::as_dvec2);
-        Ok(towards
+        towards
             .iter()
-            .any(|&t| corners.iter().any(|c| size > 0.3 * c.distance(t * extent).max(1e-30 * width))))
+            .any(|&t| corners.iter().any(|c| size > 0.3 * c.distance(t * extent).max(1e-30 * width)))
     })
     .unwrap();
     assert_eq!(mesh.level_counts().len(), level as usize + 1);
@@ -209,7 +209,7 @@ fn nudged(x: f64, random: &mut Rng) -> f64 {
     }
 }
 
-/// A point chosen to do harm.
+/// Returns a point chosen to do harm.
 fn hostile(mesh: &Mesh, random: &mut Rng) -> DVec2 {
     let lattice = mesh.lattice();
     let bounds = lattice.bounds();
@@ -433,7 +433,7 @@ fn a_large_locator_is_the_same_for_any_number_of_threads() {
         let contains = |p: DVec2| !has_hole || p.distance(dvec2(0.5, 0.5)) > 0.2;
         let mut mesh = Mesh::coarse_grid(&lattice, contains, &limits).unwrap();
         let target = |p: DVec2| 2e-4 + 0.008 * p.distance(dvec2(0.4, 0.3));
-        mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();
+        mesh.refine(&limits, |e| e.world_corners().iter().any(|&p| e.diameter() > target(p))).unwrap();
         assert!(mesh.raw_triangle_count() > 150_000, "{}", mesh.raw_triangle_count());
         for threads in [1, 2, 3, 8] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

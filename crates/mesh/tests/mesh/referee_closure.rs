@@ -17,7 +17,7 @@ struct Case {
     field: Field,
 }
 
-/// What is left out of the rectangle, by grid node (column, row) of `cells`.
+/// The parts left out of the rectangle, by grid node (column, row) of `cells`.
 #[derive(Debug)]
 enum Hole {
     Nothing,
@@ -69,7 +69,7 @@ enum Field {
     /// `inside` where |n · x − c| ≤ `half_width`, with the vertex rule: a thin strip may pass between the
     /// nodes.
     Strip { normal: DVec2, c: f64, half_width: f64, inside: f64 },
-    /// The same strip with the area rule: it counts wherever the closed triangle meets it.
+    /// The strip with the area rule: it counts wherever the closed triangle meets it.
     StripArea { normal: DVec2, c: f64, half_width: f64, inside: f64 },
     /// Waves.
     Formula { k: DVec2, low: f64, high: f64 },
@@ -156,7 +156,7 @@ impl Case {
         |element| Ok(self.field.exceeds(element.diameter(), element.world_corners()))
     }
 
-    /// The same mesh by the plain closure, with its own map to the world and its own Eq. (1).
+    /// Computes the mesh by the plain closure, with its own map to the world and its own Eq. (1).
     fn closure(&self, mesh: &Mesh) -> Vec<Triangle> {
         let cells = mesh.lattice().cells().map(i64::from);
         let cell = i64::from(mesh.lattice().cell_steps());

@@ -9,8 +9,8 @@ use glam::dvec2;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Location, Mesh, NodeId, Orientation, TriangleId};
 
-/// The same coarse mesh twice: grid nodes (column, row) of an N_e × N_e grid on the unit square without
-/// `removed`.
+/// Returns a coarse mesh twice, by the program and by the report: grid nodes (column, row) of an N_e × N_e
+/// grid on the unit square without `removed`.
 fn coarse_pair(n_e: i64, removed: &[(i64, i64)]) -> (Mesh, Report) {
     let whole = |x: f64| (x * n_e as f64).round() as i64;
     let contains = |p: glam::DVec2| !removed.contains(&(whole(p.x), whole(p.y)));
@@ -58,7 +58,7 @@ fn domains() -> Vec<(i64, Vec<(i64, i64)>)> {
     ]
 }
 
-/// Some triangle, half the time one of the youngest: meshes grow deep as well as wide.
+/// Returns some triangle, half the time one of the youngest: meshes grow deep as well as wide.
 fn any_triangle(mesh: &Mesh, random: &mut fastrand::Rng) -> TriangleId {
     let count = mesh.raw_triangle_count();
     let first = if random.bool() { count.saturating_sub(6) } else { 0 };
@@ -153,7 +153,7 @@ fn refine_mesh_in_index_order_gives_the_same_set_of_triangles() {
         let exceeds = vertex_rule(n_e * report.delta, &mut random);
         mesh.refine(&Limits::default(), |element| {
             let corners = element.corners.map(|c| [i64::from(c.x), i64::from(c.y)]);
-            Ok(exceeds(i64::from(element.triangle.level()), corners))
+            exceeds(i64::from(element.triangle.level()), corners)
         })
         .unwrap();
         // One run of Algorithm 12 can leave triangles that break Eq. (14): it never comes back to an entry

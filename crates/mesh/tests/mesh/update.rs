@@ -35,7 +35,7 @@ impl Spot {
         inside || edges.iter().any(|&(a, b)| within(at, i128::from(self.radius), a, b))
     }
 
-    /// All triangles that the spot says anything about touch this, if they lie in the grid.
+    /// Returns all triangles that the spot says anything about touch this, if they lie in the grid.
     fn area(&self, mesh: &Mesh) -> LatticeRect {
         let extent = mesh.lattice().extent();
         let clamp = |v: i64, most: u32| v.clamp(0, i64::from(most)) as u32;
@@ -45,7 +45,7 @@ impl Spot {
     }
 }
 
-/// Whether the distance from `p` to the segment is at most `radius`, by whole numbers.
+/// Returns whether the distance from `p` to the segment is at most `radius`, by whole numbers.
 fn within(p: [i128; 2], radius: i128, a: [i128; 2], b: [i128; 2]) -> bool {
     let along = dot(a, b, p);
     if along <= 0 {
@@ -179,7 +179,7 @@ fn assert_covered<T: PartialEq + std::fmt::Debug>(before: &[T], after: &[T], cha
     }
 }
 
-/// What a picture of the mesh, kept up to date by changes alone, would be.
+/// A copy of the mesh that is kept up to date by its changes alone.
 struct Mirror(Mesh);
 
 impl Mirror {
@@ -257,7 +257,7 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
     assert!(rests > edits / 20 && changed > edits / 20);
 }
 
-/// The smallest rectangle that holds all of `areas`, of which there is at least one.
+/// Returns the smallest rectangle that holds all of `areas`, of which there is at least one.
 fn hull(areas: &[LatticeRect]) -> LatticeRect {
     let low = |of: fn(&LatticeRect) -> u32| areas.iter().map(of).min().unwrap();
     let high = |of: fn(&LatticeRect) -> u32| areas.iter().map(of).max().unwrap();
@@ -313,11 +313,11 @@ fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
     );
     let mut mesh = mesh;
     let before = mesh.raw_triangle_count();
-    mesh.refine(&limits, |element| Ok(corner.touches(element.corners))).unwrap();
+    mesh.refine(&limits, |element| corner.touches(element.corners)).unwrap();
     assert_eq!(before + forecast.added(), mesh.raw_triangle_count());
 }
 
-/// A grid of 16 × 16 cells with one corner refined, and a disc far from there.
+/// Returns a grid of 16 × 16 cells with one corner refined, and a disc far from there.
 fn with_a_far_corner(level: u32) -> (Mesh, Spot, Spot) {
     let coarse = Mesh::coarse_grid(
         &Lattice::covering(Rect::UNIT, 1.0 / 16.0, 1_000_000).unwrap(),
@@ -331,7 +331,7 @@ fn with_a_far_corner(level: u32) -> (Mesh, Spot, Spot) {
     (from_scratch(&coarse, &[corner]), corner, dab)
 }
 
-/// The coarse mesh that a mesh without holes was refined from.
+/// Returns the coarse mesh that a mesh without holes was refined from.
 fn coarse_of(mesh: &Mesh) -> Mesh {
     Mesh::coarse_grid(mesh.lattice(), |_| true, &Limits::default()).unwrap()
 }
@@ -433,7 +433,7 @@ fn a_bad_target_or_too_small_a_one_is_refused_and_can_be_taken_back() {
     updater.add(dab.area(&mesh));
     let within_dab = |e: &Element| if dab.meets(e.corners) { Err(bad) } else { rule(&[corner])(e) };
     let refused = updater.advance(&mut mesh, within_dab, usize::MAX);
-    assert!(matches!(refused, Err(RefineError::InvalidTarget(_))), "{refused:?}");
+    assert!(matches!(refused, Err(RefineError::Rule(_))), "{refused:?}");
     assert_eq!(mesh.violations(), []);
 
     let point = Spot { radius: 0, level: u32::MAX, ..dab };

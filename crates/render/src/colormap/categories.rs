@@ -1,4 +1,4 @@
-//! Colours for things that have no order.
+//! Colours for categories, which have no order.
 
 /// The palette of Okabe and Ito without black: colour-blind people can tell these apart (M. Okabe and K. Ito,
 /// “Color Universal Design”, 2008).
@@ -12,7 +12,8 @@ const PALETTE: [[u8; 3]; 7] = [
     [0x00, 0x72, 0xb2],
 ];
 
-/// The colour of category `number`. After 7 colours they are repeated darker, then lighter, then as they are.
+/// Returns the colour of category `number`: the seven colours of the palette, then the same colours darker,
+/// then lighter, and so on in turn.
 pub fn category_color(number: u32) -> [u8; 3] {
     let count = PALETTE.len() as u32;
     let color = PALETTE[(number % count) as usize];

@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 
 pub use categories::category_color;
 
-/// Number of levels a mesh can have; the lattice ends before.
+/// Number of levels that a mesh can have. The lattice allows no deeper ones.
 pub const LEVELS: usize = 64;
 
 /// A colour map: a colour for each number from 0 to 1.
@@ -30,7 +30,7 @@ pub enum Colormap {
     Greys,
 }
 
-/// No colormap has this name.
+/// The error for a name that no colour map has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("There is no colormap `{0}`; choose Viridis, Magma, Cividis, Turbo or Greys.")]
 pub struct UnknownColormap(String);
@@ -39,7 +39,7 @@ impl Colormap {
     /// All colour maps, in menu order.
     pub const ALL: [Self; 5] = [Self::Viridis, Self::Magma, Self::Cividis, Self::Turbo, Self::Greys];
 
-    /// The name in menus; [`Colormap::from_str`] reads it, in upper or lower case.
+    /// Returns the name in menus; [`Colormap::from_str`] reads it, in upper or lower case.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viridis => "Viridis",
@@ -50,7 +50,7 @@ impl Colormap {
         }
     }
 
-    /// The colour at `t`, interpolated between the two nearest of 256 entries.
+    /// Returns the colour at `t`, interpolated between the two nearest of 256 entries.
     ///
     /// Below 0 and for NaN it is the first entry, above 1 the last one.
     ///
@@ -83,7 +83,7 @@ impl Colormap {
         }
     }
 
-    /// The positions of level 1 and of the deepest level on the map.
+    /// Returns the positions of level 1 and of the deepest level on the map.
     ///
     /// Finer levels contrast more with the ground: they get lighter on the dark ground and darker on the
     /// light one. No map uses the end that would not contrast with the ground. Turbo, which is read by hue,
@@ -124,7 +124,7 @@ pub enum Ground {
 }
 
 impl Ground {
-    /// The colour of the canvas.
+    /// Returns the colour of the canvas.
     pub const fn canvas(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x0b, 0x0d, 0x10],
@@ -132,7 +132,7 @@ impl Ground {
         }
     }
 
-    /// The colour of level 0: close to that of the canvas, so that refined parts stand out.
+    /// Returns the colour of level 0: close to that of the canvas, so that refined parts stand out.
     pub const fn level_0(self) -> [u8; 3] {
         match self {
             Self::Dark => [0x1d, 0x21, 0x2b],
@@ -144,7 +144,7 @@ impl Ground {
     /// bisection neighbour first.
     pub const ON_LEVELS: [[u8; 3]; 3] = Self::Dark.neighbours();
 
-    /// Colours of the three neighbours of a triangle in panels, the bisection neighbour first.
+    /// Returns colours of the three neighbours of a triangle in panels, the bisection neighbour first.
     pub const fn neighbours(self) -> [[u8; 3]; 3] {
         match self {
             Self::Dark => [[0xf4, 0xb9, 0x42], [0x5a, 0xd1, 0xc0], [0xf0, 0x8a, 0xd8]],
@@ -194,12 +194,12 @@ impl LevelColors {
         Self { rgba }
     }
 
-    /// The colour of a level; above 63 that of level 63.
+    /// Returns the colour of a level. Levels above 63 have the colour of level 63.
     pub fn of(&self, level: u8) -> [u8; 4] {
         self.rgba[usize::from(level.min(63))]
     }
 
-    /// All colours by level.
+    /// Returns the colours of all levels, in the order of the levels.
     pub fn as_table(&self) -> &[[u8; 4]; LEVELS] {
         &self.rgba
     }
@@ -212,13 +212,13 @@ impl From<[[u8; 4]; LEVELS]> for LevelColors {
     }
 }
 
-/// Relative luminance from 0 (black) to 1 (white), as WCAG 2 defines it.
+/// Returns relative luminance from 0 (black) to 1 (white), as WCAG 2 defines it.
 pub fn luminance(color: [u8; 3]) -> f64 {
     let [r, g, b] = linear_rgb(color);
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// Contrast of two colours in either order, from 1 to 21, as WCAG 2 defines it.
+/// Returns contrast of two colours in either order, from 1 to 21, as WCAG 2 defines it.
 ///
 /// Text needs at least 4.5, large text and shapes at least 3.
 ///
@@ -233,7 +233,8 @@ pub fn contrast_ratio(a: [u8; 3], b: [u8; 3]) -> f64 {
     a.max(b) / a.min(b)
 }
 
-/// Linear intensity of each channel from 0 to 1: inverts the sRGB transfer function (IEC 61966-2-1).
+/// Returns the linear intensity of each channel from 0 to 1: inverts the sRGB transfer function (IEC
+/// 61966-2-1).
 fn linear_rgb(color: [u8; 3]) -> [f64; 3] {
     static LINEAR: LazyLock<[f64; 256]> = LazyLock::new(|| {
         std::array::from_fn(|byte| {
@@ -259,7 +260,7 @@ mod tests {
 
     const GROUNDS: [Ground; 2] = [Ground::Dark, Ground::Light];
 
-    /// CIE L*, a*, b* (white D65) of linear light.
+    /// Converts linear light to CIE L*, a*, b* (white D65).
     fn lab([r, g, b]: [f64; 3]) -> [f64; 3] {
         let f = |t: f64| {
             if t > 216.0 / 24389.0 { t.cbrt() } else { (24389.0 / 27.0 * t + 16.0) / 116.0 }
@@ -274,7 +275,7 @@ mod tests {
         lab(linear_rgb(color))[0]
     }
 
-    /// Colour difference by CIE 1976: about 2.3 is just noticeable.
+    /// Returns colour difference by CIE 1976: about 2.3 is just noticeable.
     fn difference(a: [f64; 3], b: [f64; 3]) -> f64 {
         let (a, b) = (lab(a), lab(b));
         (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()

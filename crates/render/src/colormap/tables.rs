@@ -1,7 +1,7 @@
 //! The colour tables, one `0xRRGGBB` (sRGB) per entry, from the first colour to the last.
 //!
-//! Viridis, Magma and Cividis as matplotlib 3.11.2 lists them (CC0); Turbo as there, from Google's
-//! publication (Apache-2.0). Listed fractions are rounded to the nearest 255th.
+//! Viridis, Magma and Cividis come from matplotlib 3.11.2 (CC0), Turbo from Google's publication, as listed
+//! in matplotlib (Apache-2.0). Listed fractions are rounded to the nearest 255th.
 
 /// Viridis, by Nathaniel Smith, Stéfan van der Walt and Eric Firing.
 pub const VIRIDIS: [u32; 256] = [

@@ -1,4 +1,4 @@
-//! Which triangles of a mesh are drawn, and where the domain ends.
+//! Flags that say which triangles of a mesh are drawn, and which are outside the domain.
 
 #[cfg(feature = "gpu")]
 use std::ops::Range;
@@ -15,11 +15,11 @@ const ENTRIES_PER_WORD: usize = u32::BITS as usize / BITS_PER_ENTRY;
 const OUTSIDE: u32 = 1;
 /// A patch replaces the triangle.
 const REPLACED: u32 = 2;
-/// The patch draws pieces in its place.
+/// The patch draws pieces in place of the triangle.
 const HAS_PIECES: u32 = 4;
 
 /// Four bits per triangle of a mesh, in the words that mesh.wgsl reads. All bits are zero for a triangle that
-/// is drawn, and for one behind the end.
+/// is drawn, and for an index at or beyond the end of the array.
 ///
 /// The bits of a neighbour say whether an edge is on the boundary, also where the neighbour is in another
 /// buffer.
@@ -29,8 +29,8 @@ pub(super) struct DrawFlags {
 }
 
 impl DrawFlags {
-    /// Flags for `count` triangles, of which `pieces` replace some. Triangles outside the domain are not
-    /// marked.
+    /// Returns flags for `count` triangles, of which `pieces` replace some. Triangles outside the domain are
+    /// not marked.
     pub(super) fn of_pieces(pieces: &PatchPieces, count: usize) -> Self {
         let mut flags = Self::default();
         flags.resize(count);
@@ -48,13 +48,13 @@ impl DrawFlags {
         }
     }
 
-    /// Whether the triangle itself is drawn.
+    /// Returns whether the triangle itself is drawn.
     #[inline]
     pub(super) fn is_drawn(&self, index: usize) -> bool {
         self.get(index) == 0
     }
 
-    /// Whether nothing is drawn in the place of the triangle.
+    /// Returns whether nothing is drawn in the place of the triangle.
     #[inline]
     pub(super) fn is_vacant(&self, index: usize) -> bool {
         let flags = self.get(index);
@@ -69,7 +69,7 @@ impl DrawFlags {
     }
 }
 
-/// What only the copy of a mesh on the GPU needs.
+/// Functions that only the copy of a mesh on the GPU needs.
 #[cfg(feature = "gpu")]
 impl DrawFlags {
     pub(super) fn clear(&mut self) {
@@ -80,12 +80,12 @@ impl DrawFlags {
         &self.words
     }
 
-    /// The words with the flags of these triangles.
+    /// Returns the words with the flags of these triangles.
     pub(super) fn words_of(triangles: Range<usize>) -> Range<usize> {
         triangles.start / ENTRIES_PER_WORD..triangles.end.div_ceil(ENTRIES_PER_WORD)
     }
 
-    /// Takes back what [`Self::replace`] did.
+    /// Clears the marks that [`Self::replace`] set.
     #[inline]
     pub(super) fn restore(&mut self, id: TriangleId) {
         self.set(id.index(), REPLACED | HAS_PIECES, 0);

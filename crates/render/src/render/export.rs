@@ -12,7 +12,7 @@ use meshbrush_io::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 
-/// Most pixels along a side of a picture.
+/// Greatest width and height of a picture, in pixels.
 pub const LARGEST_PICTURE: u32 = 16_384;
 
 /// A file format.
@@ -27,7 +27,7 @@ pub enum ExportFormat {
     Png,
 }
 
-/// The ending of a file name is not that of a format.
+/// The error for a file name whose ending belongs to no format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: the ending chooses the format; use one of{}", .0.display(), with_dots())]
 pub struct UnknownEnding(pub PathBuf);
@@ -37,10 +37,10 @@ fn with_dots() -> String {
 }
 
 impl ExportFormat {
-    /// The format that the ending of a file name chooses; upper and lower case are the same.
+    /// Returns the format that the ending of a file name chooses; upper and lower case are the same.
     ///
     /// # Errors
-    /// When the ending is none of [`Self::endings`].
+    /// Fails when the ending is none of [`Self::endings`].
     pub fn of(path: &Path) -> Result<Self, UnknownEnding> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match ending.as_str() {
@@ -52,7 +52,7 @@ impl ExportFormat {
         }
     }
 
-    /// The binary form of a format that is text otherwise, if there is one.
+    /// Returns the binary form of this format, or `None` if it has no separate one.
     pub fn binary(self) -> Option<Self> {
         match self {
             Self::Mesh(format) => format.binary().map(Self::Mesh),
@@ -60,12 +60,12 @@ impl ExportFormat {
         }
     }
 
-    /// All formats, those of meshes first.
+    /// Returns all formats; formats of meshes come first.
     pub fn all() -> impl Iterator<Item = Self> {
         MeshFormat::all().map(Self::Mesh).chain([Self::Svg, Self::Png])
     }
 
-    /// The ending of its file names, without the dot.
+    /// Returns the ending of file names of this format, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Mesh(format) => format.ending(),
@@ -74,7 +74,7 @@ impl ExportFormat {
         }
     }
 
-    /// The programs that read it, and what it holds, in a few words.
+    /// Returns a few words on the contents of the format and the programs that read it.
     pub fn purpose(self) -> &'static str {
         match self {
             Self::Mesh(format) => format.purpose(),
@@ -83,8 +83,8 @@ impl ExportFormat {
         }
     }
 
-    /// About how many bytes the export of a mesh takes, in all its files; `None` for a picture, whose size
-    /// depends on what it shows.
+    /// Returns the approximate size of the export of a mesh in bytes, over all its files; `None` for a
+    /// picture, whose size depends on its contents.
     pub fn approximate_bytes(self, triangles: usize) -> Option<u64> {
         match self {
             Self::Mesh(format) => Some(format.approximate_bytes(triangles)),
@@ -92,17 +92,17 @@ impl ExportFormat {
         }
     }
 
-    /// All endings, without their dots.
+    /// Returns all endings, without their dots.
     pub fn endings() -> impl Iterator<Item = &'static str> {
         Self::all().map(Self::ending)
     }
 
-    /// Whether the format contains data at the nodes.
+    /// Returns whether the format contains data at the nodes.
     pub fn wants_node_data(self) -> bool {
         matches!(self, Self::Mesh(_))
     }
 
-    /// All files that an export to `path` writes, `path` first.
+    /// Returns all files that an export to `path` writes, `path` first.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         match self {
             Self::Mesh(format) => format.files(path),
@@ -110,12 +110,12 @@ impl ExportFormat {
         }
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be that of
-    /// `mesh`, and `data` belongs to its nodes; a picture needs only the provenance.
+    /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be the extract
+    /// of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
     ///
     /// # Errors
-    /// When the file cannot be written, the format cannot hold the mesh, or the meter was cancelled. Existing
-    /// files are then unchanged.
+    /// Fails when a file cannot be written, the format cannot hold the mesh, or the meter was cancelled.
+    /// Existing files are then unchanged.
     pub fn write(
         self,
         path: &Path,
@@ -132,10 +132,10 @@ impl ExportFormat {
         Ok(vec![path.to_owned()])
     }
 
-    /// Writes to a stream, as [`Self::write`] does to a file.
+    /// Writes to a stream in place of the file of [`Self::write`].
     ///
     /// # Errors
-    /// When the format has several files, errors of the stream, and when the meter was cancelled.
+    /// Fails when the format has several files, when the stream fails, and when the meter was cancelled.
     pub fn write_to(
         self,
         out: &mut dyn io::Write,
@@ -162,16 +162,16 @@ impl ExportFormat {
     }
 }
 
-/// Colours of a path over a mesh, and of the wider line below it.
+/// Colours of a path over a mesh, and of the wider line under it.
 const PATH_COLORS: [[u8; 3]; 2] = [[0xff, 0xff, 0xff], [0xc8, 0x1e, 0x4a]];
-/// Widths of these lines in pixels.
+/// Widths of the lines of [`PATH_COLORS`] in pixels.
 const PATH_WIDTHS: [f32; 2] = [4.0, 8.0];
 
 impl ExportFormat {
     /// Writes a picture of a mesh with a path over it, in world units.
     ///
     /// # Errors
-    /// When this is no format of a picture, errors of the stream, and when the meter was cancelled.
+    /// Fails when this is not a picture format, when the stream fails, and when the meter was cancelled.
     pub fn write_path_to(
         self,
         out: &mut dyn io::Write,
@@ -205,9 +205,10 @@ impl ExportFormat {
 /// The appearance of a picture of a whole mesh.
 #[derive(Clone, Debug)]
 pub struct Look {
-    /// In pixels, at most [`LARGEST_PICTURE`].
+    /// Width in pixels, at most [`LARGEST_PICTURE`].
     pub width: u32,
-    /// In pixels, at most [`LARGEST_PICTURE`]; `None` follows the proportions of the domain.
+    /// Height in pixels, at most [`LARGEST_PICTURE`]. With `None` it follows from the width and the
+    /// proportions of the domain.
     pub height: Option<u32>,
     /// Whether edges are drawn.
     pub edges: bool,

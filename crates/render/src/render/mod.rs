@@ -1,4 +1,4 @@
-//! Draws a scene: [`software`] everywhere, and on the GPU with the feature `gui`.
+//! Draws a scene, in software ([`software`]) or, with the feature `gui`, on the GPU.
 //!
 //! Both renderers colour a pixel by the same rule: the fill of the triangle that contains its centre, mixed
 //! with the colour of the edge by `edge_alpha · clamp(reach − d, 0, 1)`, where d is the distance to the
@@ -32,25 +32,25 @@ pub struct Image {
 }
 
 impl Image {
-    /// A picture of one colour.
+    /// Returns a picture of one colour.
     pub fn filled(size: [u32; 2], color: [u8; 4]) -> Self {
         Self { size, rgba: color.repeat(size[0] as usize * size[1] as usize) }
     }
 
-    /// The colour at a column and row, from the upper left.
+    /// Returns the colour at a column and row, counted from the upper left.
     ///
     /// # Panics
-    /// When there is no such pixel.
+    /// Panics when there is no such pixel.
     pub fn pixel(&self, column: u32, row: u32) -> [u8; 4] {
         self.pixels()[row as usize * self.size[0] as usize + column as usize]
     }
 
-    /// All pixels, row by row from the upper left.
+    /// Returns all pixels, row by row from the upper left.
     pub fn pixels(&self) -> &[[u8; 4]] {
         bytemuck::cast_slice(&self.rgba)
     }
 
-    /// All pixels, to be drawn on.
+    /// Returns all pixels for drawing, row by row from the upper left.
     pub fn pixels_mut(&mut self) -> &mut [[u8; 4]] {
         bytemuck::cast_slice_mut(&mut self.rgba)
     }

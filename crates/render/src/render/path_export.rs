@@ -12,7 +12,7 @@ use meshbrush_io::io::path::{write_csv, write_geojson};
 use meshbrush_io::io::{Meter, Provenance, write_file_metered};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 
-/// A format of files with a path.
+/// A file format for paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathFormat {
     /// A feature with the figures of the path.
@@ -23,7 +23,7 @@ pub enum PathFormat {
     Picture(ExportFormat),
 }
 
-/// The ending of a file name is not that of a format for paths.
+/// The error for a file name whose ending belongs to no format for paths.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}: the ending decides the format; use .geojson, .csv, .svg or .png", .0.display())]
 pub struct UnknownPathEnding(pub PathBuf);
@@ -32,10 +32,10 @@ impl PathFormat {
     /// All endings, without their dots, the usual one first.
     pub const ENDINGS: [&'static str; 5] = ["geojson", "csv", "svg", "png", "json"];
 
-    /// The format that the ending of a file name chooses; upper and lower case are the same.
+    /// Returns the format that the ending of a file name chooses; upper and lower case are the same.
     ///
     /// # Errors
-    /// When the ending is none of [`Self::ENDINGS`].
+    /// Fails when the ending is none of [`Self::ENDINGS`].
     pub fn of(path: &Path) -> Result<Self, UnknownPathEnding> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match ending.as_str() {
@@ -48,7 +48,7 @@ impl PathFormat {
     }
 }
 
-/// A path as files get it.
+/// A path prepared for export.
 pub struct PathExport<'a> {
     solution: Cow<'a, Solution>,
     samples: Vec<PathSample>,
@@ -58,18 +58,18 @@ pub struct PathExport<'a> {
 pub struct MeshOfPath<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
-    /// Its part in the domain.
+    /// The part of the mesh in the domain.
     pub extract: &'a Extract<'a>,
     /// The appearance of both.
     pub look: &'a Look,
 }
 
 impl<'a> PathExport<'a> {
-    /// A path with all its points, or simplified with a tolerance in world units ([`Solution::simplified`]).
-    /// `density` is what paths cost.
+    /// Prepares a path with all its points, or simplified with a tolerance in world units
+    /// ([`Solution::simplified`]). `density` is the cost density of the path.
     ///
     /// # Errors
-    /// When the tolerance is negative or NaN.
+    /// Fails when the tolerance is negative or NaN.
     pub fn new(
         solution: &'a Solution,
         density: &dyn CostDensity,
@@ -83,12 +83,12 @@ impl<'a> PathExport<'a> {
         Ok(Self { solution, samples })
     }
 
-    /// The path that is written, with its figures.
+    /// Returns the path that is written, with its figures.
     pub fn solution(&self) -> &Solution {
         &self.solution
     }
 
-    /// The points that are written, with the cost up to each.
+    /// Returns the points that are written, with the cost up to each.
     pub fn samples(&self) -> &[PathSample] {
         &self.samples
     }
@@ -96,7 +96,8 @@ impl<'a> PathExport<'a> {
     /// Writes the path to a file.
     ///
     /// # Errors
-    /// When the file cannot be written, and when the meter was cancelled. An existing file is then unchanged.
+    /// Fails when the file cannot be written, and when the meter was cancelled. An existing file is then
+    /// unchanged.
     pub fn write(
         &self,
         file: &Path,

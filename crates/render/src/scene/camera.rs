@@ -2,7 +2,7 @@ use glam::{DVec2, IVec2, dvec2};
 
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
 
-/// The furthest zoom out shows the whole grid on this share of the canvas.
+/// Smallest share of the canvas that the whole grid covers, at the furthest zoom out.
 const SMALLEST_SHARE: f64 = 0.25;
 /// Size of a lattice step, the leg of the deepest triangles, at the furthest zoom in, in pixels.
 const LARGEST_STEP_PX: f64 = 200.0;
@@ -21,8 +21,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera that shows `bounds`, in world units, as large as possible on a canvas of `size_px`, with a
-    /// margin of `margin_px` on every side.
+    /// Returns the camera that shows `bounds`, in world units, as large as possible on a canvas of `size_px`,
+    /// with a margin of `margin_px` on every side.
     pub fn fit(lattice: &Lattice, bounds: Rect, size_px: [u32; 2], margin_px: f64) -> Self {
         let size_px = size_px.map(|n| n.max(1));
         let px_per_world = fitting_scale(bounds, size_px, margin_px);
@@ -30,12 +30,13 @@ impl Camera {
         Self { lattice: *lattice, center, px_per_world, size_px }.within_limits()
     }
 
-    /// The same view on a canvas of another size: the middle stays in the middle.
+    /// Returns this view on a canvas of another size, in pixels. The point in the middle stays there.
     pub fn resized(self, size_px: [u32; 2]) -> Self {
         Self { size_px: size_px.map(|n| n.max(1)), ..self }.within_limits()
     }
 
-    /// The same view of another grid: the world keeps its place, as far as the other grid extends.
+    /// Returns this view on another grid. World positions stay where they are, as far as the other grid
+    /// extends.
     pub fn on_lattice(self, lattice: &Lattice) -> Self {
         if self.lattice == *lattice {
             return self;
@@ -49,8 +50,8 @@ impl Camera {
         Self { center: self.center - self.steps_from_px(delta_px), ..self }.within_limits()
     }
 
-    /// Scales the picture by `factor` and keeps the point at `at_px` in its place. Limits: the whole grid on
-    /// a quarter of the canvas, and 200 px per lattice step.
+    /// Scales the picture by `factor` and keeps the point at `at_px` in its place. The scale is limited to
+    /// the whole grid on a quarter of the canvas, and to 200 px per lattice step.
     pub fn zoomed(self, factor: f64, at_px: DVec2) -> Self {
         let fixed = self.lattice_from_screen(at_px);
         let scaled = Self { px_per_world: self.px_per_world * factor, ..self }.within_limits();
@@ -63,40 +64,41 @@ impl Camera {
         Self { center: self.lattice.lattice_from_world(world), ..self }.within_limits()
     }
 
-    /// The lattice of the grid.
+    /// Returns the lattice of the grid.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// Width and height of the canvas in pixels.
+    /// Returns width and height of the canvas in pixels.
     pub fn size_px(&self) -> [u32; 2] {
         self.size_px
     }
 
-    /// Pixels per world unit.
+    /// Returns pixels per world unit.
     pub fn px_per_world(&self) -> f64 {
         self.px_per_world
     }
 
-    /// Pixels per lattice step along x and y. They differ by up to 5 % where cells are not square.
+    /// Returns pixels per lattice step along x and y. They differ by up to 5 % where cells are not square.
     pub fn px_per_step(&self) -> DVec2 {
         self.px_per_world * self.lattice.step()
     }
 
-    /// The middle of the canvas as a lattice point (rounded down) and the remainder, in lattice steps from 0
-    /// to 1.
+    /// Returns the middle of the canvas as a lattice point (rounded down) and the remainder, in lattice steps
+    /// from 0 to 1.
     pub fn anchor(&self) -> (IVec2, DVec2) {
         let whole = self.center.floor();
         (whole.as_ivec2(), self.center - whole)
     }
 
-    /// Position of a node on the screen, in pixels.
+    /// Returns position of a node on the screen, in pixels.
     #[inline]
     pub fn screen_from_lattice(&self, p: LatticePoint) -> DVec2 {
         self.screen(p.as_dvec2() - self.center)
     }
 
-    /// [`Self::screen_from_lattice`] for many nodes: faster, and equal to the last bit.
+    /// Returns a function that does the work of [`Self::screen_from_lattice`] for many nodes: faster, with
+    /// results equal to the last bit.
     pub fn lattice_map(&self) -> impl Fn(LatticePoint) -> DVec2 + use<> {
         let (center, scale, middle) = (self.center, self.px_per_step(), self.half_size_px());
         move |p| {
@@ -105,35 +107,36 @@ impl Camera {
         }
     }
 
-    /// Position of a point of the world on the screen, in pixels.
+    /// Returns position of a point of the world on the screen, in pixels.
     pub fn screen_from_world(&self, p: DVec2) -> DVec2 {
         self.screen(self.lattice.lattice_from_world(p) - self.center)
     }
 
-    /// [`Self::screen_from_world`] for many points: faster, exact up to the rounding of world coordinates.
+    /// Returns a function that does the work of [`Self::screen_from_world`] for many points: faster, and
+    /// exact up to the rounding of world coordinates.
     pub fn screen_map(&self) -> impl Fn(DVec2) -> DVec2 + use<> {
         let (world, middle) = (self.world_from_lattice(self.center), self.half_size_px());
         let scale = dvec2(self.px_per_world, -self.px_per_world);
         move |p| middle + (p - world) * scale
     }
 
-    /// Lattice coordinates of a pixel position, as real numbers; the point may be outside the grid.
+    /// Returns lattice coordinates of a pixel position, as real numbers; the point may be outside the grid.
     pub fn lattice_from_screen(&self, px: DVec2) -> DVec2 {
         self.center + self.steps_from_px(px - self.half_size_px())
     }
 
-    /// World coordinates of a pixel position.
+    /// Returns world coordinates of a pixel position.
     pub fn world_from_screen(&self, px: DVec2) -> DVec2 {
         self.world_from_lattice(self.lattice_from_screen(px))
     }
 
-    /// The part of the world on the canvas.
+    /// Returns the rectangle of the world that the canvas shows.
     pub fn visible_world(&self) -> Rect {
         let [width, height] = self.size_px.map(f64::from);
         Rect::spanning(self.world_from_screen(DVec2::ZERO), self.world_from_screen(dvec2(width, height)))
     }
 
-    /// Half the size of the canvas: the position of its middle, in pixels.
+    /// Returns half the size of the canvas: the position of its middle, in pixels.
     pub fn half_size_px(&self) -> DVec2 {
         let [width, height] = self.size_px.map(f64::from);
         dvec2(width, height) / 2.0
@@ -155,8 +158,8 @@ impl Camera {
     fn within_limits(mut self) -> Self {
         let whole = fitting_scale(self.lattice.bounds(), self.size_px, 0.0);
         let smallest = whole * SMALLEST_SHARE;
-        // On a grid far from the origin with few halvings, a step at the scale that fits the whole grid can
-        // be larger.
+        // On a grid that is far from the origin and allows few halvings, a step can be larger than this at
+        // the scale that shows the whole grid.
         let largest = (LARGEST_STEP_PX / self.lattice.step().max_element()).max(whole);
         let scale = if self.px_per_world.is_finite() { self.px_per_world } else { whole };
         self.px_per_world = scale.clamp(smallest, largest);

@@ -5,8 +5,8 @@ use crate::colormap::Ground;
 use meshbrush_mesh::mesh::{MeshView, TriangleId};
 
 const WHITE: [u8; 3] = [0xff; 3];
-/// The outer part of every line. White and bright lines alone are hard to see on yellow, and on the light
-/// canvas.
+/// Colour of the dark outer part of every line. White and bright lines alone are hard to see on yellow, and
+/// on the light canvas.
 const HALO: [u8; 4] = [0, 0, 0, 0xf0];
 /// How far the halo extends beyond each side of its line, in points.
 const HALO_POINTS: f32 = 1.5;
@@ -14,7 +14,7 @@ const HALO_POINTS: f32 = 1.5;
 const NEIGHBOUR_FILL: u8 = 0x50;
 const HOVERED_FILL: u8 = 0x18;
 const SELECTED_FILL: u8 = 0x30;
-/// Outlines are clipped this far outside the canvas, further than any line width.
+/// Distance in pixels beyond the canvas at which outlines are clipped; larger than any line width.
 const CLIP_MARGIN_PX: f64 = 32.0;
 
 /// Triangles to emphasize.
@@ -22,14 +22,14 @@ const CLIP_MARGIN_PX: f64 = 32.0;
 pub struct Highlights {
     /// The queried triangle.
     pub selected: Option<TriangleId>,
-    /// Its neighbours, the bisection neighbour first; `None` at the boundary.
+    /// The neighbours of the selected triangle, the bisection neighbour first; `None` at the boundary.
     pub neighbours: [Option<TriangleId>; 3],
     /// The triangle under the pointer.
     pub hovered: Option<TriangleId>,
 }
 
 impl Highlights {
-    /// A triangle and its three neighbours.
+    /// Highlights a triangle and its three neighbours.
     pub fn around(mesh: MeshView<'_>, selected: TriangleId) -> Self {
         let neighbours = mesh.neighbours(selected).map(|n| n.triangle());
         Self { selected: Some(selected), neighbours, hovered: None }
@@ -49,10 +49,10 @@ pub struct Outline {
     pub line_width_px: f32,
 }
 
-/// The outlines of the highlights, in drawing order: each line after its dark halo, so that it is visible on
-/// the colour of any level. `px_per_point` scales line widths on dense screens.
+/// Returns the outlines of the highlights, in drawing order: each line after its dark halo, so that it is
+/// visible on the colour of any level. `px_per_point` scales line widths on dense screens.
 ///
-/// Ids that the mesh no longer has and triangles off the canvas have no outline.
+/// Ids that the mesh no longer has and triangles outside the canvas have no outline.
 pub fn highlight_outlines(
     mesh: MeshView<'_>,
     camera: &Camera,
@@ -174,7 +174,7 @@ mod tests {
         [mix(below[0], r), mix(below[1], g), mix(below[2], b)].map(|c| c.round() as u8)
     }
 
-    /// What outlines look like on the colour of each level, with every map on both grounds.
+    /// Calls `check` with the colour of each level, for every map on both grounds.
     fn on_every_level(mut check: impl FnMut(&str, [u8; 3])) {
         for map in Colormap::ALL {
             for ground in [Ground::Dark, Ground::Light] {

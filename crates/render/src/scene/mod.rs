@@ -1,5 +1,5 @@
-//! What a picture shows, as plain data: the mesh with its pieces, the camera, the appearance of levels, the
-//! highlights and the overlay.
+//! The contents of a picture as plain data: the mesh with its pieces, the camera, the appearance of levels,
+//! the highlights and the overlay.
 //!
 //! This module knows neither GPU nor window. Both renderers take their numbers from it, so they cannot
 //! diverge. Pixels are physical pixels, counted from the upper left corner of the canvas, y downwards.

@@ -32,7 +32,7 @@ pub struct TexelMap {
 }
 
 impl Overlay<'_> {
-    /// The position of its pixels on the screen.
+    /// Returns the map from screen positions to pixels of this overlay.
     pub fn texels(&self, camera: &Camera) -> TexelMap {
         let per_world = dvec2(f64::from(self.columns), f64::from(self.rows)) / self.bounds.size();
         let middle = camera.world_from_screen(camera.half_size_px());

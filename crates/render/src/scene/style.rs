@@ -5,7 +5,7 @@ fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
     [r, g, b, 0xff]
 }
 
-/// The appearance of a mesh. Colours are sRGB bytes.
+/// The appearance of a mesh. Colours are sRGB bytes from 0 to 255.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// Fill by level.
@@ -32,13 +32,13 @@ pub struct Style {
 const FADED_FILL: f32 = 0.12;
 /// Mean brightness, 0 to 1, below which the edges of a fill are lighter than it.
 const ALMOST_BLACK: f32 = 0.2;
-/// How far such edges are mixed with white, 0 to 1.
+/// Share of white in such edges, 0 to 1.
 const LIGHTER_EDGE: f32 = 0.13;
-/// The share of its edges that a faded level keeps.
+/// The share of the opacity of its edges that a faded level keeps.
 const FADED_EDGE: f32 = 0.5;
 
 impl Style {
-    /// The appearance on a dark ground.
+    /// Returns the appearance on a dark ground.
     pub fn dark(level_colors: impl Into<LevelColors>) -> Self {
         Self {
             level_colors: level_colors.into(),
@@ -52,49 +52,50 @@ impl Style {
         }
     }
 
-    /// The appearance on a light ground.
+    /// Returns the appearance on a light ground.
     pub fn light(level_colors: impl Into<LevelColors>) -> Self {
         Self { ground: opaque(Ground::Light.canvas()), edge_shade: 0.72, ..Self::dark(level_colors) }
     }
 
-    /// The same appearance on a screen with `px_per_point` pixels per point: edges keep their apparent width.
+    /// Returns this appearance for a screen with `px_per_point` pixels per point: edges keep their apparent
+    /// width.
     pub fn at_density(mut self, px_per_point: f32) -> Self {
         self.edge_width_px *= px_per_point;
         self.edge_fade_px = self.edge_fade_px.map(|px| px * px_per_point);
         self
     }
 
-    /// How far from the middle of an edge its colour extends, in pixels. A pixel whose centre is at distance
-    /// `d` has the coverage `edge_reach_px − d`, clamped to 0…1. Each of the two triangles draws its half of
-    /// the line.
+    /// Returns the distance in pixels to which the colour of an edge extends from its middle. A pixel whose
+    /// centre is at distance `d` has the coverage `edge_reach_px − d`, clamped to 0…1. Each of the two
+    /// triangles draws its half of the line.
     pub fn edge_reach_px(&self) -> f32 {
         self.edge_width_px / 2.0 + 0.5
     }
 
-    /// Subtracted from the distance to a boundary edge, in pixels: there is no neighbour to draw the other
-    /// half of the line, so the triangle draws both.
+    /// Returns the length in pixels that is subtracted from the distance to a boundary edge. There is no
+    /// neighbour to draw the other half of the line, so the triangle draws both.
     pub fn rim_px(&self) -> f32 {
         self.edge_width_px / 2.0
     }
 
-    /// Whether a level is shown in full.
+    /// Returns whether a level is shown in full.
     pub fn shows(&self, level: u32) -> bool {
         self.shown_levels >> level & 1 == 1
     }
 
-    /// The colour of pixels without a triangle, channels from 0 to 1: the ground, or nothing where something
-    /// may be drawn below the mesh.
+    /// Returns the colour of pixels without a triangle, channels from 0 to 1: the ground, or transparent
+    /// where something may be drawn below the mesh.
     pub fn clear_color(&self) -> [f32; 4] {
         let [r, g, b] = self.ground_color();
         if self.is_opaque() { [r, g, b, 1.0] } else { [0.0; 4] }
     }
 
-    /// Whether nothing below the picture can be seen.
+    /// Returns whether the picture hides everything below it.
     pub fn is_opaque(&self) -> bool {
         self.fill_opacity >= 1.0
     }
 
-    /// The colour of the ground, channels from 0 to 1.
+    /// Returns the colour of the ground, channels from 0 to 1.
     pub fn ground_color(&self) -> [f32; 3] {
         unit_color(self.ground)
     }
@@ -109,16 +110,16 @@ pub struct LevelPaint {
     pub edge: [f32; 3],
     /// Opacity of the edges: 0 where triangles are too small for edges.
     pub edge_alpha: f32,
-    /// Length of a leg.
+    /// Length of a leg in pixels.
     pub leg_px: f32,
-    /// Distance of the apex from the bisection edge.
+    /// Distance of the apex from the bisection edge in pixels.
     pub apex_height_px: f32,
-    /// Distance of the two other vertices from the legs opposite to them.
+    /// Distance of the two other vertices from the legs opposite to them, in pixels.
     pub base_height_px: f32,
 }
 
 impl LevelPaint {
-    /// The appearance of every level, from 0.
+    /// Returns the appearance of every level, from 0.
     ///
     /// Where cells are not square, lengths along x and y differ by up to 5 %; these are their means.
     pub fn all(camera: &Camera, style: &Style) -> [Self; LEVELS] {
@@ -153,8 +154,8 @@ fn fill_color(level: u32, style: &Style) -> [f32; 3] {
     if style.shows(level) { own } else { mixed(style.ground_color(), own, FADED_FILL) }
 }
 
-/// A darker tint of the fill; on a fill that is almost black a lighter one, so that an unrefined mesh is
-/// visible.
+/// Returns the colour of the edges on a fill: a darker tint, or a lighter one on a fill that is almost black,
+/// so that an unrefined mesh is visible.
 fn edge_color(fill: [f32; 3], style: &Style) -> [f32; 3] {
     let is_almost_black = fill.iter().sum::<f32>() < 3.0 * ALMOST_BLACK;
     if is_almost_black { mixed(fill, [1.0; 3], LIGHTER_EDGE) } else { fill.map(|c| c * style.edge_shade) }

@@ -1,4 +1,4 @@
-//! Figures of large and of deep layers. They take long in a debug build:
+//! Measures times and memory of large and of deep layers. They take long in a debug build:
 //!
 //! ```sh
 //! cargo test --release --test files figures -- --ignored --nocapture --test-threads 1
@@ -26,7 +26,7 @@ const SLICE: usize = 2048;
 /// The window's default brush on the unit square.
 const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 
-/// `MESHBRUSH_SIDE` says how many pixels the raster has along a side.
+/// Reads the number of pixels along a side of the raster from `MESHBRUSH_SIDE`.
 #[test]
 #[ignore = "takes minutes in a debug build, and is there for its figures"]
 fn figures_of_a_large_raster() {
@@ -74,7 +74,7 @@ fn figures_of_a_large_raster() {
     eprintln!("at the end: {}", memory());
 }
 
-/// A stroke at fit, and the same at 4,096 times the zoom on a mesh that is as large.
+/// Measures a stroke on the whole view, and a stroke at 4,096 times the zoom on an equally large mesh.
 #[test]
 #[ignore = "is there for its figures"]
 fn figures_of_a_stroke_at_4096_times_zoom() {
@@ -133,7 +133,7 @@ fn project_bytes(document: &Document) -> usize {
     bytes.len()
 }
 
-/// A grey picture of smooth hills with grain, written row by row.
+/// Returns a grey picture of smooth hills with grain, written row by row.
 fn written_picture(side: u32) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let file = folder.join("large.png");
@@ -157,7 +157,7 @@ fn written_picture(side: u32) -> PathBuf {
     file
 }
 
-/// Memory of this process now and at its peak, where the system reports it.
+/// Returns memory of this process now and at its peak, where the system reports it.
 fn memory() -> String {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let megabytes = |key: &str| {

@@ -60,13 +60,13 @@ fn read_formula(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Reads a recording and does its edits again.
+/// Reads a recording and repeats its edits.
 fn read_recording(bytes: &[u8]) -> Result<(), String> {
     let file = recording::from_bytes(bytes, Path::new(NAME)).map_err(|error| error.to_string())?;
     file.replay(&Meter::default()).map(drop).map_err(|error| error.to_string())
 }
 
-/// A recording of a stroke and its undo on a few coarse triangles.
+/// Returns a recording of a stroke and its undo on a few coarse triangles.
 fn recording_sample() -> Vec<u8> {
     let layers = Layer::stack([LayerKind::Paint(Quantity::Diameter)]);
     let settings = Settings { spacing: 0.9, max_triangles: 500, layers, ..Settings::default() };
@@ -124,7 +124,7 @@ combine = "floor"
 file = "a.vtu"
 "#;
 
-/// A small valid file of each format with its reader.
+/// Returns a small valid file of each format with its reader.
 fn samples() -> Vec<(Vec<u8>, Reader)> {
     let mut png = Vec::new();
     let mut encoder = png::Encoder::new(&mut png, 5, 4);
@@ -145,7 +145,7 @@ fn samples() -> Vec<(Vec<u8>, Reader)> {
     ]
 }
 
-/// The samples, and a recipe. A part of a recipe can be a recipe, even an empty one.
+/// Returns the samples, and a recipe. A part of a recipe can be a recipe, even an empty one.
 fn all_samples() -> Vec<(Vec<u8>, Reader)> {
     samples().into_iter().chain([(RECIPE.into(), read_recipe as Reader)]).collect()
 }
@@ -178,7 +178,7 @@ fn damaged_recordings_give_a_result_or_a_sentence() {
     assert!(read_recording(&[]).is_err() && read_recording(&file[..file.len() / 2]).is_err());
     let mut changed = file.clone();
     for at in 0..file.len() {
-        // Each is a mesh: fewer changes than of the other formats.
+        // Each change is a whole mesh, so there are fewer changes than for the other formats.
         changed[at] = [b'9', b'-', b'"', 0xff][at % 4];
         assert_sentence(read_recording(&changed));
         changed[at] = file[at];
@@ -199,7 +199,7 @@ fn every_changed_byte_gives_a_result_or_a_sentence() {
     }
 }
 
-/// The words of a text and what separates them.
+/// Returns the words of a text and what separates them.
 fn words(text: &str) -> Vec<&str> {
     let is_word = |c: &char| c.is_alphanumeric() || "._-+".contains(*c);
     let mut ends: Vec<usize> = Vec::new();

@@ -14,7 +14,7 @@ use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Extract, Limits, Mesh, NodeId};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 
-/// A mesh as a reader finds it.
+/// A mesh read from a file.
 #[derive(Debug, Default)]
 struct Found {
     nodes: Vec<DVec2>,
@@ -27,7 +27,7 @@ struct Found {
     parts: Vec<u32>,
 }
 
-/// What was written.
+/// A mesh that was written, with its data.
 struct Sample {
     mesh: Mesh,
     targets: Vec<f64>,
@@ -37,7 +37,7 @@ struct Sample {
     provenance: Provenance,
 }
 
-/// A command with all that formats have to escape.
+/// A command with all characters that formats must escape.
 const COMMAND: &str = "meshbrush mesh --target 'x < 1 & \"y\" > 2' ?> --quantity ä\n-o m";
 
 impl Sample {
@@ -48,7 +48,7 @@ impl Sample {
                 .unwrap();
         let focus = bounds.min + 0.3 * bounds.size();
         let target = |p: DVec2| finest + 0.3 * (p - focus).length();
-        mesh.refine(&limits, |e| Ok(e.world_corners().iter().any(|&p| e.diameter() > target(p)))).unwrap();
+        mesh.refine(&limits, |e| e.world_corners().iter().any(|&p| e.diameter() > target(p))).unwrap();
         let nodes = || (0..mesh.raw_nodes().len()).map(|n| mesh.world(NodeId::from_index(n)));
         let targets = nodes().map(target).collect();
         let height =
@@ -58,7 +58,7 @@ impl Sample {
         Self { targets, quantities: vec![height], boundary, parts, provenance, mesh }
     }
 
-    /// A square, a rectangle whose cells are not square, and a ring with a hole.
+    /// Returns a square, a rectangle whose cells are not square, and a ring with a hole.
     fn all() -> Vec<Self> {
         let oblong = Rect::new(dvec2(-3.25, 100.0), dvec2(4.5, 103.3));
         let ring = |p: DVec2| (0.5..=1.2).contains(&p.length());
@@ -69,7 +69,7 @@ impl Sample {
         ]
     }
 
-    /// A square with enough triangles for arrays of several blocks.
+    /// Returns a square with enough triangles for arrays of several blocks.
     fn fine() -> Self {
         Self::new(Rect::UNIT, 0.005, |_| true, 0.001)
     }
@@ -79,12 +79,12 @@ impl Sample {
         MeshData { target_diameter: targets, quantities, boundary, parts, provenance }
     }
 
-    /// The names of the pieces, in the order of their markers.
+    /// Returns the names of the pieces, in the order of their markers.
     fn names(&self) -> Vec<&str> {
         self.boundary.pieces().list().iter().map(|piece| piece.name.as_str()).collect()
     }
 
-    /// Fails unless an edge of the boundary may have this name, as its place says.
+    /// Fails unless an edge of the boundary may have this name at its position.
     fn assert_named(&self, ends: [usize; 2], name: &str) {
         let [a, b] = ends.map(|node| self.mesh.world(NodeId::from_index(node)));
         let Rect { min, max } = self.mesh.lattice().bounds();
@@ -124,7 +124,7 @@ impl Sample {
         file
     }
 
-    /// The area of all triangles, from the coarse triangles that were kept.
+    /// Returns the area of all triangles, from the coarse triangles that were kept.
     fn area(&self) -> f64 {
         let lattice = self.mesh.lattice();
         let [columns, rows] = lattice.cells().map(f64::from);
@@ -147,7 +147,7 @@ impl Sample {
         self.assert_well_made(found, 1e-9);
     }
 
-    /// Anticlockwise triangles that cover the area, the first edge the longest.
+    /// Checks that the triangles are anticlockwise, cover the area, and have their longest edge first.
     fn assert_well_made(&self, found: &Found, tolerance: f64) {
         let mut covered = 0.0;
         for corners in &found.triangles {
@@ -231,7 +231,7 @@ fn read_vtu(file: &[u8]) -> Found {
     }
 }
 
-/// The blocks of a compressed array, each as long as its table says.
+/// Returns the blocks of a compressed array. Each must be as long as the table in the file says.
 fn decompressed(array: &[u8]) -> Vec<u8> {
     let word = |n: usize| u64::from_le_bytes(array[8 * n..][..8].try_into().unwrap()) as usize;
     let (blocks, whole, last) = (word(0), word(1), word(2));
@@ -382,7 +382,8 @@ fn two_dm_reads_back_with_its_boundary() {
 
 #[test]
 fn a_nodestring_stays_at_one_piece_of_the_outside() {
-    // Without the six triangles around each of two nodes; the two hexagons touch in the node between them.
+    // The mesh lacks the six triangles around each of two nodes; the two hexagons touch in the node between
+    // them.
     let left_out = [dvec2(0.375, 0.5), dvec2(0.625, 0.5)];
     let sample = Sample::new(Rect::UNIT, 0.125, |p| !left_out.contains(&p), 0.5);
     let (_, strings, _) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
@@ -392,7 +393,7 @@ fn a_nodestring_stays_at_one_piece_of_the_outside() {
     assert_eq!(edges, [6, 6, 8, 8, 8, 8]);
 }
 
-/// The mesh, its nodestrings, and their names.
+/// Returns the mesh, its nodestrings, and their names.
 fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>, Vec<String>) {
     assert!(file.starts_with("MESH2D\nMESHNAME \"Meshbrush\"\nNUM_MATERIALS_PER_ELEM 1\n"));
     let mut found = Found::default();
@@ -431,7 +432,7 @@ fn read_2dm(file: &str) -> (Found, Vec<Vec<usize>>, Vec<String>) {
     (found, strings, names)
 }
 
-/// Lines that are the boundary, each edge once, the domain to the left.
+/// Checks that the lines together contain each boundary edge once, with the domain to the left.
 fn assert_strings_follow_the_boundary(mesh: &Mesh, strings: &[Vec<usize>]) {
     let mut drawn: Vec<[usize; 2]> =
         strings.iter().flat_map(|string| string.windows(2).map(|edge| [edge[0], edge[1]])).collect();
@@ -471,7 +472,7 @@ fn stl_refuses_a_mesh_with_triangles_too_small_for_its_numbers() {
     assert!(failed.to_string().contains("x = 5000"), "{failed}");
 }
 
-/// Neighbours share exactly the edges that they should; returns the edges without one.
+/// Checks that neighbours share exactly the edges that they should; returns the edges without a neighbour.
 fn assert_neighbours(
     triangles: &[[usize; 3]],
     across: &[[Option<usize>; 3]],
@@ -500,7 +501,7 @@ fn msh_reads_back_with_its_boundary() {
         let (found, boundary) = read_msh(&file);
         sample.assert_same(&found);
         assert_eq!(found.quantities, sample.quantities[0].values);
-        // Round the boundary and every hole: each of its nodes is left as often as it is reached.
+        // Around the boundary and every hole, each node is left as often as it is reached.
         let mut degree = HashMap::new();
         for (ends, name) in &boundary {
             sample.assert_named(*ends, name);
@@ -516,7 +517,7 @@ fn msh_reads_back_with_its_boundary() {
     }
 }
 
-/// The mesh, and its boundary edges with the names of their physical groups.
+/// Returns the mesh, and its boundary edges with the names of their physical groups.
 fn read_msh(file: &str) -> (Found, Vec<([usize; 2], String)>) {
     let section = |name: &str| -> Vec<&str> {
         let body = file.split(&format!("${name}\n")).nth(1).unwrap();
@@ -619,7 +620,7 @@ fn binary_msh_has_the_numbers_of_the_text() {
     }
 }
 
-/// The lines of names and comments, and all numbers of the other sections but for counts of data.
+/// Returns the lines of names and comments, and all numbers of the other sections except counts of data.
 fn read_binary_msh(file: &[u8]) -> (Vec<String>, Vec<f64>) {
     let (mut at, mut words, mut found) = (0, Vec::new(), Vec::new());
     let line = |at: &mut usize| {
@@ -853,7 +854,7 @@ fn svg_shows_every_triangle_and_every_edge_once() {
                         })
                     })
                     .collect();
-                // Drawn over the apex, in either direction.
+                // The line is drawn over the apex, in either direction.
                 let [a, apex, b] = triangle.try_into().unwrap();
                 let turn = (found.nodes[b] - found.nodes[a]).perp_dot(found.nodes[apex] - found.nodes[a]);
                 found.triangles.push(if turn > 0.0 { [a, b, apex] } else { [b, a, apex] });
@@ -870,7 +871,7 @@ fn svg_shows_every_triangle_and_every_edge_once() {
     }
 }
 
-/// The corners of each piece of a path of M, m, h, v, l and z.
+/// Returns the corners of each piece of a path of M, m, h, v, l and z.
 fn path_points(data: &str) -> Vec<Vec<[i64; 2]>> {
     let mut pieces: Vec<Vec<[i64; 2]>> = Vec::new();
     let mut at = [0, 0];

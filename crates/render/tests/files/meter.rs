@@ -36,13 +36,13 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// A mesh with enough triangles for several blocks in every format.
+/// Returns a mesh with enough triangles for several blocks in every format.
 fn mesh() -> (Mesh, Vec<f64>) {
     let limits = Limits::default();
     let mut mesh =
         Mesh::coarse_grid(&Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(), |_| true, &limits)
             .unwrap();
-    mesh.refine(&limits, |element| Ok(element.diameter() > 0.01)).unwrap();
+    mesh.refine(&limits, |element| element.diameter() > 0.01).unwrap();
     let targets = vec![0.01; mesh.raw_nodes().len()];
     (mesh, targets)
 }
@@ -62,7 +62,7 @@ impl Details {
     }
 }
 
-/// A project with a picture, polygons and paint, each larger than a block.
+/// Returns a project with a picture, polygons and paint, each larger than a block.
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/aegean_sea.geojson")).unwrap();
     let sea = geojson::read_named_from(&sea[..], Path::new("sea")).unwrap();
@@ -74,7 +74,7 @@ fn large_project() -> Project {
     project
 }
 
-/// A grid larger than a block.
+/// Returns a grid larger than a block.
 fn grid_file(folder: &Path) -> PathBuf {
     let file = folder.join("grid.asc");
     let values = (0..200 * 200).map(|n| n as f32).collect();
@@ -213,7 +213,7 @@ fn a_cancelled_save_leaves_the_old_file() {
     let project = large_project();
     fs::write(&file, "an old project").unwrap();
     let before = files(&folder);
-    // Before the first part, and between two of them.
+    // Cancel before the first part, and between the two parts.
     for after in [0, 1] {
         let meter = Meter::default();
         if after == 0 {

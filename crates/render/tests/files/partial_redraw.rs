@@ -1,4 +1,5 @@
-//! A picture that is drawn again only where the mesh changed is the one that is drawn whole, pixel by pixel.
+//! A picture that is redrawn only where the mesh changed equals the picture that is drawn whole, pixel by
+//! pixel.
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
@@ -94,7 +95,7 @@ impl Scene {
     }
 }
 
-/// Runs random steps. Both kinds of drawing must have happened often.
+/// Runs random steps and checks that partial and whole drawing both happened often.
 fn compare(settings: &Settings) {
     let (mut partial, mut whole) = (0, 0);
     for seed in 0..2 {

@@ -24,7 +24,7 @@ fn whole(mesh: &Mesh, size: [u32; 2]) -> Camera {
     Camera::fit(mesh.lattice(), mesh.lattice().bounds(), size, 5.0)
 }
 
-/// The ends of an edge on the boundary that runs along no axis and no diagonal.
+/// Returns the ends of an edge on the boundary that runs along no axis and no diagonal.
 fn skewed_boundary_edge(pieces: &PatchPieces) -> [LatticePoint; 2] {
     let is_skewed = |[a, b]: &[LatticePoint; 2]| {
         let (dx, dy) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
@@ -37,7 +37,7 @@ fn skewed_boundary_edge(pieces: &PatchPieces) -> [LatticePoint; 2] {
     ends.find(is_skewed).unwrap()
 }
 
-/// Whole, and closer and closer on a corner and on an edge of a piece.
+/// Returns cameras on the whole mesh, and ever closer to a corner and to an edge of a piece.
 fn cameras(mesh: &Mesh, pieces: &PatchPieces) -> Vec<Camera> {
     let [a, b] = skewed_boundary_edge(pieces).map(|p| mesh.lattice().world_from_lattice(p));
     let base = whole(mesh, SIZE);
@@ -50,13 +50,13 @@ fn cameras(mesh: &Mesh, pieces: &PatchPieces) -> Vec<Camera> {
     cameras
 }
 
-/// Positions in 2⁻²⁰ of a lattice step.
+/// Returns a position in units of 2⁻²⁰ lattice steps.
 fn fine(p: DVec2) -> [i128; 2] {
     let scaled = p * f64::from(1 << 20);
     [scaled.x.round() as i128, scaled.y.round() as i128]
 }
 
-/// Distance of a pixel from the nearest edge of an anticlockwise triangle; negative outside.
+/// Returns distance of a pixel from the nearest edge of an anticlockwise triangle; negative outside.
 fn inside_px(corners: [LatticePoint; 3], p: [i128; 2], camera: &Camera) -> f64 {
     let corners = corners.map(|c| [i128::from(c.x) << 20, i128::from(c.y) << 20]);
     let scale = camera.px_per_step();

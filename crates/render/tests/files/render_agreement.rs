@@ -9,7 +9,7 @@ use crate::kept_picture::keep;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::BuiltMesh;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush_mesh::mesh::{Changes, Element, Limits, Mesh, PatchPieces, Progress, Updater};
+use meshbrush_mesh::mesh::{Changes, Element, InvalidTarget, Limits, Mesh, PatchPieces, Progress, Updater};
 use meshbrush_render::colormap::{LEVELS, LevelColors};
 use meshbrush_render::render::gpu::{ChunkLimits, GpuError, GpuRenderer, Offscreen, ShownImage, read_back};
 use meshbrush_render::render::software::PxRect;
@@ -17,11 +17,11 @@ use meshbrush_render::render::{Image, software};
 use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 
 const SIZE: [u32; 2] = [400, 300];
-/// Windows have one or the other.
+/// The formats of the canvases of windows.
 const CANVAS_FORMATS: [wgpu::TextureFormat; 2] =
     [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
 
-/// A device, or `None` where there is none and that is allowed.
+/// Opens a device; `None` where there is no driver and MESHBRUSH_REQUIRE_GPU is not set.
 fn gpu() -> Option<Offscreen> {
     match Offscreen::new() {
         Ok(offscreen) => Some(offscreen),
@@ -33,7 +33,7 @@ fn gpu() -> Option<Offscreen> {
     }
 }
 
-/// Level 0 dark, then from violet to yellow, similar to the colours of the program.
+/// Returns colours similar to those of the program: level 0 dark, then from violet to yellow.
 fn colors() -> LevelColors {
     const STOPS: [[f32; 3]; 5] =
         [[70., 40., 120.], [59., 82., 139.], [33., 145., 140.], [94., 201., 98.], [253., 231., 37.]];
@@ -49,7 +49,7 @@ fn colors() -> LevelColors {
     .into()
 }
 
-/// Graded towards a curve, with a round hole.
+/// Returns a mesh that is graded towards a curve, with a round hole.
 fn graded() -> Mesh {
     let contains = |p: DVec2| p.distance(dvec2(0.7, 0.3)) > 0.15;
     let mut mesh = Mesh::coarse_grid(
@@ -61,13 +61,13 @@ fn graded() -> Mesh {
     mesh.refine(&Limits::default(), |element| {
         let near = |x: DVec2| (x.y - 0.5 - 0.3 * (6.0 * x.x).sin()).abs();
         let target = element.world_corners().map(near).into_iter().fold(f64::MAX, f64::min);
-        Ok(element.diameter() > (0.08 * target).max(0.0012))
+        element.diameter() > (0.08 * target).max(0.0012)
     })
     .unwrap();
     mesh
 }
 
-/// Refined to the last level of the lattice round one node.
+/// Returns a mesh that is refined to the last level of the lattice around one node, and that node.
 fn deep() -> (Mesh, LatticePoint) {
     let mut mesh = Mesh::coarse_grid(
         &Lattice::covering(Rect::UNIT, 0.3, 1_000_000).unwrap(),
@@ -82,7 +82,7 @@ fn deep() -> (Mesh, LatticePoint) {
         let ys = element.corners.map(|c| c.y);
         let in_box = (xs.iter().min() <= Some(&point.x) && Some(&point.x) <= xs.iter().max())
             && (ys.iter().min() <= Some(&point.y) && Some(&point.y) <= ys.iter().max());
-        Ok(in_box && element.triangle.level() < deepest)
+        in_box && element.triangle.level() < deepest
     })
     .unwrap();
     assert_eq!(mesh.level_counts().len() as u32, deepest + 1);
@@ -93,12 +93,12 @@ fn whole(mesh: &Mesh) -> Camera {
     Camera::fit(mesh.lattice(), mesh.lattice().bounds(), SIZE, 10.0)
 }
 
-/// A node on the curve of [`graded`], a little off the middle.
+/// Returns a camera on a node on the curve of [`graded`], a little off the middle.
 fn close_up(mesh: &Mesh, zoom: f64) -> Camera {
     whole(mesh).zoomed(zoom, DVec2::ZERO).centered_on(dvec2(0.5, 0.55)).panned(dvec2(10.3, 5.8))
 }
 
-/// Mean difference of a colour component, and the share of pixels that differ by more than 8 in one.
+/// Returns mean difference of a colour component, and the share of pixels that differ by more than 8 in one.
 fn difference(a: &Image, b: &Image) -> (f64, f64) {
     assert_eq!(a.size, b.size);
     let largest = |(p, q): (&[u8; 4], &[u8; 4])| (0..3).map(|c| p[c].abs_diff(q[c])).max().unwrap();
@@ -162,7 +162,7 @@ fn pictures_agree_where_cells_are_not_square() {
     assert!((step.x / step.y - 1.04).abs() < 1e-9, "{step}");
     mesh.refine(&Limits::default(), |element| {
         let near = element.world_corners().iter().any(|x| x.distance(dvec2(-6.5, 3.4)) < 0.3);
-        Ok(element.diameter() > if near { 0.02 } else { 0.2 })
+        element.diameter() > if near { 0.02 } else { 0.2 }
     })
     .unwrap();
     gpu.show(&mesh, 1).unwrap();
@@ -309,10 +309,10 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
         let center = dvec2(0.1 + 0.07 * step as f64, 0.5);
         mesh.refine(&Limits::default(), |element| {
             let near = element.world_corners().iter().any(|x| x.distance(center) < 0.1);
-            Ok(near && element.diameter() > 0.008)
+            near && element.diameter() > 0.008
         })
         .unwrap();
-        // The last step takes all back, as coarsening would.
+        // The last step undoes all changes, as coarsening would.
         if step == 11 {
             mesh = Mesh::coarse_grid(
                 &Lattice::covering(Rect::UNIT, 0.05, 1_000_000).unwrap(),
@@ -340,7 +340,7 @@ fn changed<T: PartialEq>(before: &[T], after: &[T]) -> Vec<std::ops::Range<usize
     (0..after.len()).filter(|&i| before.get(i) != Some(&after[i])).map(|i| i..i + 1).collect()
 }
 
-/// Level 13 wherever a triangle touches one of the squares, level 7 elsewhere.
+/// Returns whether an element exceeds level 13 where it touches one of the squares, or level 7 elsewhere.
 fn exceeds(element: &Element, squares: &[LatticeRect]) -> bool {
     let fine = squares.iter().any(|square| square.touches(element.corners));
     element.triangle.level() < if fine { 13 } else { 7 }
@@ -361,7 +361,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let square = |x, y, half| coarse.lattice().rect_around(&Rect::around(dvec2(x, y), half)).unwrap();
     let [first, second, third] = [(0.3, 0.3), (0.7, 0.6), (0.3, 0.75)].map(|(x, y)| square(x, y, 0.12));
     let mut squares = vec![first, second];
-    mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &squares))).unwrap();
+    mesh.refine(&Limits::default(), |element| exceeds(element, &squares)).unwrap();
     let mut updater = Updater::new(Limits::default());
     gpu.show(&coarse, 0).unwrap();
     gpu.renderer().mirror_mut().begin_upload(&mesh, 1).unwrap();
@@ -369,8 +369,8 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let (mut revision, mut lengths) = (1, vec![]);
     while gpu.renderer().mirror_mut().advance_upload(&mesh, whole_bytes / 16) == Progress::More {
         assert!(revision < 60, "edits hold the upload up: {lengths:?}");
-        // Small edits, one that outgrows the buffers, one that takes away more than is left to send, and one
-        // after that.
+        // Small edits; an edit that outgrows the buffers; an edit that removes more than is still to be sent;
+        // and another small edit.
         let small =
             square(0.1 + 0.1 * (revision / 2 % 8) as f64, 0.2 + 0.1 * (revision / 2 % 7) as f64, 0.03);
         let edited = match revision {
@@ -385,7 +385,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
         }
         revision += 1;
         updater.add(edited);
-        while updater.advance(&mut mesh, |e| Ok(exceeds(e, &squares)), usize::MAX) != Ok(Progress::Done) {}
+        while updater.advance(&mut mesh, |e| exceeds(e, &squares), usize::MAX) != Ok(Progress::Done) {}
         let Some(changes) = updater.take_changes() else { continue };
         gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));
@@ -475,7 +475,7 @@ fn a_part_of_a_picture_is_written_to_its_place() {
     }
 }
 
-/// A canvas that can be read back.
+/// Returns a canvas that can be read back.
 fn canvas(device: &wgpu::Device, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
     device.create_texture(&wgpu::TextureDescriptor {
         label: None,
@@ -512,14 +512,14 @@ fn a_canvas_without_a_mesh_is_its_ground() {
     assert_eq!(picture, Image::filled(SIZE, style.ground));
 }
 
-/// As [`assert_agree`], but so strictly that a wrong line along the coast is found.
+/// Asserts as [`assert_agree`] does, but so strictly that a wrong line along the coast is found.
 fn assert_agree_closely(name: &str, gpu: &Image, software: &Image) {
     assert_agree(name, gpu, software);
     let (_, differing) = difference(gpu, software);
     assert!(differing < 0.0005, "{name}: {differing} of the pixels differ");
 }
 
-/// Compares pictures of a mesh with pieces: whole, and close to a place on the coast.
+/// Compares pictures of a mesh with pieces: the whole mesh, and a close-up of the coast.
 fn assert_coasts_agree(name: &str, gpu: &mut Offscreen, mesh: &Mesh, pieces: Option<&PatchPieces>) {
     let style = Style::dark(colors());
     let at = dvec2(0.86, 0.0);
@@ -532,7 +532,7 @@ fn assert_coasts_agree(name: &str, gpu: &mut Offscreen, mesh: &Mesh, pieces: Opt
     }
 }
 
-/// The limits with which a mesh needs many buffers.
+/// Returns limits with which a mesh needs many buffers.
 fn small_chunks(mesh: &Mesh) -> ChunkLimits {
     let node_bits = (mesh.raw_nodes().len() as u32).div_ceil(3).next_power_of_two().ilog2();
     ChunkLimits { triangles: 301, node_bits }
@@ -570,14 +570,14 @@ fn pieces_agree_at_every_zoom() {
     }
 }
 
-/// Makes a mesh fine around a place, or as it was, and returns what changed.
+/// Makes a mesh fine around a point, or coarse again with `None`, and returns the changes.
 fn edit(mesh: &mut Mesh, built: &BuiltMesh, fine: Option<DVec2>) -> Changes {
     let before = mesh.clone();
     let mut updater = Updater::new(Limits::default());
     updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() });
     let mut criterion = built.criterion(None);
     let fine = fine.map(|at| mesh.lattice().rect_around(&Rect::around(at, 0.1)).unwrap());
-    let mut exceeds = |element: &Element| {
+    let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
         let is_fine = fine.is_some_and(|square| square.touches(element.corners));
         Ok((is_fine && element.triangle.level() < 11) || criterion.exceeds(element)?)
     };

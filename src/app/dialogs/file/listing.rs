@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::app::jobs::{Job, Jobs, Kind, Taken};
 use meshbrush_io::io::{self, FolderListing, MOST_ENTRIES};
 
-/// What is known of the contents of a folder.
+/// The contents of a folder, as far as they are known.
 pub enum Contents {
     /// They are being read.
     Reading,
@@ -50,12 +50,12 @@ impl Listing {
         *self = Self::of(&self.folder, &self.jobs);
     }
 
-    /// What is known.
+    /// Returns the contents of the folder, as far as they are known.
     pub fn contents(&self) -> &Contents {
         &self.contents
     }
 
-    /// The note below a list that is not complete.
+    /// Returns the note below a list that is not complete.
     pub fn note(&self) -> Option<String> {
         let is_cut = matches!(&self.contents, Contents::Read(listing) if listing.is_cut);
         is_cut.then(|| format!("Only {MOST_ENTRIES} entries are listed. Type the name of another one."))

@@ -8,10 +8,10 @@ mod view;
 
 use std::path::{Path, PathBuf};
 
-use super::FileRequest;
 use crate::app::busy::Busy;
 use crate::app::file_kinds::EXPORT_MESH;
 use crate::app::jobs::Jobs;
+use crate::app::kit::FileRequest;
 use listing::{Contents, Listing};
 use meshbrush_io::io::{self, FolderEntry};
 use meshbrush_render::render::export::ExportFormat;
@@ -58,17 +58,17 @@ impl FileDialog {
         dialog
     }
 
-    /// What is asked for.
+    /// Returns the request that the dialog answers.
     pub fn request(&self) -> FileRequest {
         self.request
     }
 
-    /// Whether the answer is being tried.
+    /// Returns whether the answer is being tried.
     pub fn is_waiting(&self) -> bool {
         self.waits.is_some()
     }
 
-    /// Whether the dialog covers the window. It makes way for a file that takes long to write.
+    /// Returns whether the dialog covers the window. It makes way for a file that takes long to write.
     pub fn is_shown(&self) -> bool {
         !(self.request.writes() && self.waits.is_some_and(|since| since.is_long()))
     }
@@ -84,19 +84,19 @@ impl FileDialog {
         self.waits = None;
     }
 
-    /// The path that the text means.
+    /// Returns the path that the text means.
     fn path(&self) -> PathBuf {
         let path = io::resolve(&self.text, &self.folder, self.home.as_deref());
         let asks_for_format = self.request == &EXPORT_MESH && path.extension().is_none();
         if asks_for_format { path.with_extension(self.ending()) } else { path }
     }
 
-    /// The ending of a file to write, without the dot.
+    /// Returns the ending of a file to write, without the dot.
     fn ending(&self) -> &'static str {
         if self.request == &EXPORT_MESH { self.format.ending() } else { (self.request.endings)()[0] }
     }
 
-    /// The folder and the beginning of a name that a typed text asks for.
+    /// Returns the folder and the beginning of a name that a typed text asks for.
     fn typed(&self) -> (PathBuf, String) {
         if !self.is_typed {
             return (self.folder.clone(), String::new());
@@ -109,7 +109,7 @@ impl FileDialog {
         (io::resolve(folder, &self.folder, self.home.as_deref()), name.trim_start().to_owned())
     }
 
-    /// The entries that the list shows.
+    /// Returns the entries that the list shows.
     fn rows(&self) -> Vec<FolderEntry> {
         let Contents::Read(listing) = self.listing.contents() else { return Vec::new() };
         let beginning = self.typed().1.to_lowercase();
@@ -164,7 +164,7 @@ impl FileDialog {
         true
     }
 
-    /// The path to read or write. If it is a folder, the dialog enters it instead.
+    /// Returns the path to read or write. If it is a folder, the dialog enters it instead.
     fn accept(&mut self) -> Option<PathBuf> {
         let path = self.path();
         if io::is_folder(&path) {
@@ -196,8 +196,8 @@ impl FileDialog {
     }
 }
 
-/// What the names of all rows begin with, in the capitals of the first one; the only row, if it is a folder,
-/// with a slash.
+/// Returns the common beginning of the names of all rows, in the capitals of the first one. If there is only
+/// one row and it is a folder, a slash follows.
 fn common_beginning(rows: &[FolderEntry]) -> String {
     let names: Vec<String> = rows.iter().map(|row| row.name.to_string_lossy().into_owned()).collect();
     let lower: Vec<Vec<char>> = names.iter().map(|name| name.to_lowercase().chars().collect()).collect();

@@ -23,7 +23,7 @@ const WIDTH: f32 = 600.0;
 /// Height of the list.
 const LIST: f32 = 264.0;
 
-/// What the dialog says about the document and about files that are being read.
+/// The facts about the document, and about files that are being read, that the dialog shows.
 pub struct FileFacts<'a> {
     /// Triangles that an export writes.
     pub triangles: usize,
@@ -31,12 +31,12 @@ pub struct FileFacts<'a> {
     pub reads: &'a [Row],
 }
 
-/// What [`FileDialog::show`] answers.
+/// The answer of [`FileDialog::show`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileAnswer {
-    /// It is still open.
+    /// The dialog is still open.
     Open,
-    /// It was closed.
+    /// The dialog was closed.
     Closed,
     /// This path was given.
     Chosen(PathBuf),
@@ -119,7 +119,7 @@ impl FileDialog {
         });
     }
 
-    /// The entries of the folder; answers the file that was double-clicked.
+    /// Shows the entries of the folder; answers the file that was double-clicked.
     fn list(&mut self, ui: &mut Ui, rows: &[FolderEntry]) -> Option<PathBuf> {
         let (_, place) = ui.allocate_space(vec2(ui.available_width(), LIST));
         ui.painter().rect_filled(place, metrics::RADIUS_CONTROL, tokens(ui).well);
@@ -147,7 +147,7 @@ impl FileDialog {
         rows.get(chosen?).and_then(|_| self.accept())
     }
 
-    /// Why no entry is shown.
+    /// Returns why no entry is shown.
     fn empty_text(&self) -> String {
         match self.listing.contents() {
             Contents::Reading => "Reading the folder…".into(),
@@ -164,7 +164,7 @@ impl FileDialog {
         }
     }
 
-    /// A row of the list. Returns whether its file was double-clicked.
+    /// Shows a row of the list. Returns whether its file was double-clicked.
     fn list_row(&mut self, ui: &mut Ui, rect: Rect, entry: &FolderEntry, index: usize) -> bool {
         let name = entry.name.to_string_lossy();
         let bytes = (!entry.is_folder).then_some(entry.bytes);
@@ -181,7 +181,7 @@ impl FileDialog {
         false
     }
 
-    /// The text and the keys that act on it; answers the path when Enter was pressed.
+    /// Shows the text and the keys that act on it; answers the path when Enter was pressed.
     fn text_row(&mut self, ui: &mut Ui, rows: &[FolderEntry]) -> Option<PathBuf> {
         let keys = if ui.is_enabled() { Some(Keys::take(ui)) } else { None };
         let before = self.text.clone();
@@ -264,7 +264,7 @@ impl FileDialog {
         });
     }
 
-    /// The progress of reading, and the buttons.
+    /// Shows the progress of reading, and the buttons.
     fn bottom_row(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) -> FileAnswer {
         let reading = facts.reads.iter().find(|_| self.is_waiting() && !self.request.writes());
         if let Some(row) = reading {
@@ -285,7 +285,7 @@ impl FileDialog {
     }
 }
 
-/// What an export writes: `188,102 triangles, about 14 MB`.
+/// Describes the contents of an export: `188,102 triangles, about 14 MB`.
 fn written(format: ExportFormat, triangles: usize, path: &Path) -> String {
     let count = format::count(triangles as u64);
     let files = match format.files(path).len() {
@@ -300,7 +300,8 @@ fn written(format: ExportFormat, triangles: usize, path: &Path) -> String {
     }
 }
 
-/// The folders on the way to `folder`, as far as they fit, from the right. Returns the one that was clicked.
+/// Shows the folders on the way to `folder`, as far as they fit, from the right. Returns the one that was
+/// clicked.
 fn crumbs(ui: &mut Ui, folder: &Path) -> Option<PathBuf> {
     let mut room = ui.available_width() - 16.0;
     let mut shown: Vec<(&Path, String)> = Vec::new();

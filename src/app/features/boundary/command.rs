@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::BoundaryToolMode;
 
-/// What the boundary tool does.
+/// The commands of the boundary tool.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BoundaryCommand {
     /// Selects or splits the piece at a point in world units, at most so far away.

@@ -3,9 +3,8 @@
 use eframe::egui::Key;
 
 use super::{BOUNDARY, BoundaryCommand, BoundaryToolMode};
-use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;

@@ -1,13 +1,14 @@
-//! What the commands about the boundary do.
+//! Runs the commands about the boundary.
 
 use glam::DVec2;
 
-use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode};
-use crate::app::ctx::{Ctx, Feature};
+use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
+use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::BoundaryPieces;
 
 impl Feature for Boundary {
     type Command = BoundaryCommand;
+    const ROW: Row = Row { panels: &[&PIECES], entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: BoundaryCommand, ctx: &mut Ctx<'_>) {
         match command {
@@ -27,6 +28,10 @@ impl Feature for Boundary {
                 ctx.session.set_marks(marks);
             }
         }
+    }
+
+    fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
+        ctx.tools.tool == &BOUNDARY && ctx.session.find_boundary(ctx.jobs)
     }
 }
 

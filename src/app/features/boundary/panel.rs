@@ -4,15 +4,14 @@ use eframe::egui::{Id, Ui};
 
 use super::{BoundaryCommand, BoundaryToolMode};
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
-use crate::app::panels::{Panel, remark, set_once};
+use crate::app::kit::{FrameState, Panel, PanelGroup, remark, set_once};
 use crate::app::widgets::{ActionButton, Section, TextRow, ValueRow, format, segmented, value_row};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_mesh::text::LengthUnit;
 
 /// The pieces, while the boundary tool is selected.
-pub static PIECES: Panel = Panel { name: "boundary", only_with_tool: true, show };
+pub static PIECES: Panel = Panel { name: "boundary", group: PanelGroup::Domain, only_with_tool: true, show };
 
 /// Most pieces in the list; the others are on the canvas.
 const MOST_ROWS: usize = 200;
@@ -35,7 +34,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.add_space(4.0);
         match (mode, selected) {
             (BoundaryToolMode::Split, _) => {
-                remark(ui, "Click the boundary where a piece shall end. A whole ring takes two clicks.");
+                remark(ui, "Click the boundary to split it there. A whole ring takes two clicks.");
             }
             (BoundaryToolMode::Select, None) => remark(ui, "Click a piece on the canvas or in the list."),
             (BoundaryToolMode::Select, Some(_)) => {}
@@ -78,7 +77,7 @@ struct TypedName {
     of: String,
 }
 
-/// A field for a name. Returns the new name once it is complete.
+/// Shows a field for a name. Returns the new name once it is complete.
 fn name_row(ui: &mut Ui, current: &str) -> Option<String> {
     let id = Id::unique("name of a piece typed so far");
     let mut typed: TypedName = ui.data(|data| data.get_temp(id)).unwrap_or_default();

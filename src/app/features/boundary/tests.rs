@@ -13,7 +13,7 @@ use meshbrush_core::domain::{BoundaryPieces, Domain};
 
 const SIZE: Vec2 = vec2(1440.0, 1200.0);
 
-/// A window on a square sea with a square island, with the boundary tool in hand.
+/// Returns a window on a square sea with a square island, with the boundary tool in hand.
 fn window_on_a_sea() -> Window {
     let square =
         |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)].map(|(x, y)| dvec2(x, y));

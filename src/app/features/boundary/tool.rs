@@ -4,11 +4,9 @@ use eframe::egui::{Align2, Color32, CursorIcon, Key, Painter, Pos2, Rect, vec2};
 use glam::DVec2;
 
 use super::{BoundaryCommand, PIECES};
-use crate::app::canvas::marks;
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, OverMesh, ToolSpec, marks};
 use crate::app::theme::font;
-use crate::app::tools::{OverMesh, ToolSpec};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
@@ -16,9 +14,8 @@ use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
     cursor: CursorIcon::PointingHand,
-    panels: &[&PIECES],
+    panels: &[PIECES.name],
     hint: |_| HINT,
-    finds_boundary: true,
     paint,
     press: |press, pointer, commands| {
         let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
@@ -52,7 +49,7 @@ const LENGTH_OF_NAME: f32 = 50.0;
 const WIDTH: f32 = 2.5;
 const WIDE: f32 = 5.0;
 
-/// What a click does.
+/// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BoundaryToolMode {
     /// It selects a piece.
@@ -65,14 +62,14 @@ pub enum BoundaryToolMode {
 /// Settings of the boundary tool.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundaryTool {
-    /// What a click does.
+    /// The effect of a click.
     pub mode: BoundaryToolMode,
     /// A point of the selected piece in world units: numbers of pieces change.
     pub selected: Option<DVec2>,
 }
 
 impl BoundaryTool {
-    /// The number of the selected piece.
+    /// Returns the number of the selected piece.
     pub fn selected_of(&self, pieces: &BoundaryPieces) -> Option<usize> {
         Some(pieces.nearest(self.selected?, pieces.tolerance())?.0)
     }
@@ -89,7 +86,7 @@ const COLORS: [Color32; 7] = [
     Color32::from_rgb(60, 140, 240),
 ];
 
-/// The colour of a piece, by its number.
+/// Returns the colour of a piece, by its number.
 fn piece_color(piece: usize) -> Color32 {
     COLORS[piece % COLORS.len()]
 }

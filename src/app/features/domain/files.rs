@@ -1,7 +1,7 @@
 //! The kinds of files that domains are read from.
 
 use crate::app::command::{Command, DomainCommand};
-use crate::app::dialogs::{FileAct, FileKind};
+use crate::app::kit::{FileAct, FileKind};
 
 /// Polygons as the domain of a new document.
 pub static OPEN_DOMAIN: FileKind = FileKind {

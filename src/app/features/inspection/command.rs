@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::app::explore::TreeStep;
+use super::TreeStep;
 use crate::app::readout::Quantity;
 use meshbrush_mesh::mesh::TriangleId;
 
@@ -15,7 +15,7 @@ pub enum InspectCommand {
     QueryTriangle(TriangleId),
     /// Queries a neighbour of the queried triangle, by its place from 0; 0 is the bisection neighbour.
     QueryNeighbour(usize),
-    /// As [`Self::QueryNeighbour`], and keeps the triangles on the way in sight.
+    /// Queries a neighbour as [`Self::QueryNeighbour`] does, and keeps the trail of triangles in sight.
     FollowNeighbour(usize),
     /// Looks at other triangles and nodes of the bisection tree than the queried one.
     Explore(ExploreCommand),
@@ -23,10 +23,6 @@ pub enum InspectCommand {
     MeasureWalks,
     /// Copies everything that the inspector shows of the queried triangle.
     CopyReadout,
-    /// Opens the question for a place to go to.
-    AskPlace,
-    /// Opens it with a point typed in.
-    AskPlaceNear(DVec2),
     /// Puts a point in the middle of the canvas, and queries it.
     GoTo(DVec2),
     /// Puts a triangle in the middle of the canvas, large enough to be seen, and queries it.
@@ -35,7 +31,7 @@ pub enum InspectCommand {
     Interpolate(Quantity),
 }
 
-/// What is looked at of the bisection tree around the queried triangle.
+/// A step in the bisection tree around the queried triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ExploreCommand {
     /// Goes to another triangle of the tree.

@@ -1,5 +1,33 @@
-//! The queried point and its triangle.
+//! The queried point and its triangle: what is known of them, why the triangle is there, and the ways to
+//! other triangles.
 
+mod cause_marks;
 mod command;
+mod entries;
+mod execute;
+mod explore;
+mod inspector;
+#[cfg(test)]
+mod tests;
+mod text;
+mod tool;
+mod walk_marks;
+mod walks;
+mod why;
 
 pub use command::{ExploreCommand, InspectCommand};
+use explore::{Explore, TreeStep};
+use inspector::INSPECTOR;
+pub use text::deciding_layer;
+pub use tool::QUERY;
+use walks::WalkMeter;
+use why::WHY;
+
+/// What the window keeps of the queried triangle; the queried point is in the session.
+#[derive(Default)]
+pub struct Inspector {
+    /// Why the triangle is in the mesh.
+    explore: Explore,
+    /// How long the walks of point location are.
+    walks: WalkMeter,
+}

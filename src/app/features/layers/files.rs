@@ -1,7 +1,7 @@
 //! The kinds of files that layers are read from.
 
 use crate::app::command::{Command, LayerCommand};
-use crate::app::dialogs::FileKind;
+use crate::app::kit::FileKind;
 
 /// A picture or a grid as risk.
 pub static OPEN_RISK: FileKind = FileKind {

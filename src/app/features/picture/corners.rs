@@ -3,9 +3,9 @@
 use eframe::egui::{Color32, CursorIcon, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use glam::DVec2;
 
-use crate::app::canvas::marks::point_from_px;
 use crate::app::command::{Command, EditCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
+use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_render::scene::Camera;
@@ -47,7 +47,7 @@ pub fn show(
     handles.collect()
 }
 
-/// A handle. Returns where it is dragged to; the end of the drag ends the gesture.
+/// Returns a handle. Returns where it is dragged to; the end of the drag ends the gesture.
 fn drag(ui: &Ui, place: Rect, name: &str, commands: &mut Vec<Command>) -> Option<Pos2> {
     let response = ui.interact(place, ui.scope_id().with(name), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));

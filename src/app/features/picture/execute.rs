@@ -1,17 +1,18 @@
-//! What the commands about the picture do.
+//! Runs the commands about the picture.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{BackgroundPicture, PictureCommand};
+use super::{BACKGROUND, BackgroundPicture, PictureCommand};
 use crate::app::background::{Aim, Outcome, name_of};
 use crate::app::command::{Command, EditCommand};
-use crate::app::ctx::{Ctx, Feature};
+use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_io::io;
 
 impl Feature for BackgroundPicture {
     type Command = PictureCommand;
+    const ROW: Row = Row { panels: &[&BACKGROUND], ..Row::EMPTY };
 
     fn execute(&mut self, command: PictureCommand, ctx: &mut Ctx<'_>) {
         match command {

@@ -1,7 +1,7 @@
 //! The kinds of files that the picture behind the mesh is read from.
 
 use crate::app::command::{Command, PictureCommand};
-use crate::app::dialogs::FileKind;
+use crate::app::kit::FileKind;
 
 /// A picture to trace.
 pub static OPEN_PICTURE: FileKind = FileKind {

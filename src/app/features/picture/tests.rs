@@ -18,7 +18,7 @@ use meshbrush_core::document::{Background, Document, Setting};
 use meshbrush_io::io::{self, project};
 use meshbrush_mesh::geometry::Rect;
 
-/// A picture of 4 × 2 pixels.
+/// Returns a picture of 4 × 2 pixels.
 fn picture(folder: PathBuf) -> PathBuf {
     let file = folder.join("map.png");
     let rgba: Vec<u8> = (0..32).map(|i| if i % 4 == 3 { 255 } else { 40 * (i % 6) }).collect();

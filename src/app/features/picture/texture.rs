@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, ColorImage, Context, Painter, Rect, TextureHandle, TextureOptions, pos2};
 
-use crate::app::canvas::marks::point_from_px;
+use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::{Background, Picture};
 use meshbrush_render::scene::Camera;
 
@@ -45,13 +45,13 @@ impl BackgroundTexture {
     }
 }
 
-/// The opacity of the picture itself: full from the middle of the range on, so that it is clear below and
-/// beside the mesh, and still nothing at 0.
+/// Returns the opacity of the picture itself: full from the middle of the range on, so that it is clear below
+/// and beside the mesh, and still nothing at 0.
 fn beside_mesh(opacity: f64) -> f32 {
     (2.0 * opacity).min(1.0) as f32
 }
 
-/// The part of a picture at `place`, with texture coordinates `whole`, that lies in `view`.
+/// Returns the part of a picture at `place`, with texture coordinates `whole`, that lies in `view`.
 fn in_view(place: Rect, whole: Rect, view: Rect) -> Option<(Rect, Rect)> {
     let part = place.intersect(view);
     if !part.is_positive() {
@@ -64,7 +64,8 @@ fn in_view(place: Rect, whole: Rect, view: Rect) -> Option<(Rect, Rect)> {
     Some((part, Rect::from_min_max(share(part.min), share(part.max))))
 }
 
-/// A picture with at most `most_side` pixels along a side: every second, third … pixel of a larger one.
+/// Returns a picture with at most `most_side` pixels along a side: every second, third … pixel of a larger
+/// one.
 fn color_image(picture: &Picture, most_side: usize) -> ColorImage {
     let [columns, rows] = picture.size.map(|side| side as usize);
     let every = columns.max(rows).div_ceil(most_side.max(1));

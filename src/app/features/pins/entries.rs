@@ -1,12 +1,23 @@
 //! The pins in menus and in the palette.
 
 use eframe::egui::{Key, Modifiers};
+use glam::DVec2;
 
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
-use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
+
+/// Entries of the menu of the canvas, with the tool that moves pins.
+pub fn entries_at(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
+    if !state.tools.tool.queries {
+        return Vec::new();
+    }
+    let pins = &state.session.document().settings().pins;
+    let selected = state.features.pins.selected_of(pins);
+    let delete = selected.map(|_| ("Delete the selected pin", Command::Pins(PinsCommand::Delete)));
+    [Some(("Pin here", Command::Pins(PinsCommand::Add(point)))), delete].into_iter().flatten().collect()
+}
 
 /// The key deletes a pin only with the tool that moves pins.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -14,13 +25,13 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let pins = &state.session.document().settings().pins;
     let has_pins = !pins.is_empty();
     let delete = item("Delete the selected pin", Command::Pins(PinsCommand::Delete));
-    let delete = if state.tools.tool.moves_pins { delete.key(Key::Delete) } else { delete };
+    let delete = if state.tools.tool.queries { delete.key(Key::Delete) } else { delete };
     vec![
         item("Pin the queried point", Command::Pins(PinsCommand::Pin))
             .keys(Modifiers::SHIFT, Key::P)
             .enabled(state.session.queried().is_some())
             .group(),
-        delete.enabled(state.pins.selected_of(pins).is_some()),
+        delete.enabled(state.features.pins.selected_of(pins).is_some()),
         item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),
         item("Copy the table of pins", Command::Pins(PinsCommand::Copy)).enabled(has_pins),
         item("Export the table of pins…", Command::File(FileCommand::Ask(&EXPORT_PINS))).enabled(has_pins),

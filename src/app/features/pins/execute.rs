@@ -6,10 +6,9 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 
 use super::table::{copy_table, counted, export_table, nearest_pin};
-use super::{Pins, PinsCommand};
+use super::{PINS, Pins, PinsCommand, entries, entries_at, marks};
 use crate::app::command::{Command, InspectCommand};
-use crate::app::ctx::{Ctx, Feature};
-use crate::app::frame::NO_LIMIT;
+use crate::app::kit::{Ctx, Feature, NO_LIMIT, Row};
 use meshbrush_core::document::Setting;
 
 /// The time of a frame that goes into the table of pins.
@@ -17,6 +16,7 @@ const TABLE_BUDGET: Duration = Duration::from_millis(3);
 
 impl Feature for Pins {
     type Command = PinsCommand;
+    const ROW: Row = Row { panels: &[&PINS], marks: marks::paint, entries, entries_at };
 
     fn execute(&mut self, command: PinsCommand, ctx: &mut Ctx<'_>) {
         match command {
@@ -69,7 +69,7 @@ impl Pins {
         let mut pins = pins_of(ctx).to_vec();
         pins[number] = to + grip;
         ctx.session.set(Setting::Pins(Arc::new(pins)));
-        ctx.ask(Some(to + grip));
+        ctx.session.query(Some(to + grip));
     }
 
     /// Adds a pin as a gesture of its own, and selects it.
@@ -87,7 +87,7 @@ impl Pins {
     fn select(&mut self, number: usize, ctx: &mut Ctx<'_>) {
         let Some(&pin) = pins_of(ctx).get(number) else { return };
         self.selected = Some(number);
-        ctx.ask(Some(pin));
+        ctx.session.query(Some(pin));
         ctx.view.reveal(pin);
     }
 

@@ -1,7 +1,7 @@
 //! The table of the pins as a file.
 
 use crate::app::command::{Command, PinsCommand};
-use crate::app::dialogs::{FileAct, FileKind};
+use crate::app::kit::{FileAct, FileKind};
 
 /// The table of the pins.
 pub static EXPORT_PINS: FileKind = FileKind {

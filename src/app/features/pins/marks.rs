@@ -1,14 +1,13 @@
 //! Pins on the canvas: numbered marks, and the values of the one under the pointer.
 
-use eframe::egui::{Color32, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{Color32, Pos2, Rect, Role, Sense, Stroke, WidgetInfo, pos2, vec2};
 use glam::DVec2;
 
 use super::table::nearest_pin;
-use crate::app::canvas::marks::{NUMBER_DISC, paint_number};
-use crate::app::frame::FrameState;
+use crate::app::kit::marks::{NUMBER_DISC, paint_number};
+use crate::app::kit::{FrameState, GRIP_POINTS, OverMesh};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::theme::font;
-use crate::app::tools::{OverMesh, PIN_REACH_POINTS};
 use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -19,12 +18,12 @@ const NUMBER_OFFSET: f32 = 11.0;
 
 /// Draws the pins in view. With the query tool, the one under the pointer stands out, with its values beside
 /// it.
-pub fn show(ui: &mut Ui, canvas: Rect, state: &FrameState<'_>, over: &OverMesh<'_>) {
+pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let pins = &state.session.document().settings().pins;
     if pins.is_empty() {
         return;
     }
-    let selected = state.pins.selected_of(pins);
+    let selected = state.features.pins.selected_of(pins);
     let hovered = hovered(state, pins, over);
     let view = over.painter.clip_rect().expand(2.0 * NUMBER_OFFSET);
     let places = pins.iter().map(|&pin| (over.screen_from_world)(pin)).enumerate();
@@ -32,15 +31,15 @@ pub fn show(ui: &mut Ui, canvas: Rect, state: &FrameState<'_>, over: &OverMesh<'
         paint_pin(over, at, number, Some(number) == hovered, Some(number) == selected);
     }
     if let Some(number) = hovered {
-        show_values(ui, canvas, state, number, pins[number], (over.screen_from_world)(pins[number]));
+        show_values(over, state, number, pins[number]);
     }
 }
 
 fn hovered(state: &FrameState<'_>, pins: &[DVec2], over: &OverMesh<'_>) -> Option<usize> {
-    over.pointer.filter(|_| state.tools.tool.moves_pins)?;
+    over.pointer.filter(|_| state.tools.tool.queries)?;
     let point = state.pointer?;
     let px = (over.screen_from_world)(point + DVec2::X).distance((over.screen_from_world)(point));
-    nearest_pin(pins, point, PIN_REACH_POINTS / f64::from(px))
+    nearest_pin(pins, point, GRIP_POINTS / f64::from(px))
 }
 
 fn paint_pin(over: &OverMesh<'_>, at: Pos2, number: usize, is_hovered: bool, is_selected: bool) {
@@ -54,7 +53,8 @@ fn paint_pin(over: &OverMesh<'_>, at: Pos2, number: usize, is_hovered: bool, is_
 }
 
 /// The values of a pin on a ground beside it.
-fn show_values(ui: &mut Ui, canvas: Rect, state: &FrameState<'_>, number: usize, pin: DVec2, at: Pos2) {
+fn show_values(over: &OverMesh<'_>, state: &FrameState<'_>, number: usize, pin: DVec2) {
+    let (ui, canvas, at) = (over.ui, over.canvas, (over.screen_from_world)(pin));
     let quantity = state.view.quantity;
     let triangle = Readout::triangle_at(pin, state.session, quantity);
     let text = values(state, number, triangle.as_ref());

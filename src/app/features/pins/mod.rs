@@ -11,13 +11,12 @@ mod table;
 mod tests;
 
 pub use command::PinsCommand;
-pub use entries::entries;
+use entries::{entries, entries_at};
 use glam::DVec2;
-pub use marks::show as show_marks;
 pub use panel::PINS;
 use table::PinReader;
 
-/// What the window keeps of pins; their places are in the document.
+/// The window's state of pins; their positions are in the document.
 #[derive(Default)]
 pub struct Pins {
     /// Their values.
@@ -29,7 +28,7 @@ pub struct Pins {
 }
 
 impl Pins {
-    /// The number of the selected pin. An undo can have removed it.
+    /// Returns the number of the selected pin. An undo can have removed it.
     pub fn selected_of(&self, pins: &[DVec2]) -> Option<usize> {
         self.selected.filter(|number| *number < pins.len())
     }

@@ -6,13 +6,12 @@ use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
-use crate::app::panels::{Panel, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Section, format};
 
 /// All pins with their triangles and values; with the tool that moves them, and as long as there are pins.
-pub static PINS: Panel = Panel { name: "pins", only_with_tool: false, show };
+pub static PINS: Panel = Panel { name: "pins", group: PanelGroup::Inspect, only_with_tool: false, show };
 
 const HEADINGS: [&str; COLUMNS] =
     ["Pin", "x", "y", "Triangle", "Level", "ζ₁", "ζ₂", "ζ₃", "Interpolated", "True", "Difference"];
@@ -26,7 +25,7 @@ const GAP: f32 = 12.0;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let count = state.session.document().settings().pins.len();
-    if count == 0 && !state.tools.tool.moves_pins {
+    if count == 0 && !state.tools.tool.queries {
         return;
     }
     let note = if count > 0 { format::count(count as u64) } else { String::new() };
@@ -34,7 +33,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         if count == 0 {
             remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
         } else {
-            if !state.pins.reader.is_current(state.session, state.view.quantity) {
+            if !state.features.pins.reader.is_current(state.session, state.view.quantity) {
                 // They are read only while the table is shown.
                 commands.push(Command::Pins(PinsCommand::Read));
             }
@@ -47,7 +46,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// The header and the rows in sight. It scrolls both ways.
 fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let pins = &state.session.document().settings().pins;
-    let selected = state.pins.selected_of(pins);
+    let selected = state.features.pins.selected_of(pins);
     let height = ROW * (pins.len().min(MOST_ROWS) + 1) as f32 + 12.0;
     ui.spacing_mut().item_spacing.y = 0.0;
     let area = ScrollArea::both().id_salt("table of pins").max_height(height).auto_shrink([false, true]);
@@ -88,14 +87,15 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(6.0);
 }
 
-/// What the table says of a pin.
+/// Returns the cells of a pin in the table.
 fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
     let at = state.session.document().settings().pins[number];
     let step = state.view.world_per_px();
     let decimals = format::decimals_for(step);
     let [x, y] = at.to_array().map(|value| format::fixed(value, decimals));
     let first = [(number + 1).to_string(), x, y];
-    let read = state.pins.reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
+    let read =
+        state.features.pins.reader.rows().get(number).and_then(Option::as_ref).filter(|row| row.at == at);
     let rest = match read {
         None => [(); COLUMNS - 3].map(|()| "…".to_owned()),
         Some(PinRow { triangle: None, .. }) => {
@@ -121,7 +121,7 @@ fn cells(state: &FrameState<'_>, number: usize) -> [String; COLUMNS] {
     std::array::from_fn(|_| all.next().unwrap_or_default())
 }
 
-/// The width of each column, in points.
+/// Returns the width of each column, in points.
 fn widths<'a>(ui: &Ui, rows: impl Iterator<Item = &'a [String; COLUMNS]>) -> [f32; COLUMNS] {
     let color = tokens(ui).label;
     let width = |text: &str, font: FontId| ui.painter().layout_no_wrap(text.to_owned(), font, color).size().x;
@@ -157,7 +157,7 @@ fn paint_row(
 fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut Vec<Command>) {
     let is_queried = state.readout.is_some();
     let pins = &state.session.document().settings().pins;
-    let is_selected = state.pins.selected_of(pins).is_some();
+    let is_selected = state.features.pins.selected_of(pins).is_some();
     let pin = Command::Pins;
     let rows = [
         vec![

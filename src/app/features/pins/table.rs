@@ -8,13 +8,13 @@ use glam::DVec2;
 
 use crate::app::background::{Aim, Background, Outcome, exported};
 use crate::app::command::{Command, PinsCommand};
+use crate::app::kit::nearest_within;
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
-use crate::app::tools::nearest_within;
 use crate::app::widgets::format;
 use meshbrush_io::io::{self, Meter};
 
-/// What the values of all pins depend on.
+/// The data that the values of all pins depend on.
 #[derive(Clone, Debug, PartialEq)]
 struct Key {
     pins: Arc<Vec<DVec2>>,
@@ -36,7 +36,7 @@ impl Key {
     }
 }
 
-/// What the table shows of a pin.
+/// The values of a pin in the table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinRow {
     /// Where the pin was when it was read, in world units.
@@ -57,12 +57,12 @@ pub struct PinReader {
 }
 
 impl PinReader {
-    /// The values of each pin; `None` until they were read. They may be those of an earlier mesh.
+    /// Returns the values of each pin; `None` until they were read. They may be those of an earlier mesh.
     pub fn rows(&self) -> &[Option<PinRow>] {
         &self.rows
     }
 
-    /// Whether all values are those of the document and the mesh as they are.
+    /// Returns whether all values are those of the document and the mesh as they are.
     pub fn is_current(&self, session: &Session, quantity: Quantity) -> bool {
         self.left == 0 && self.key.as_ref() == Some(&Key::of(session, quantity))
     }
@@ -88,7 +88,7 @@ impl PinReader {
     }
 }
 
-/// The pin nearest to a point, at most `reach` away. Lengths are in world units.
+/// Returns the pin nearest to a point, at most `reach` away. Lengths are in world units.
 pub fn nearest_pin(pins: &[DVec2], to: DVec2, reach: f64) -> Option<usize> {
     nearest_within(pins.iter().map(|pin| pin.distance(to)), reach)
 }
@@ -119,12 +119,12 @@ pub fn export_table(session: &Session, background: &mut Background, path: &Path)
     });
 }
 
-/// A number of pins in words.
+/// Returns a number of pins in words.
 pub fn counted(count: usize) -> String {
     if count == 1 { "1 pin".into() } else { format!("{} pins", format::count(count as u64)) }
 }
 
-/// How many pins there are, and what writes their table.
+/// Returns how many pins there are, and what writes their table.
 fn table(
     session: &Session,
 ) -> (usize, impl Fn(&mut dyn std::io::Write, &Meter) -> std::io::Result<()> + Send + 'static) {

@@ -8,11 +8,11 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand, PinsCommand, ShellCommand};
+use crate::app::features::inspection::QUERY;
 use crate::app::tests::{
     FREE, TALL, Window, click, document, entries, folder, key, move_to, notice, press, release, send,
-    settings, stroke, value_of, wait_for_notice, wait_until, window_of,
+    settings, step_until, stroke, value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::tools::QUERY;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::located::write_of_document;
 
@@ -26,7 +26,7 @@ fn is_near(a: DVec2, b: DVec2) -> bool {
     a.distance(b) < 2e-3
 }
 
-/// A window with the query tool and two pins.
+/// Returns a window with the query tool and two pins.
 fn window_with_pins() -> Window {
     let mut window = window_of(TALL);
     send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
@@ -37,13 +37,22 @@ fn window_with_pins() -> Window {
     window
 }
 
-/// What the table of the panel says of a pin.
+/// Returns what the last frame copied.
+fn copied(window: &Window) -> Option<&String> {
+    let commands = &window.output().platform_output.commands;
+    commands.iter().find_map(|command| match command {
+        OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    })
+}
+
+/// Returns the row of a pin in the table of the panel.
 fn row(window: &Window, number: usize) -> Vec<String> {
     let text = value_of(window, Role::ListItem, &format!("Pin {number}"));
     text.split(' ').map(str::to_owned).collect()
 }
 
-/// The table that the command line prints for the saved document.
+/// Returns the table that the command line prints for the saved document.
 fn expected_table(window: &Window) -> String {
     let (document, mut table) = (document(window), Vec::new());
     let (settings, paint) = (document.settings(), document.paint());
@@ -139,20 +148,8 @@ fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     let expected = expected_table(&window);
     assert_eq!(expected.lines().count(), 3);
     send(&mut window, Command::Pins(PinsCommand::Copy));
-    let mut copied = String::new();
-    for _ in 0..2000 {
-        window.step();
-        for command in &window.output().platform_output.commands {
-            if let OutputCommand::CopyText(text) = command {
-                copied.clone_from(text);
-            }
-        }
-        if !copied.is_empty() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    }
-    assert_eq!(copied, expected);
+    step_until(&mut window, |window| copied(window).is_some());
+    assert_eq!(copied(&window), Some(&expected));
     let file = folder("pins", "export").join("pins.csv");
     wait_until(&mut window, |window| notice(window).starts_with("Copied: the table of 2 pins"));
     send(&mut window, Command::Shell(ShellCommand::DismissNotice));

@@ -4,14 +4,13 @@ use eframe::egui::Key;
 
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, PlotsCommand};
-use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 
-/// The plots, and what to do with them.
+/// Returns the plots, and what to do with them.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Plots(command));
-    let plots = state.plots;
+    let plots = &state.features.plots;
     let show = item("Show the plots", PlotsCommand::Show(plots.kind())).key(Key::F9).group();
     let of_kind = |(kind, name): (PlotKind, &str)| {
         let title = format!("Plot {}{}", name[..1].to_lowercase(), &name[1..]);

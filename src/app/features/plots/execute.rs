@@ -1,11 +1,12 @@
-//! What the commands about plots do.
+//! Runs the commands about plots.
 
-use super::{PlotKind, Plots, PlotsCommand};
+use super::{PLOTS, PlotKind, Plots, PlotsCommand, entries};
 use crate::app::command::{Command, StepCommand};
-use crate::app::ctx::{Ctx, Feature};
+use crate::app::kit::{Ctx, Feature, Row};
 
 impl Feature for Plots {
     type Command = PlotsCommand;
+    const ROW: Row = Row { panels: &[&PLOTS], entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: PlotsCommand, ctx: &mut Ctx<'_>) {
         match command {
@@ -34,6 +35,13 @@ impl Feature for Plots {
             PlotsCommand::Export(path) => self.export(ctx.session, ctx.background, &path),
         }
     }
+
+    fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
+        self.take(ctx.session, ctx.jobs).unwrap_or_else(|problem| {
+            ctx.session.report(problem);
+            false
+        })
+    }
 }
 
 impl Plots {
@@ -42,6 +50,6 @@ impl Plots {
         ctx.send(Command::Steps(StepCommand::Leave));
         ctx.view.panels = true;
         self.choose(kind);
-        self.reveal(true);
+        ctx.view.revealed_panel = Some(PLOTS.name);
     }
 }

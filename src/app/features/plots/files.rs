@@ -2,8 +2,8 @@
 
 use super::PlotsCommand;
 use crate::app::command::Command;
-use crate::app::dialogs::{FileAct, FileKind};
-use meshbrush_io::io::plot;
+use crate::app::kit::{FileAct, FileKind};
+use meshbrush_study::plot;
 
 /// The plot.
 pub static EXPORT_PLOT: FileKind = FileKind {

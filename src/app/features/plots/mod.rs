@@ -17,16 +17,16 @@ pub use entries::entries;
 pub use panel::{HEIGHT, PLOTS, measuring};
 
 use crate::app::background::{Aim, Background, exported};
-use crate::app::jobs::{Job, Jobs, Kind, Output, Slot, Taken};
+use crate::app::derivation::MeasuredMesh;
+use crate::app::jobs::{Job, Jobs, Kind, Output, Slot, Taken, Wanted};
 use crate::app::session::Session;
-use crate::app::statistics::MeasuredMesh;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::document::{Experiment, ExperimentMesh};
-use meshbrush_core::explain::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
-use meshbrush_core::plot::Plot;
 use meshbrush_io::io;
+use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
+use meshbrush_study::plot::{self, Plot};
+use meshbrush_study::report::{Experiment, ExperimentMesh};
 
-/// What can be plotted.
+/// The plots that can be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
     /// Triangles per level.
@@ -37,7 +37,7 @@ pub enum PlotKind {
     Diameters,
     /// The time for one triangle over the number of triangles.
     Time,
-    /// The same as Figure 5 of the report shows it.
+    /// The cost of compatibility in the form of Figure 5 of the report.
     Figure5,
 }
 
@@ -51,18 +51,18 @@ impl PlotKind {
         (Self::Figure5, "Figure 5 of the report"),
     ];
 
-    /// Its name.
+    /// Returns the name.
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|(kind, _)| *kind == self).map_or("", |(_, name)| name)
     }
 
-    /// Whether it shows the experiment of the report and not the mesh of the document.
+    /// Returns whether it shows the experiment of the report and not the mesh of the document.
     pub fn is_of_experiment(self) -> bool {
         matches!(self, Self::Time | Self::Figure5)
     }
 }
 
-/// What the figures of the levels depend on.
+/// The data that the figures of the levels depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Key {
     mesh: MeasuredMesh,
@@ -72,7 +72,6 @@ struct Key {
 /// Computes what plots show, and keeps it.
 pub struct Plots {
     kind: PlotKind,
-    reveals: bool,
     levels: Slot<Key, Vec<LevelFigures>>,
     experiment: Experiment,
     /// The meshes of an experiment in progress.
@@ -87,7 +86,6 @@ impl Default for Plots {
     fn default() -> Self {
         Self {
             kind: PlotKind::Triangles,
-            reveals: false,
             levels: Slot::default(),
             experiment: Experiment::default(),
             measuring: None,
@@ -108,17 +106,7 @@ impl Plots {
         self.kind = kind;
     }
 
-    /// Whether the panel is to be opened and scrolled to.
-    pub fn reveals(&self) -> bool {
-        self.reveals
-    }
-
-    /// Makes the panel open and scroll to its plot, in the next frame only.
-    pub fn reveal(&mut self, reveals: bool) {
-        self.reveals = reveals;
-    }
-
-    /// The chosen plot, and whether it is that of the mesh as it is. `None` until it is known.
+    /// Returns the chosen plot, and whether it is that of the mesh as it is. `None` until it is known.
     pub fn plot(&self, session: &Session) -> Option<(Plot, bool)> {
         if self.kind.is_of_experiment() {
             let experiment = &self.experiment;
@@ -138,7 +126,7 @@ impl Plots {
         Some((plot, *key == Key::of(session)))
     }
 
-    /// Whether there is a plot to show.
+    /// Returns whether there is a plot to show.
     pub fn is_known(&self) -> bool {
         match self.kind.is_of_experiment() {
             true => !self.experiment.meshes.is_empty(),
@@ -146,7 +134,7 @@ impl Plots {
         }
     }
 
-    /// Whether [`Self::compute`] would compute the figures of the levels.
+    /// Returns whether [`Self::compute`] would compute the figures of the levels.
     pub fn is_due(&self, session: &Session) -> bool {
         let is_settled =
             MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation());
@@ -164,20 +152,20 @@ impl Plots {
             (follower.shared_mesh(), follower.domain().clone(), follower.shared_field());
         let (rule, limits) = (follower.settings().rule, follower.settings().limits());
         let paint = session.document().paint().clone();
-        let compute = move || {
+        let compute = move |wanted: &Wanted| {
             let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
-            LevelFigures::of(&mesh, &extract, &criterion, &limits)
+            wanted.goes_on().then(|| LevelFigures::of(&mesh, &extract, &criterion, &limits))
         };
-        self.levels.start(Key::of(session), compute, jobs);
+        self.levels.start_wanted(Key::of(session), compute, jobs);
     }
 
     /// Takes what was computed and measured, waiting for figures of levels as long as the frame may. Returns
     /// whether some are being computed.
     ///
     /// # Errors
-    /// A sentence, when the experiment failed.
-    pub fn take(&mut self, jobs: &Jobs) -> Result<bool, String> {
+    /// Fails with a sentence, when the experiment failed.
+    pub fn take(&mut self, session: &Session, jobs: &Jobs) -> Result<bool, String> {
         while let Some(measuring) = &self.measuring {
             match measuring.take_ready() {
                 Taken::Value(Ok(mesh)) => self.experiment.meshes.push(mesh),
@@ -189,15 +177,18 @@ impl Plots {
                 Taken::Ended => self.measuring = None,
             }
         }
+        if MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation()) {
+            self.levels.want(&Key::of(session), jobs);
+        }
         Ok(self.levels.take(jobs))
     }
 
-    /// What was measured so far.
+    /// Returns the measurements so far.
     pub fn experiment(&self) -> &Experiment {
         &self.experiment
     }
 
-    /// Whether the experiment is being measured.
+    /// Returns whether the experiment is being measured.
     pub fn is_measuring(&self) -> bool {
         self.measuring.is_some()
     }
@@ -229,13 +220,13 @@ impl Plots {
         self.measuring = None;
     }
 
-    /// The numbers of the chosen plot as text: a table of the experiment, or else the series.
+    /// Returns the numbers of the chosen plot as text: a table of the experiment, or else the series.
     pub fn text(&self, session: &Session) -> Option<String> {
         if self.kind.is_of_experiment() {
             return (!self.experiment.meshes.is_empty()).then(|| self.experiment.table(self.runs));
         }
         let mut text = Vec::new();
-        io::plot::write_csv(&mut text, &self.plot(session)?.0).ok()?;
+        plot::write_csv(&mut text, &self.plot(session)?.0).ok()?;
         String::from_utf8(text).ok()
     }
 
@@ -244,8 +235,7 @@ impl Plots {
         let Some((plot, _)) = self.plot(session) else { return };
         let file = path.to_owned();
         background.start(Aim::Export, path, move |meter| {
-            let written =
-                io::write_file_metered(&file, meter, |mut out| io::plot::write(&mut out, &plot, &file));
+            let written = io::write_file_metered(&file, meter, |mut out| plot::write(&mut out, &plot, &file));
             exported(written, meter, &file, || format!("The plot was written to {}.", file.display()))
         });
     }

@@ -5,13 +5,12 @@ use eframe::egui::Ui;
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
-use crate::app::panels::{Panel, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
-use meshbrush_core::document::Experiment;
+use meshbrush_study::report::Experiment;
 
 /// A chosen plot, and what it takes to measure those of time.
-pub static PLOTS: Panel = Panel { name: "plots", only_with_tool: false, show };
+pub static PLOTS: Panel = Panel { name: "plots", group: PanelGroup::Mesh, only_with_tool: false, show };
 
 /// Height of a plot, in points.
 pub const HEIGHT: f32 = 210.0;
@@ -24,8 +23,8 @@ const LEAST_LEVEL: u32 = 6;
 const MOST_RUNS: u32 = 100;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let plots = state.plots;
-    Section::new("Plots").closed().reveal(plots.reveals()).show(ui, |ui| {
+    let plots = &state.features.plots;
+    Section::new("Plots").closed().reveal(PLOTS.is_revealed(state)).show(ui, |ui| {
         let mut kind = plots.kind();
         if dropdown_row(ui, "Plot", &mut kind, &PlotKind::ALL).changed() {
             commands.push(Command::Plots(PlotsCommand::Choose(kind)));

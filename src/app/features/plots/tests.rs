@@ -14,23 +14,23 @@ use crate::app::tests::{
 };
 use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::explain::Bisections;
+use meshbrush_study::levels::Bisections;
 
-/// The note below a plot.
+/// Returns the note below a plot.
 fn note(window: &Window, plot: &str) -> Option<String> {
     let shown = window.query_by_role_and_label(Role::Image, plot)?;
     shown.accesskit_node().value()
 }
 
 fn is_current(window: &Window) -> bool {
-    window.state().plots().plot(window.state().session()).is_some_and(|(_, is_current)| is_current)
+    window.state().features().plots.plot(window.state().session()).is_some_and(|(_, is_current)| is_current)
 }
 
 #[test]
 fn a_key_opens_the_plots_which_follow_the_mesh() {
     let mut window = window_of(TALL);
     assert!(window.query_by_role_and_label(Role::Image, "Triangles per level").is_none());
-    assert!(!window.state().plots().is_known(), "nothing is computed unless it is shown");
+    assert!(!window.state().features().plots.is_known(), "nothing is computed unless it is shown");
     key(&mut window, Modifiers::NONE, Key::F9);
     wait_until(&mut window, is_current);
     let of_mesh = |window: &Window| format!("{} triangles", format::count(triangles(window) as u64));
@@ -78,12 +78,12 @@ fn the_plot_is_chosen_in_the_panel() {
 fn the_time_is_measured_when_the_button_is_clicked() {
     let mut window = window_of(TALL);
     choose(&mut window, "View", "Plot time per triangle");
-    assert!(!window.state().plots().is_measuring(), "never by itself");
+    assert!(!window.state().features().plots.is_measuring(), "never by itself");
     send(&mut window, Command::Plots(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
     window.get_by_role_and_label(Role::Button, "Measure").click();
     window.run();
-    wait_until(&mut window, |window| !window.state().plots().is_measuring());
-    let meshes = &window.state().plots().experiment().meshes;
+    wait_until(&mut window, |window| !window.state().features().plots.is_measuring());
+    let meshes = &window.state().features().plots.experiment().meshes;
     assert_eq!(meshes.iter().map(|mesh| mesh.level).collect::<Vec<_>>(), [1, 2, 3, 4, 5, 6]);
     assert_eq!(meshes[4].triangles, 9_560);
     let gradient = note(&window, "Time per triangle").unwrap();
@@ -111,8 +111,8 @@ fn measuring_is_cancelled() {
     window.run();
     window.get_by_role_and_label(Role::Button, "Cancel measuring").click();
     window.run();
-    assert!(!window.state().plots().is_measuring());
-    assert!(window.state().plots().experiment().meshes.len() < 13);
+    assert!(!window.state().features().plots.is_measuring());
+    assert!(window.state().features().plots.experiment().meshes.len() < 13);
     assert!(window.query_by_role_and_label(Role::Button, "Measure").is_some());
 }
 

@@ -1,7 +1,7 @@
 //! Tables of threats as files.
 
 use crate::app::command::{Command, ThreatsCommand};
-use crate::app::dialogs::{FileAct, FileKind};
+use crate::app::kit::{FileAct, FileKind};
 
 /// A table in place of the threats of a layer.
 pub static OPEN_THREATS: FileKind = FileKind {

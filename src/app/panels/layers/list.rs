@@ -5,7 +5,7 @@ use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2
 use super::kinds::kind_of;
 use super::selected::combine_name;
 use crate::app::command::{Command, LayerCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::FrameState;
 use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::tokens;
 use crate::app::widgets::{LayerRow, LayerRowAnswer};
@@ -45,7 +45,7 @@ pub fn ask_name(ctx: &Context, layer: &Layer) {
     ctx.data_mut(|data| data.insert_temp(new_name_id(), new_name));
 }
 
-/// Whether a name is asked for in this frame for the first time.
+/// Returns whether a name is asked for in this frame for the first time.
 pub fn asks_name_now(ui: &Ui) -> bool {
     let new_name = ui.data(|data| data.get_temp::<NewName>(new_name_id()));
     new_name.is_some_and(|new_name| !new_name.is_shown)

@@ -6,20 +6,18 @@ mod selected;
 
 use eframe::egui::{Popup, Ui};
 
-pub use kinds::LAYER_KINDS;
+pub use kinds::{LAYER_KINDS, kind_of};
 pub use list::ask_name;
 pub use selected::combine_name;
 
 use super::bars::menu_item;
-use super::{Panel, end_gesture_when_released};
-use crate::app::catalog::{CatalogItem, Menu};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, PanelGroup, end_gesture_when_released};
 use crate::app::widgets::{Icon, Section, SliderRow, ToolButton, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
 
 /// The stack, from the top, and the parameters of the selected layer.
-pub static LAYERS: Panel = Panel { name: "layers", only_with_tool: false, show };
+pub static LAYERS: Panel = Panel { name: "layers", group: PanelGroup::Size, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let reveal = list::asks_name_now(ui);
@@ -31,7 +29,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     selected::show(ui, state, commands);
 }
 
-/// What changes the stack.
+/// Shows the buttons that change the stack of layers.
 fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let document = state.session.document();
     let layers = &document.settings().layers;

@@ -5,15 +5,14 @@ use eframe::egui::Ui;
 use super::kinds::kind_of;
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_MASK;
-use crate::app::frame::FrameState;
-use crate::app::panels::remark;
+use crate::app::kit::{FrameState, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
 use meshbrush_core::layers::{Combine, Layer};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";
 
-/// The name of a way to combine.
+/// Returns the name of a way to combine.
 pub fn combine_name(combine: Combine) -> &'static str {
     match combine {
         Combine::Finest => "Finest",
@@ -49,7 +48,7 @@ fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
     remark(ui, tips::sentence(&format!("{COMBINE}/{}", combine_name(layer.combine))));
 }
 
-/// Where the layer counts.
+/// Shows the mask in which the layer counts.
 fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let symbol = state.unit().symbol();

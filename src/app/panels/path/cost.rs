@@ -1,12 +1,11 @@
-//! What paths cost: weights of length and risk, or a formula.
+//! The cost of paths: weights of length and risk, or a formula.
 
 use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::frame::FrameState;
-use crate::app::panels::end_gesture_when_released;
+use crate::app::kit::{FrameState, end_gesture_when_released};
 use crate::app::panels::formula::FormulaRow;
 use crate::app::paths::{CostKind, PathCommand};
 use crate::app::widgets::{NumberRow, SliderRow, segmented};

@@ -3,8 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
-use crate::app::panels::button_rows;
+use crate::app::kit::{FrameState, button_rows};
 use crate::app::paths::EXPORT_PATH;
 use crate::app::paths::PathCommand;
 use crate::app::widgets::NumberRow;

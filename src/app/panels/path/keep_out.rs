@@ -3,9 +3,8 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::frame::FrameState;
 use crate::app::keep_out::KeepOutCommand;
-use crate::app::panels::button_rows;
+use crate::app::kit::{FrameState, button_rows};
 use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::PathCommand;
 use crate::app::theme::metrics;

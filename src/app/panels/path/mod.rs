@@ -7,23 +7,22 @@ mod others;
 
 use eframe::egui::{RichText, Ui};
 
-use super::{Panel, button_rows, remark};
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
+use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::paths::{FoundPath, PathCommand};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
-use meshbrush_core::plot::{Axis, Mark, Plot, Scale, Series};
 use meshbrush_mesh::text::percent_above;
+use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
 pub use others::OTHER_PATHS;
 
 /// The path of the selected place, or else the first; with the tool for it, and as long as there are paths.
-pub static PATH: Panel = Panel { name: "path", only_with_tool: false, show };
+pub static PATH: Panel = Panel { name: "path", group: PanelGroup::Paths, only_with_tool: false, show };
 
 /// Height of the profile, in points.
 const HEIGHT: f32 = 150.0;
-/// Where the certificate has no triangle for the path.
+/// The text for a certificate that has no triangle for the path.
 const NO_PROOF: &str = "There is no proof for this path.";
 /// Widths of the interval that can be asked for, with their names.
 const WIDTHS: [(f64, &str); 5] =
@@ -32,7 +31,7 @@ const WIDTHS: [(f64, &str); 5] =
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
     let route = state.tools.path.route_in(plan);
-    let is_tool = state.tools.tool.panels.iter().any(|panel| panel.name == PATH.name);
+    let is_tool = state.tools.tool.panels.contains(&PATH.name);
     if route.is_none() && plan.keep_out.is_empty() && !is_tool {
         return;
     }
@@ -110,7 +109,7 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
     ui.add_space(4.0);
 }
 
-/// Risk over the distance from the start.
+/// Returns risk over the distance from the start.
 fn profile(state: &FrameState<'_>, found: &FoundPath) -> Plot {
     let points = found.profile.iter().map(|sample| [sample.distance, sample.risk]).collect();
     Plot {

@@ -4,8 +4,7 @@
 use eframe::egui::Ui;
 
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
-use crate::app::panels::{Panel, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::paths::{
     AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand,
 };
@@ -14,14 +13,15 @@ use crate::app::widgets::{
 };
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{FrontPoint, Solution};
-use meshbrush_core::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
-/// As long as there is a path.
-pub static OTHER_PATHS: Panel = Panel { name: "other paths", only_with_tool: false, show };
+/// The panel of other paths, shown as long as there is a path.
+pub static OTHER_PATHS: Panel =
+    Panel { name: "other paths", group: PanelGroup::Paths, only_with_tool: false, show };
 
 /// Height of the plot, in points.
 const HEIGHT: f32 = 190.0;
-/// What the plot is called.
+/// The title of the plot.
 const FRONT: &str = "Length against risk";
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -155,7 +155,7 @@ fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
     )
 }
 
-/// The paths of the front, and the path as it is.
+/// Returns the paths of the front, and the path as it is.
 fn front_plot(state: &FrameState<'_>, found: &FoundPath) -> Plot {
     let place = |path: &Solution| [path.length, path.risk];
     let front = state.paths.front.points().iter().map(|point| place(&point.solution)).collect();

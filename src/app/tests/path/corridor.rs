@@ -17,7 +17,7 @@ fn points(window: &Window) -> Vec<DVec2> {
     shown(window)[0].found.as_ref().unwrap().solution.points.clone()
 }
 
-/// The line and the width of the selected corridor.
+/// Returns the line and the width of the selected corridor.
 fn corridor(window: &Window) -> (Vec<DVec2>, f64) {
     let LayerKind::Distance { to: DistanceTo::Corridor { lines, width }, .. } = &active(window).kind else {
         panic!("{:?} is no corridor", active(window).kind)

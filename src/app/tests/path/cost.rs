@@ -1,4 +1,4 @@
-//! What paths cost: weights, the slider from the shortest to the safest, and a formula.
+//! The cost of paths: weights, the slider from the shortest to the safest, and a formula.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};

@@ -37,7 +37,7 @@ fn file(name: &str, ring: &[DVec2]) -> PathBuf {
     file
 }
 
-/// Whether the path that is shown enters the wall, at a thousand places of each of its pieces.
+/// Returns whether the path that is shown enters the wall, at a thousand places of each of its pieces.
 fn enters_wall(window: &Window) -> bool {
     let points = &shown(window)[0].found.as_ref().unwrap().solution.points;
     let wall = wall();

@@ -6,8 +6,6 @@ mod export;
 mod keep_out;
 mod others;
 
-use std::time::{Duration, Instant};
-
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -34,16 +32,11 @@ fn is_complete(window: &Window) -> bool {
 }
 
 pub(super) fn wait_for_paths(window: &mut Window) {
-    let patience = Instant::now() + Duration::from_secs(120);
-    while !is_complete(window) {
-        assert!(Instant::now() < patience, "no path was found");
-        std::thread::sleep(Duration::from_millis(10));
-        window.run();
-    }
+    wait_until(window, is_complete);
 }
 
-/// A window with the path tool and a complete path from [`START`] to [`GOAL`], on a coarse mesh. Its bound is
-/// that of the solver: certificates take seconds.
+/// Returns a window with the path tool and a complete path from [`START`] to [`GOAL`], on a coarse mesh. Its
+/// bound is that of the solver: certificates take seconds.
 fn window_with_path() -> Window {
     let mut window = window_of(TALL);
     set(&mut window, Setting::SmallestDiameter(0.03));

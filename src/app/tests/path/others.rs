@@ -1,13 +1,13 @@
 //! Other paths: the corridor, alternatives, and the front.
 
-use std::time::{Duration, Instant};
-
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
-use super::super::{RESTING_PLACE, key, press_at, release_at, send, settings, tips};
+use super::super::{
+    RESTING_PLACE, key, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
+};
 use super::{Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
 use crate::app::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
@@ -23,15 +23,6 @@ fn check(window: &mut Window, name: &str) {
     window.run();
 }
 
-fn wait_for(window: &mut Window, what: &str, done: impl Fn(&PathFinder) -> bool) {
-    let patience = Instant::now() + Duration::from_secs(120);
-    while !done(paths(window)) {
-        assert!(Instant::now() < patience, "{what}");
-        std::thread::sleep(Duration::from_millis(10));
-        window.run();
-    }
-}
-
 fn area(lines: &[Vec<DVec2>]) -> f64 {
     lines.iter().flat_map(|line| line.windows(2)).map(|ends| 0.5 * ends[0].perp_dot(ends[1])).sum()
 }
@@ -42,7 +33,7 @@ fn the_corridor_is_shown_as_wide_as_its_slider_says() {
     assert!(paths(&window).corridor.lines().is_empty(), "off by default");
     let solution = shown(&window)[0].found.clone().unwrap().solution;
     check(&mut window, "Corridor");
-    wait_for(&mut window, "no corridor", |paths| !paths.corridor.lines().is_empty());
+    wait_until(&mut window, |window| !paths(window).corridor.lines().is_empty());
     assert_eq!(shown(&window)[0].found.as_ref().unwrap().solution, solution, "the path stays as it is");
     assert!(window.query_by_label("Legend: paths within 5 %").is_some());
     assert_eq!(tips::unexplained(&window), [""; 0]);
@@ -53,7 +44,7 @@ fn the_corridor_is_shown_as_wide_as_its_slider_says() {
     press_at(&mut window, at, PointerButton::Primary, Modifiers::NONE);
     release_at(&mut window, at, PointerButton::Primary);
     assert!(paths(&window).corridor.share > 0.2, "{}", paths(&window).corridor.share);
-    wait_for(&mut window, "no wider corridor", |paths| area(paths.corridor.lines()) > before);
+    wait_until(&mut window, |window| area(paths(window).corridor.lines()) > before);
     window.run_steps(5);
     assert!(super::is_complete(&window));
     check(&mut window, "Corridor");
@@ -64,12 +55,12 @@ fn the_corridor_is_shown_as_wide_as_its_slider_says() {
 fn the_corridor_follows_an_edit() {
     let mut window = window_with_path();
     check(&mut window, "Corridor");
-    wait_for(&mut window, "no corridor", |paths| !paths.corridor.lines().is_empty());
+    wait_until(&mut window, |window| !paths(window).corridor.lines().is_empty());
     let before = paths(&window).corridor.lines().to_vec();
     key(&mut window, Modifiers::NONE, Key::B);
     super::stroke(&mut window, glam::dvec2(0.3, 0.2), glam::dvec2(0.35, 0.5));
     wait_for_paths(&mut window);
-    wait_for(&mut window, "the corridor stays", |paths| paths.corridor.lines() != before);
+    wait_until(&mut window, |window| paths(window).corridor.lines() != before);
     send(&mut window, Command::Path(PathCommand::DeleteAll));
     assert!(paths(&window).corridor.lines().is_empty() && paths(&window).corridor.is_on);
 }
@@ -78,7 +69,7 @@ fn the_corridor_follows_an_edit() {
 fn an_alternative_is_pointed_at_and_taken() {
     let mut window = window_with_path();
     check(&mut window, "Alternatives");
-    wait_for(&mut window, "no alternative", |paths| !paths.alternatives.paths().is_empty());
+    wait_until(&mut window, |window| !paths(window).alternatives.paths().is_empty());
     send(&mut window, Command::Path(PathCommand::Alternatives(AlternativesCommand::Cancel)));
     let alternatives = paths(&window).alternatives.paths().to_vec();
     assert_eq!(tips::unexplained(&window), [""; 0]);
@@ -87,6 +78,7 @@ fn an_alternative_is_pointed_at_and_taken() {
     window.run();
     assert_eq!(paths(&window).alternatives.pointed, Some(0));
     let places = settings(&window).paths.routes[0].clone();
+    wait_for_jobs(&mut window);
     press_at(&mut window, row, PointerButton::Primary, Modifiers::NONE);
     release_at(&mut window, row, PointerButton::Primary);
     assert_eq!(settings(&window).paths.routes[0].len(), 3);
@@ -104,7 +96,7 @@ fn a_path_of_the_front_is_pointed_at_and_taken() {
     check(&mut window, "Front");
     assert!(window.query_by_label("Cancel front").is_some());
     assert_eq!(tips::unexplained(&window), [""; 0]);
-    wait_for(&mut window, "no front", |paths| paths.front.points().len() >= 3);
+    wait_until(&mut window, |window| paths(window).front.points().len() >= 3);
     send(&mut window, Command::Path(PathCommand::Front(FrontCommand::Cancel)));
     let front = paths(&window).front.points().to_vec();
     // Somewhere in the plot is a point.
@@ -116,6 +108,8 @@ fn a_path_of_the_front_is_pointed_at_and_taken() {
         paths(&window).front.pointed.is_some()
     });
     let (at, pointed) = (at.unwrap(), paths(&window).front.pointed.unwrap());
+    // As long as jobs run, frames follow each other, and a press becomes too long for a click.
+    wait_for_jobs(&mut window);
     press_at(&mut window, at, PointerButton::Primary, Modifiers::NONE);
     release_at(&mut window, at, PointerButton::Primary);
     assert_eq!(settings(&window).paths.cost, PathCost::Weighted(front[pointed].weights));

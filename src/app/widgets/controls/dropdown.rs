@@ -6,7 +6,7 @@ use super::{Icon, paint};
 use crate::app::theme::{font, metrics};
 use crate::app::widgets::tips;
 
-/// A name and a drop-down list. `choices` are values with their names; the response has `changed` when
+/// Shows a name and a drop-down list. `choices` are values with their names; the response has `changed` when
 /// `value` did.
 pub fn dropdown_row<T: PartialEq + Copy>(
     ui: &mut Ui,

@@ -5,11 +5,12 @@ use eframe::egui::{Event, Id, PointerButton, Pos2, Rect, Ui, Vec2};
 /// A handle that is held.
 #[derive(Clone, Copy)]
 struct Held {
-    /// From the pointer to the middle of the handle.
+    /// The vector from the pointer to the middle of the handle, in points.
     offset: Vec2,
 }
 
-/// Where a drag moves the handle at `position` in this frame. It is grabbed within `size`, in points.
+/// Returns the position to which a drag moves the handle at `position` in this frame. It is grabbed within
+/// `size`, in points.
 ///
 /// egui tests where the pointer is at the end of a frame, so a slow frame that brings a press together with
 /// the movement or the release after it would miss the handle. The events say where the press was.
@@ -40,7 +41,7 @@ pub(super) fn target(ui: &Ui, id: Id, position: Pos2, size: Vec2) -> Option<Pos2
     target
 }
 
-/// Whether a press at `pos` meets this panel, and nothing over it.
+/// Returns whether a press at `pos` meets this panel, and nothing over it.
 fn is_free_at(ui: &Ui, pos: Pos2) -> bool {
     ui.is_enabled() && ui.clip_rect().contains(pos) && ui.ctx().layer_id_at(pos) == Some(ui.layer_id())
 }

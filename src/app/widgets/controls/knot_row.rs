@@ -25,7 +25,7 @@ pub struct KnotRow<'a> {
     pub number: usize,
     /// [value, diameter in the unit of the document]; a new number is written here.
     pub knot: &'a mut [f64; 2],
-    /// What the value may be.
+    /// The allowed values.
     pub values: RangeInclusive<f64>,
     /// The unit of the diameter.
     pub unit: LengthUnit,
@@ -33,10 +33,10 @@ pub struct KnotRow<'a> {
     pub can_delete: bool,
 }
 
-/// What a person did to a knot.
+/// The change that a person made to a knot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KnotAnswer {
-    /// Nothing.
+    /// No change.
     None,
     /// Entered another number.
     Changed,

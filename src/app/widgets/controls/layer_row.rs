@@ -26,17 +26,17 @@ const BUTTON: f32 = metrics::ROW;
 pub struct LayerRow<'a> {
     /// Tells rows of the same name apart.
     pub id: u32,
-    /// Its name, by which tests and screen readers find the row.
+    /// The name of the layer, by which tests and screen readers find the row.
     pub name: &'a str,
     /// The sign of its kind.
     pub icon: Icon,
-    /// Its kind in words.
+    /// The kind of the layer, in words.
     pub kind: &'a str,
     /// How it is combined, in a word.
     pub combine: &'a str,
-    /// Its colour in the overlay.
+    /// The colour of the layer in the overlay.
     pub color: Color32,
-    /// What it asks for, as a small picture, once that is known.
+    /// A small picture of the layer's target diameters, once it is drawn.
     pub picture: Option<&'a TextureHandle>,
     /// Whether the eye is open.
     pub visible: bool,
@@ -48,14 +48,14 @@ pub struct LayerRow<'a> {
     pub begins_typing: bool,
 }
 
-/// What [`LayerRow::show`] answers.
+/// The answer of [`LayerRow::show`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerRowAnswer {
     /// Nothing happened.
     None,
     /// The row was clicked.
     Selected,
-    /// It was double-clicked, or F2 was pressed.
+    /// The row was double-clicked, or F2 was pressed.
     AsksName,
     /// The new name was entered.
     Named,
@@ -125,7 +125,7 @@ impl LayerRow<'_> {
         paint::focus_ring(ui, response, inner.shrink(3.0), metrics::RADIUS_CONTROL);
     }
 
-    /// A small button that is on or off. Returns whether it was clicked.
+    /// Returns a small button that is on or off. Returns whether it was clicked.
     fn switch(&self, ui: &Ui, rect: Rect, icon: Icon, what: &str, on: bool) -> bool {
         let t = tokens(ui);
         let response = ui.interact(rect, ui.make_persistent_id((what, self.id)), Sense::click());
@@ -144,7 +144,7 @@ impl LayerRow<'_> {
         tips::explain(ui, response, tips::sentence(&format!("Layer/{what}"))).clicked()
     }
 
-    /// The small picture, the sign of the kind and the dot. Returns the room after them.
+    /// Returns the small picture, the sign of the kind and the dot. Returns the room after them.
     fn paint_signs(&self, ui: &Ui, rest: Rect) -> Rect {
         let t = tokens(ui);
         let opacity = self.opacity();
@@ -183,7 +183,7 @@ impl LayerRow<'_> {
         if self.visible { 1.0 } else { 0.55 }
     }
 
-    /// The field for a new name. Returns how typing ended, if it did.
+    /// Shows the field for a new name. Returns how typing ended, if it did.
     fn name_field(&self, ui: &mut Ui, room: Rect, text: &mut String) -> Option<LayerRowAnswer> {
         let t = tokens(ui);
         let field = room.shrink2(vec2(0.0, 4.0)).expand2(vec2(4.0, 0.0));

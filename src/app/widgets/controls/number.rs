@@ -27,7 +27,7 @@ pub struct NumberRow<'a> {
 }
 
 impl<'a> NumberRow<'a> {
-    /// A row named `label`; any finite number is allowed.
+    /// Creates a row named `label`; any finite number is allowed.
     pub fn new(label: &'a str, value: &'a mut f64) -> Self {
         let range = f64::MIN..=f64::MAX;
         Self { label, longest_label: label, value, range, unit: "", integer: false, default: None, help: "" }
@@ -39,7 +39,7 @@ impl<'a> NumberRow<'a> {
         self
     }
 
-    /// A number outside `range` becomes its nearer end, and a sentence below the row says so.
+    /// Sets the range: a number outside `range` becomes its nearer end, and a sentence below the row says so.
     pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
         self
@@ -57,7 +57,7 @@ impl<'a> NumberRow<'a> {
         self
     }
 
-    /// What a double click on the number sets.
+    /// Sets the value that a double click on the number restores.
     pub fn default(mut self, default: f64) -> Self {
         self.default = Some(default);
         self

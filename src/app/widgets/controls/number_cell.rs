@@ -26,11 +26,11 @@ const WHEEL_PX: f32 = 40.0;
 pub(super) struct NumberCell<'a> {
     /// Keeps the focus while the cell moves.
     pub id: Id,
-    /// Where the number is; its background is slightly larger.
+    /// The rectangle of the number, in points; its background is slightly larger.
     pub rect: Rect,
     /// Name for tests and screen readers.
     pub name: &'a str,
-    /// What it is, in a sentence with its unit.
+    /// The meaning of the number, in a sentence with its unit.
     pub help: &'a str,
     /// The number and what it may be.
     pub input: NumberInput<'a>,
@@ -73,7 +73,7 @@ impl NumberCell<'_> {
         (around | response, typed.or(moved))
     }
 
-    /// Whether a number is being typed.
+    /// Returns whether a number is being typed.
     pub fn is_edited(&self, ui: &Ui) -> bool {
         ui.memory(|memory| memory.has_focus(self.id))
     }
@@ -97,7 +97,7 @@ impl NumberCell<'_> {
         }
     }
 
-    /// The number while it is not typed: pointer and wheel change it.
+    /// Changes the number by pointer and wheel, while it is not typed.
     fn rest(&self, ui: &Ui) -> (Response, Option<f64>) {
         let response = ui
             .interact(self.ground(), self.id, Sense::click_and_drag())
@@ -180,7 +180,7 @@ impl NumberCell<'_> {
         }
     }
 
-    /// The number while it is typed.
+    /// Edits the number while it is typed.
     fn edit(&self, ui: &mut Ui) -> Option<f64> {
         let kept = ui.data(|data| data.get_temp::<String>(self.id));
         let fresh = kept.is_none();
@@ -204,7 +204,7 @@ impl NumberCell<'_> {
         if response.lost_focus() { self.finish(ui, true) } else { None }
     }
 
-    /// The keys Up and Down; returns whether they changed the text.
+    /// Returns the keys Up and Down; returns whether they changed the text.
     fn step_by_keys(&self, ui: &Ui, text: &mut String) -> bool {
         let steps = ui.input_mut(|input| {
             let mut count = |key| input.count_and_consume_key(Modifiers::NONE, key) as f64;
@@ -275,7 +275,7 @@ impl NumberCell<'_> {
     }
 }
 
-/// Steps of the wheel in this frame, up positive. With Ctrl the wheel zooms.
+/// Returns the steps of the wheel in this frame, up positive. With Ctrl the wheel zooms.
 fn wheel_steps(input: &egui::InputState) -> f64 {
     let steps = input.events.iter().map(|event| match event {
         egui::Event::MouseWheel { unit, delta, modifiers, .. } if !modifiers.command => match unit {

@@ -1,4 +1,4 @@
-//! What a number of the window may be, and how typing, dragging and the wheel change it.
+//! The rules of a number in the window: its range, and its changes by typing, dragging and the wheel.
 
 use std::ops::RangeInclusive;
 
@@ -12,7 +12,7 @@ pub(super) const PX_PER_STEP: f64 = 10.0;
 
 /// A number, the values that it can have, and how it reads.
 pub(super) struct NumberInput<'a> {
-    /// What it is called in sentences.
+    /// The name of the number in sentences.
     pub name: &'a str,
     /// The present value.
     pub value: f64,
@@ -24,7 +24,7 @@ pub(super) struct NumberInput<'a> {
     pub step: Option<f64>,
     /// Whether equal movements are equal factors.
     pub logarithmic: bool,
-    /// What a double click sets.
+    /// The value that a double click sets, if there is one.
     pub default: Option<f64>,
     /// How a value reads, with its unit.
     pub show: &'a dyn Fn(f64) -> String,
@@ -38,10 +38,10 @@ pub(super) struct Entered {
 }
 
 impl NumberInput<'_> {
-    /// The value that `text` stands for.
+    /// Returns the value that `text` stands for.
     ///
     /// # Errors
-    /// A sentence that says what was not understood.
+    /// Fails with a sentence that says what was not understood.
     pub fn read(&self, text: &str) -> Result<Entered, String> {
         let typed = typed::number(text, self.unit)?;
         if typed <= 0.0 && *self.range.start() == f64::MIN_POSITIVE {
@@ -64,7 +64,7 @@ impl NumberInput<'_> {
         Ok(Entered { value, remark })
     }
 
-    /// The value as it is offered for editing.
+    /// Returns the value as it is offered for editing.
     pub fn exact(&self) -> String {
         self.value.to_string()
     }
@@ -85,7 +85,7 @@ impl NumberInput<'_> {
         format::rounded(moved, 12).clamp(low, high)
     }
 
-    /// How much a point of movement changes a linear number.
+    /// Returns how much a point of movement changes a linear number.
     fn linear_unit(&self, from: f64) -> f64 {
         let width = self.range.end() - self.range.start();
         let size = if width.is_finite() && width < 1e6 { width } else { from.abs().max(1.0) };

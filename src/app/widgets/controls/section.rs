@@ -20,12 +20,12 @@ pub struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    /// A section that is open at first.
+    /// Creates a section that is open at first.
     pub fn new(title: &'a str) -> Self {
         Self { title, note: "", id: title, open: true, reveal: false }
     }
 
-    /// A faint note at the right of the title.
+    /// Returns a faint note at the right of the title.
     pub fn note(mut self, note: &'a str) -> Self {
         self.note = note;
         self

@@ -74,7 +74,7 @@ fn segment(ui: &Ui, rect: Rect, group: &str, label: &str, chosen: bool) -> Respo
     tips::explain(ui, response, tips::sentence(&format!("{group}/{label}")))
 }
 
-/// The segment that an arrow key asks for while segment `index` of `count` has the focus.
+/// Returns the segment that an arrow key asks for while segment `index` of `count` has the focus.
 fn neighbour_by_key(ui: &Ui, response: &Response, index: usize, count: usize) -> Option<usize> {
     if !response.has_focus() {
         return None;

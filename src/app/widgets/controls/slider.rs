@@ -25,13 +25,13 @@ struct Scale {
 }
 
 impl Scale {
-    /// A scale over `range`; logarithmic only where all of it is positive.
+    /// Creates a scale over `range`; logarithmic only where all of it is positive.
     fn new(range: &RangeInclusive<f64>, logarithmic: bool) -> Self {
         let (low, high) = (*range.start(), *range.end());
         Self { low, high, logarithmic: logarithmic && low > 0.0 }
     }
 
-    /// The place of `value`, from 0 to 1.
+    /// Returns the place of `value`, from 0 to 1.
     fn share(self, value: f64) -> f64 {
         let share = if self.logarithmic {
             (value / self.low).ln() / (self.high / self.low).ln()
@@ -41,7 +41,7 @@ impl Scale {
         if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// The value at `share` of the track.
+    /// Returns the value at `share` of the track.
     fn value(self, share: f64) -> f64 {
         let share = share.clamp(0.0, 1.0);
         let value = if self.logarithmic {
@@ -73,7 +73,7 @@ pub struct SliderRow<'a> {
 }
 
 impl<'a> SliderRow<'a> {
-    /// A linear slider named `label` over `range`. The name must be unique in its section.
+    /// Creates a linear slider named `label` over `range`. The name must be unique in its section.
     pub fn new(label: &'a str, value: &'a mut f64, range: RangeInclusive<f64>) -> Self {
         Self {
             label,
@@ -106,13 +106,13 @@ impl<'a> SliderRow<'a> {
         self
     }
 
-    /// The numbers that can be typed, where they reach beyond the track.
+    /// Returns the numbers that can be typed, where they reach beyond the track.
     pub fn typed_range(mut self, range: RangeInclusive<f64>) -> Self {
         self.typed_range = Some(range);
         self
     }
 
-    /// What a double click on track or number sets.
+    /// Sets the value that a double click on track or number restores.
     pub fn default(mut self, default: f64) -> Self {
         self.default = Some(default);
         self
@@ -178,7 +178,7 @@ impl<'a> SliderRow<'a> {
         format::with_unit(&number, self.unit)
     }
 
-    /// The track: pointer and keys change the value, then it is painted.
+    /// Returns the track: pointer and keys change the value, then it is painted.
     fn track(&mut self, ui: &Ui, id: Id, rect: Rect) -> Response {
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let range = rect.left() + THUMB..=rect.right() - THUMB;
@@ -193,7 +193,8 @@ impl<'a> SliderRow<'a> {
         response
     }
 
-    /// Where the pointer puts the thumb: at its own place, or with Shift held a tenth of its movement away.
+    /// Returns the position that the pointer gives the thumb: at its own place, or with Shift held a tenth of
+    /// its movement away.
     fn pointed_share(&self, ui: &Ui, response: &Response, range: &RangeInclusive<f32>) -> Option<f64> {
         if !response.is_pointer_button_down_on() {
             return None;
@@ -283,12 +284,12 @@ impl<'a> SliderRow<'a> {
     }
 }
 
-/// The cell of the number beside a slider.
+/// Returns the cell of the number beside a slider.
 fn number_id(slider: Id) -> Id {
     slider.with("number")
 }
 
-/// The number that assistive technology set.
+/// Returns the number that assistive technology set.
 pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     ui.input(|input| {
         let numbers =
@@ -300,8 +301,8 @@ pub(super) fn requested_value(ui: &Ui, id: Id) -> Option<f64> {
     })
 }
 
-/// The number of steps pressed on the keyboard. While focused it takes the arrow keys, which would otherwise
-/// move the focus.
+/// Returns the number of steps pressed on the keyboard. While focused it takes the arrow keys, which would
+/// otherwise move the focus.
 pub(super) fn key_steps(ui: &Ui, response: &Response) -> f64 {
     let requests = ui.input(|input| {
         input.num_accesskit_action_requests(response.id, Action::Increment) as f64

@@ -10,7 +10,7 @@ use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
 
-/// What is wrong with a text.
+/// A mistake in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextError<'a> {
     /// A sentence.
@@ -35,12 +35,12 @@ pub struct TextRow<'a> {
 }
 
 impl<'a> TextRow<'a> {
-    /// A field beside its name.
+    /// Creates a field beside its name.
     pub fn new(label: &'a str, text: &'a mut String) -> Self {
         Self { label, text, hint: "", error: None, help: "", mark: None, formula: false, takes_focus: false }
     }
 
-    /// A field for a formula: monospaced, full width, below its name.
+    /// Returns a field for a formula: monospaced, full width, below its name.
     pub fn formula(label: &'a str, text: &'a mut String) -> Self {
         Self { formula: true, ..Self::new(label, text) }
     }
@@ -57,19 +57,19 @@ impl<'a> TextRow<'a> {
         self
     }
 
-    /// A word or two about the present text, at the right of a formula's name.
+    /// Returns a word or two about the present text, at the right of a formula's name.
     pub fn mark(mut self, mark: Option<&'a str>) -> Self {
         self.mark = mark;
         self
     }
 
-    /// All letters go into this field, also those typed before it is seen.
+    /// Returns all letters go into this field, also those typed before it is seen.
     pub fn take_focus(mut self, takes_focus: bool) -> Self {
         self.takes_focus = takes_focus;
         self
     }
 
-    /// What is wrong with the present text.
+    /// Sets the mistake in the present text, if there is one.
     pub fn error(mut self, error: Option<TextError<'a>>) -> Self {
         self.error = error;
         self
@@ -96,7 +96,7 @@ impl<'a> TextRow<'a> {
         response
     }
 
-    /// The field in `rect`, and the x of the error.
+    /// Shows the field in `rect`, and the x of the error.
     fn field(&mut self, ui: &mut Ui, rect: Rect) -> (Response, Option<f32>) {
         let id = ui.make_persistent_id(("text", self.label));
         if self.takes_focus {
@@ -155,7 +155,7 @@ impl<'a> TextRow<'a> {
     }
 }
 
-/// The number of characters before `byte`; that of the whole text if `byte` is beyond it.
+/// Returns the number of characters before `byte`; that of the whole text if `byte` is beyond it.
 fn char_index(text: &str, byte: usize) -> usize {
     text.char_indices().take_while(|(start, _)| *start < byte).count()
 }

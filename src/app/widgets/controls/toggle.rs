@@ -1,4 +1,4 @@
-//! On or off.
+//! Check boxes: values that are on or off.
 
 use eframe::egui::{Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
@@ -6,7 +6,7 @@ use super::{Icon, paint};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::tips;
 
-/// A check box with its name; the whole row is the target. The response has `changed` when `on` did.
+/// Shows a check box with its name; the whole row is the target. The response has `changed` when `on` did.
 pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let row = paint::row(ui);
     let mut response = ui.interact(row, ui.make_persistent_id(("toggle", label)), Sense::click());

@@ -17,23 +17,23 @@ pub struct ToolButton<'a> {
 }
 
 impl<'a> ToolButton<'a> {
-    /// A button of the tool strip, 40 points wide.
+    /// Creates a button of the tool strip, 40 points wide.
     pub fn new(icon: Icon, name: &'a str) -> Self {
         Self { icon, name, key: "", selected: false, size: metrics::TOOL }
     }
 
-    /// A button within a row, 24 points wide.
+    /// Returns a button within a row, 24 points wide.
     pub fn small(icon: Icon, name: &'a str) -> Self {
         Self { size: metrics::ROW, ..Self::new(icon, name) }
     }
 
-    /// The shortcut shown in the tooltip: `B`, `Ctrl+Z`.
+    /// Returns the shortcut shown in the tooltip: `B`, `Ctrl+Z`.
     pub fn key(mut self, key: &'a str) -> Self {
         self.key = key;
         self
     }
 
-    /// Whether this is the selected tool.
+    /// Returns whether this is the selected tool.
     pub fn selected(mut self, selected: bool) -> Self {
         self.selected = selected;
         self
@@ -99,12 +99,12 @@ pub struct ActionButton<'a> {
 }
 
 impl<'a> ActionButton<'a> {
-    /// A quiet button.
+    /// Creates a quiet button.
     pub fn new(text: &'a str) -> Self {
         Self { text, name: text, kind: ButtonKind::Quiet }
     }
 
-    /// A longer name, for tests and screen readers, where the word alone is ambiguous.
+    /// Returns a longer name, for tests and screen readers, where the word alone is ambiguous.
     pub fn named(mut self, name: &'a str) -> Self {
         self.name = name;
         self

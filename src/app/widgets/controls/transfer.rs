@@ -65,7 +65,7 @@ enum Handle {
 }
 
 impl<'a> TransferCurve<'a> {
-    /// An editor whose handles keep the diameters within `limits` and the shape within `shapes`, both
+    /// Creates an editor whose handles keep the diameters within `limits` and the shape within `shapes`, both
     /// positive. Any positive diameter can be typed.
     pub fn new(
         value: &'a mut CurveValues,
@@ -83,13 +83,13 @@ impl<'a> TransferCurve<'a> {
         self
     }
 
-    /// The unit of the diameters.
+    /// Returns the unit of the diameters.
     pub fn unit(mut self, unit: LengthUnit) -> Self {
         self.unit = unit;
         self
     }
 
-    /// What a double click on a handle or its number sets.
+    /// Sets the values that a double click on a handle or its number restores.
     pub fn defaults(mut self, defaults: CurveValues) -> Self {
         self.defaults = Some(defaults);
         self
@@ -123,7 +123,8 @@ impl<'a> TransferCurve<'a> {
         response
     }
 
-    /// The axis of the last frame while a handle is dragged, else the whole decades around the values.
+    /// Returns the axis of the last frame while a handle is dragged, else the whole decades around the
+    /// values.
     fn axis(&self, ui: &Ui, id: Id) -> Axis {
         let kept = ui.data(|data| data.get_temp::<Axis>(id));
         kept.unwrap_or_else(|| Axis::around(self.value.h_min, self.value.h_max))
@@ -172,7 +173,7 @@ impl<'a> TransferCurve<'a> {
         });
     }
 
-    /// The value that a handle changes.
+    /// Returns the value that a handle changes.
     fn number_of(&self, handle: Handle) -> f64 {
         match handle {
             Handle::Max => self.value.h_max,
@@ -199,7 +200,7 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// The diameters that can be typed for an end point.
+    /// Returns the diameters that can be typed for an end point.
     fn typed_range(&self, handle: Handle) -> RangeInclusive<f64> {
         match handle {
             Handle::Max => self.value.h_min..=f64::MAX,
@@ -240,12 +241,13 @@ impl<'a> TransferCurve<'a> {
         if high >= low { 1.0 } else { -1.0 }
     }
 
-    /// The diameter at risk ½ with another shape.
+    /// Returns the diameter at risk ½ with another shape.
     fn middle(&self, shape: f64) -> f64 {
         (self.curve)(&CurveValues { shape, ..*self.value }, 0.5)
     }
 
-    /// The shape whose curve passes nearest to `diameter` at risk ½, by 40 halvings of the range's logarithm.
+    /// Returns the shape whose curve passes nearest to `diameter` at risk ½, by 40 halvings of the range's
+    /// logarithm.
     fn shape_through(&self, diameter: f64) -> f64 {
         let (mut low, mut high) = (self.shapes.start().ln(), self.shapes.end().ln());
         let rising = self.rising();
@@ -322,7 +324,7 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// What the curve makes of the risk under the pointer, in the corner that the curve leaves free.
+    /// Writes the diameter for the risk under the pointer into the corner that the curve leaves free.
     fn paint_caption(&self, ui: &Ui, plot: &Plot, risk: Option<f64>) {
         let caption = match risk {
             Some(risk) => {
@@ -339,7 +341,7 @@ impl<'a> TransferCurve<'a> {
         paint::at_right(ui, row, text);
     }
 
-    /// The row below: the numbers of both end points, which can be typed.
+    /// Shows the row below: the numbers of both end points, which can be typed.
     fn numbers(&mut self, ui: &mut Ui, id: Id) -> Response {
         let row = paint::row(ui);
         let half = (row.width() - NUMBER_GAP) / 2.0;
@@ -352,7 +354,7 @@ impl<'a> TransferCurve<'a> {
         response
     }
 
-    /// The name and number of an end point.
+    /// Shows the name and number of an end point.
     fn number(&mut self, ui: &mut Ui, id: Id, rect: Rect, handle: Handle) -> Response {
         let name = paint::line(ui, handle.name(), font::small_value(), tokens(ui).label);
         let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
@@ -384,7 +386,7 @@ impl<'a> TransferCurve<'a> {
     }
 }
 
-/// The cell of a handle's number.
+/// Returns the cell of a handle's number.
 fn number_id(id: Id, handle: Handle) -> Id {
     id.with((handle.name(), "number"))
 }

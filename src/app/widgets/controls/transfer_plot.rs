@@ -12,14 +12,14 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// The fewest whole decades that hold both diameters.
+    /// Returns the fewest whole decades that hold both diameters.
     pub fn around(h_min: f64, h_max: f64) -> Self {
         let low = (h_min.max(1e-300).log10() + 1e-9).floor() as i32;
         let high = (h_max.max(1e-300).log10() - 1e-9).ceil() as i32;
         Self { low, high: high.max(low + 1) }
     }
 
-    /// The number of decades from one number on the axis to the next.
+    /// Returns the number of decades from one number on the axis to the next.
     pub fn label_every(self) -> i32 {
         ((self.high - self.low) / 5 + 1).max(1)
     }
@@ -28,7 +28,7 @@ impl Axis {
         self.low..=self.high
     }
 
-    /// The place of a diameter, 0 at the bottom, 1 at the top.
+    /// Returns the place of a diameter, 0 at the bottom, 1 at the top.
     fn share(self, diameter: f64) -> f64 {
         let share = (diameter.log10() - f64::from(self.low)) / f64::from(self.high - self.low);
         if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
@@ -60,7 +60,7 @@ impl Plot {
     }
 }
 
-/// The area between a curve and the line `bottom`, fading downwards.
+/// Returns the area between a curve and the line `bottom`, fading downwards.
 pub(super) fn area_under(points: &[Pos2], bottom: f32, color: Color32) -> Shape {
     let mut mesh = Mesh::default();
     for (i, point) in points.iter().enumerate() {

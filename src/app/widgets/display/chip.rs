@@ -21,25 +21,25 @@ pub struct Chip<'a> {
 }
 
 impl<'a> Chip<'a> {
-    /// A chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a click
-    /// does.
+    /// Creates a chip with a dot in `color`; tooltip, tests and screen readers use `name`, which says what a
+    /// click does.
     pub fn new(color: Color32, text: &'a str, name: &'a str) -> Self {
         Self { color, text, name, help: name, number: String::new(), enabled: true }
     }
 
-    /// With a number in the dot, such as that of the key that does the same.
+    /// Adds a number in the dot, for example the digit of the equivalent key.
     pub fn number(mut self, number: usize) -> Self {
         self.number = number.to_string();
         self
     }
 
-    /// A sentence for the tooltip, in place of the name.
+    /// Returns a sentence for the tooltip, in place of the name.
     pub fn help(mut self, help: &'a str) -> Self {
         self.help = help;
         self
     }
 
-    /// Whether it can be clicked; a neighbour that is the boundary cannot.
+    /// Returns whether it can be clicked; a neighbour that is the boundary cannot.
     pub fn enabled(mut self, enabled: bool) -> Self {
         self.enabled = enabled;
         self
@@ -66,7 +66,7 @@ impl<'a> Chip<'a> {
         tips::explain(ui, response, self.help)
     }
 
-    /// Where the text begins, in points from the left side.
+    /// Returns the beginning of the text, in points from the left side.
     fn text_left(&self) -> f32 {
         if self.number.is_empty() { 22.0 } else { 27.0 }
     }

@@ -8,7 +8,7 @@ use crate::app::theme::{font, metrics, tokens};
 /// The name of a folder, or the name and size of a file.
 #[must_use = "call `show`"]
 pub struct FileRow<'a> {
-    /// Its name.
+    /// The name of the file.
     pub name: &'a str,
     /// Size of a file in bytes; `None` for a folder.
     pub bytes: Option<u64>,

@@ -90,7 +90,7 @@ impl Icon {
     /// The home folder.
     pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 
-    /// The text that draws it, in the family [`crate::app::theme::font::ICONS`].
+    /// Returns the text that draws it, in the family [`crate::app::theme::font::ICONS`].
     pub const fn glyph(self) -> &'static str {
         self.0
     }

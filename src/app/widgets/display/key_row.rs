@@ -1,11 +1,11 @@
-//! What a key does.
+//! Rows with an action and its keys.
 
 use eframe::egui::{Response, Role, Sense, Ui, WidgetInfo};
 
 use super::paint;
 use crate::app::theme::{font, tokens};
 
-/// What happens at the left, the keys for it at the right.
+/// Shows an action at the left and its keys at the right.
 pub fn key_row(ui: &mut Ui, title: &str, keys: &str) -> Response {
     let row = paint::row(ui);
     let response = ui.interact(row, ui.make_persistent_id(("key", title, keys)), Sense::hover());

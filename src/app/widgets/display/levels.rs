@@ -42,7 +42,7 @@ pub struct LevelLegend<'a> {
     max_height: f32,
 }
 
-/// What was done with the rows of a legend.
+/// The actions of a person on the rows of a legend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LevelAnswer {
     /// The level under the pointer.
@@ -54,12 +54,12 @@ pub struct LevelAnswer {
 }
 
 impl<'a> LevelLegend<'a> {
-    /// A legend of `rows`, from the top down.
+    /// Creates a legend of `rows`, from the top down.
     pub fn new(rows: &'a [LevelRow]) -> Self {
         Self { rows, unit: LengthUnit::None, lit: None, hidden: 0, max_height: 360.0 }
     }
 
-    /// The unit of the diameters.
+    /// Returns the unit of the diameters.
     pub fn unit(mut self, unit: LengthUnit) -> Self {
         self.unit = unit;
         self
@@ -71,13 +71,13 @@ impl<'a> LevelLegend<'a> {
         self
     }
 
-    /// The levels that are hidden on the canvas, as bits.
+    /// Returns the levels that are hidden on the canvas, as bits.
     pub fn hidden(mut self, levels: u64) -> Self {
         self.hidden = levels;
         self
     }
 
-    /// The greatest height in points; 360 by default.
+    /// Returns the greatest height in points; 360 by default.
     pub fn max_height(mut self, height: f32) -> Self {
         self.max_height = height;
         self
@@ -195,7 +195,7 @@ impl Layout {
     }
 }
 
-/// An outline for bars that are hard to tell from the panel: level 0 is close to it on purpose.
+/// Returns an outline for bars that are hard to tell from the panel: level 0 is close to it on purpose.
 fn edge_of(ui: &Ui, color: Color32) -> Color32 {
     let t = tokens(ui);
     let far = |a: u8, b: u8| a.abs_diff(b) > 40;

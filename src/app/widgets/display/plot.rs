@@ -10,7 +10,7 @@ use egui_plot::{
 
 use super::paint;
 use crate::app::theme::{Tokens, font, tokens};
-use meshbrush_core::plot::{Axis, AxisRange, Mark, Plot, Series, Tick};
+use meshbrush_study::plot::{Axis, AxisRange, Mark, Plot, Series, Tick};
 
 /// Room for a number along each axis, in points.
 const TICK_ROOM: Vec2 = vec2(46.0, 28.0);
@@ -40,7 +40,7 @@ pub fn plot_view(ui: &mut Ui, name: &str, plot: &Plot, height: f32) -> Option<f6
 /// A point of a plot that the pointer is at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PickedPoint {
-    /// Its number in the first series.
+    /// The index of the point in the first series.
     pub point: usize,
     /// Whether it was clicked.
     pub is_clicked: bool,
@@ -81,7 +81,7 @@ fn note(ui: &mut Ui, plot: &Plot) {
     ui.label(RichText::new(&plot.note).font(font::caption()).color(tokens(ui).label));
 }
 
-/// The legend and the chart.
+/// Shows the legend and the chart.
 fn chart(ui: &mut Ui, name: &str, plot: &Plot, height: f32, sense: Sense) -> PlotResponse<()> {
     let t = *tokens(ui);
     if plot.series.len() > 1 {
@@ -129,7 +129,7 @@ fn chart(ui: &mut Ui, name: &str, plot: &Plot, height: f32, sense: Sense) -> Plo
     shown
 }
 
-/// The marks of an axis. All have the same distance: none is fainter than the others.
+/// Returns the marks of an axis. All have the same distance: none is fainter than the others.
 fn grid(range: &AxisRange, ticks: &[Tick]) -> Vec<GridMark> {
     let step_size = range.high() - range.low();
     ticks.iter().map(|tick| GridMark { value: tick.position, step_size }).collect()

@@ -17,13 +17,13 @@ pub struct StatusCell {
 }
 
 impl StatusCell {
-    /// A cell with room for at least `chars` characters of value, so that its neighbours stay where they are
-    /// when the number gets longer. The value is left-aligned.
+    /// Creates a cell with room for at least `chars` characters of value, so that its neighbours stay where
+    /// they are when the number gets longer. The value is left-aligned.
     pub fn new(label: &'static str, value: impl Into<String>, chars: usize) -> Self {
         Self { label, value: value.into(), chars }
     }
 
-    /// Its width in points.
+    /// Returns the width in points.
     pub fn width(&self, ui: &Ui) -> f32 {
         let width = |text: &str| paint::line(ui, text, font::value(), tokens(ui).value).size().x;
         let digit = ui.fonts_mut(|fonts| fonts.glyph_width(&font::value(), '0'));

@@ -17,17 +17,17 @@ pub struct ValueRow<'a> {
     help: &'a str,
     stands_out: bool,
     is_link: bool,
-    /// What a click copies.
+    /// The text that a click copies, if it copies one.
     copies: Option<&'a str>,
 }
 
-/// A row that only shows its value.
+/// Shows a row that only shows its value.
 pub fn value_row(ui: &mut Ui, label: &str, value: &str) -> Response {
     ValueRow::new(label, value).show(ui)
 }
 
 impl<'a> ValueRow<'a> {
-    /// A row.
+    /// Creates a row.
     pub fn new(label: &'a str, value: &'a str) -> Self {
         Self { label, value, help: "", stands_out: false, is_link: false, copies: None }
     }
@@ -47,7 +47,7 @@ impl<'a> ValueRow<'a> {
         Self { is_link: true, ..self }
     }
 
-    /// A click copies `exact`, the value in full, which the tooltip shows.
+    /// Returns a click copies `exact`, the value in full, which the tooltip shows.
     pub fn copies(self, exact: &'a str) -> Self {
         Self { copies: Some(exact), ..self }
     }

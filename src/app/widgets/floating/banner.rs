@@ -17,7 +17,7 @@ pub enum BannerKind {
     Info,
 }
 
-/// What [`Banner::show`] answers.
+/// The answer of [`Banner::show`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BannerAnswer {
     /// Nothing was clicked.
@@ -48,13 +48,13 @@ impl<'a> Banner<'a> {
         Self { kind: BannerKind::Info, text, action: None, stands: false }
     }
 
-    /// A button that helps.
+    /// Returns a button that helps.
     pub fn action(mut self, action: &'a str) -> Self {
         self.action = Some(action);
         self
     }
 
-    /// Without the cross: it disappears when it is no longer true.
+    /// Removes the cross: the banner disappears when it is no longer true.
     pub fn standing(mut self) -> Self {
         self.stands = true;
         self

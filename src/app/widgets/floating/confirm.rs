@@ -16,7 +16,7 @@ pub enum Answer {
     Cancelled,
 }
 
-/// A dialog over the dimmed window, which must be answered or closed first.
+/// Shows a dialog over the dimmed window, which must be answered or closed first.
 pub fn dialog<R>(ctx: &Context, name: &str, contents: impl FnOnce(&mut Ui) -> R) -> egui::ModalResponse<R> {
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(20));
     let modal = egui::Modal::new(Id::unique(name)).frame(frame).backdrop_color(tokens_of(ctx).scrim);
@@ -44,18 +44,18 @@ pub struct ConfirmDialog<'a> {
 }
 
 impl<'a> ConfirmDialog<'a> {
-    /// A question, an explanation, and the verb on the button that confirms (`Discard`).
+    /// Creates a question, an explanation, and the verb on the button that confirms (`Discard`).
     pub fn new(title: &'a str, body: &'a str, confirm: &'a str) -> Self {
         Self { title, body, confirm, alternative: None, cancel: "Cancel", danger: false }
     }
 
-    /// A third answer, at the left (`Do not save`).
+    /// Returns a third answer, at the left (`Do not save`).
     pub fn alternative(mut self, text: &'a str) -> Self {
         self.alternative = Some(text);
         self
     }
 
-    /// The word on the button that changes nothing; `Cancel` by default.
+    /// Returns the word on the button that changes nothing; `Cancel` by default.
     pub fn cancel(mut self, text: &'a str) -> Self {
         self.cancel = text;
         self

@@ -13,7 +13,7 @@ pub fn elided_text(ui: &Ui, rect: Rect, text: &str, color: Color32) {
     paint::at_left(ui, rect, paint::elided(ui, text, font::caption(), color, rect.width()));
 }
 
-/// A short text on its own ground over the canvas: `+2,418 triangles`. Takes no clicks.
+/// Returns a short text on its own ground over the canvas: `+2,418 triangles`. Takes no clicks.
 ///
 /// `align` says which point of the tag is at `anchor`; it is moved to stay within `bounds`.
 pub fn floating_tag(
@@ -34,7 +34,7 @@ pub fn floating_tag(
     response
 }
 
-/// Size of a [`floating_tag`], in points.
+/// Returns the size of a [`floating_tag`], in points.
 pub fn tag_size(ui: &Ui, text: &str) -> Vec2 {
     let text = paint::line(ui, text, font::value(), Color32::PLACEHOLDER);
     (text.size() + vec2(20.0, 12.0)).ceil()
@@ -49,8 +49,8 @@ pub enum Hint<'a> {
     Key(&'a str),
 }
 
-/// The next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`. Takes no
-/// clicks.
+/// Returns the next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`.
+/// Takes no clicks.
 ///
 /// `align` says which point of the pill is at `anchor`; it is moved to stay within `bounds`. Pieces that do
 /// not fit into `bounds` are left out from the end.
@@ -114,7 +114,7 @@ fn width(ui: &Ui, hints: &[Hint<'_>]) -> f32 {
     pieces + gaps
 }
 
-/// The first hints that fit into `room` points; the last one explains its keys.
+/// Returns the first hints that fit into `room` points; the last one explains its keys.
 fn fitting<'a, 'b>(ui: &Ui, hints: &'a [Hint<'b>], room: f32) -> &'a [Hint<'b>] {
     let mut end = hints.len();
     while end > 1 && (width(ui, &hints[..end]) > room || matches!(hints[end - 1], Hint::Key(_))) {

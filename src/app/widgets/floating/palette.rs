@@ -18,20 +18,20 @@ const ROWS: usize = 10;
 /// A command as the palette shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PaletteItem<'a> {
-    /// What it does.
+    /// The action of the command, in words.
     pub title: &'a str,
-    /// Its shortcut, or nothing.
+    /// The shortcut of the command; empty if it has none.
     pub keys: &'a str,
     /// Whether it can be chosen now.
     pub enabled: bool,
 }
 
-/// What [`command_palette`] answers.
+/// The answer of [`command_palette`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaletteAnswer {
-    /// It is still open.
+    /// The palette is still open.
     Open,
-    /// It was closed without a choice.
+    /// The palette was closed without a choice.
     Closed,
     /// The item with this index was chosen.
     Chosen(usize),
@@ -103,7 +103,7 @@ impl Palette {
         self.selected = (self.selected as i64 + steps).rem_euclid(count as i64) as usize;
     }
 
-    /// The rows; answers the index of the item that was clicked.
+    /// Shows the rows; answers the index of the item that was clicked.
     fn list(
         &mut self,
         ui: &mut Ui,
@@ -165,7 +165,8 @@ impl Keys {
     }
 }
 
-/// The items that match, with the characters that do: those whose words begin so first, in their own order.
+/// Returns the items that match, with the characters that do: those whose words begin so first, in their own
+/// order.
 fn ranked(query: &str, items: &[PaletteItem<'_>]) -> Vec<(usize, Vec<usize>)> {
     let matches = items.iter().enumerate().filter_map(|(i, item)| Some((i, find(query, item.title)?)));
     let mut found: Vec<_> = matches.collect();
@@ -197,7 +198,7 @@ fn paint_row(ui: &Ui, rect: Rect, item: &PaletteItem<'_>, matched: &[usize], sel
     paint::shortcut_at_right(ui, inner, item.keys);
 }
 
-/// The title with the matched characters highlighted.
+/// Returns the title with the matched characters highlighted.
 fn title(ui: &Ui, text: &str, places: &[usize], width: f32) -> std::sync::Arc<egui::Galley> {
     let t = tokens(ui);
     let plain = TextFormat::simple(font::body(), t.text);

@@ -6,16 +6,16 @@ use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::ActionButton;
 
-/// The kind of work (`Refining`), its progress (`1,126,079 triangles`) and a Cancel button. Returns whether
-/// that was clicked.
+/// Shows the kind of work (`Refining`), its progress (`1,126,079 triangles`) and a Cancel button. Returns
+/// whether that was clicked.
 ///
 /// There is no bar: the amount of work is not known before it is done.
 pub fn progress_row(ui: &mut Ui, what: &str, done: &str) -> bool {
     row(ui, what, done, None, "Cancel")
 }
 
-/// As [`progress_row`] for the bytes of a file: the share that is done, also as a bar, or without a `total`
-/// the megabytes. There may be several rows, so the button is named after its work.
+/// Shows a [`progress_row`] for the bytes of a file: the share that is done, also as a bar, or without a
+/// `total` the number of megabytes. There may be several rows, so the button is named after its work.
 pub fn bytes_row(ui: &mut Ui, what: &str, done: u64, total: Option<u64>) -> bool {
     let share = total.map(|total| (done as f64 / total.max(1) as f64).clamp(0.0, 1.0));
     let done = match share {

@@ -25,7 +25,8 @@ pub fn find(query: &str, text: &str) -> Option<Found> {
     Some(Found { rank: 2, places: places.collect::<Option<_>>()? })
 }
 
-/// Whether a text contains a query at the start of a word or anywhere within it. Capitals do not matter.
+/// Returns whether a text contains a query at the start of a word or anywhere within it. Capitals do not
+/// matter.
 pub fn matches(query: &str, text: &str) -> bool {
     text.to_lowercase().contains(&query.trim().to_lowercase())
 }

@@ -17,12 +17,12 @@ pub struct SearchField<'a> {
 }
 
 impl<'a> SearchField<'a> {
-    /// A field by its name. `hint` is shown while it is empty.
+    /// Creates a field by its name. `hint` is shown while it is empty.
     pub fn new(name: &'a str, hint: &'a str) -> Self {
         Self { name, hint, takes_focus: false }
     }
 
-    /// All letters go into this field, also those typed before it is seen.
+    /// Returns all letters go into this field, also those typed before it is seen.
     pub fn take_focus(mut self) -> Self {
         self.takes_focus = true;
         self

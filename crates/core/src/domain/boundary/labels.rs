@@ -1,17 +1,17 @@
 //! One label for each of the edges of a loop, so that neighbours rarely differ.
 
-/// What an edge of a loop may be.
+/// The labels that an edge of a loop may have.
 #[derive(Clone, Debug)]
 pub(super) struct Choice {
-    /// Its labels, each with the cost of choosing it, in ascending order of the labels. At least one.
+    /// The labels, each with the cost of choosing it, in ascending order of the labels. At least one.
     pub(super) labels: Vec<(u32, f64)>,
-    /// The cost of a label that differs from that of the next edge.
+    /// The cost if the next edge has another label.
     pub(super) change: f64,
 }
 
-/// The labels of a closed loop with the least sum of costs, by dynamic programming. Of equal sums, that with
-/// the lower labels. `start` is an edge with few labels: each of them takes one pass over all labels of all
-/// edges.
+/// Returns the labels of a closed loop with the least sum of costs, by dynamic programming. Of equal sums,
+/// that with the lower labels. `start` is an edge with few labels: each of them takes one pass over all
+/// labels of all edges.
 pub(super) fn cheapest_labels(choices: &[Choice], start: usize) -> Vec<u32> {
     let count = choices.len();
     let at = |n: usize| &choices[(start + n) % count];
@@ -27,7 +27,7 @@ pub(super) fn cheapest_labels(choices: &[Choice], start: usize) -> Vec<u32> {
     labels
 }
 
-/// The cheapest labels of a loop whose first edge has its label number `first`, and their cost.
+/// Returns the cheapest labels of a loop whose first edge has its label number `first`, and their cost.
 fn cheapest_path<'a>(at: &impl Fn(usize) -> &'a Choice, count: usize, first: usize) -> (f64, Vec<u32>) {
     let first_label = at(0).labels[first].0;
     // For each edge and each of its labels, which label of the edge before is best.
@@ -66,7 +66,7 @@ fn change(choice: &Choice, label: u32, next: u32) -> f64 {
     if label == next { 0.0 } else { choice.change }
 }
 
-/// The cheaper of two ways; of equal ones that with the lower place.
+/// Returns the cheaper of two ways; of equal ones that with the lower place.
 fn cheaper(a: (usize, f64), b: Option<(usize, f64)>) -> (usize, f64) {
     match b {
         Some((way, cost)) if (cost, way) < (a.1, a.0) => (way, cost),
@@ -74,7 +74,7 @@ fn cheaper(a: (usize, f64), b: Option<(usize, f64)>) -> (usize, f64) {
     }
 }
 
-/// The least of some costs, and its place; of equal ones the first.
+/// Returns the least of some costs, and its place; of equal ones the first.
 fn cheapest(costs: impl Iterator<Item = f64>) -> (usize, f64) {
     let least = |a: (usize, f64), b: (usize, f64)| if b.1 < a.1 { b } else { a };
     costs.enumerate().reduce(least).expect("an edge has a label")
@@ -84,7 +84,7 @@ fn cheapest(costs: impl Iterator<Item = f64>) -> (usize, f64) {
 mod tests {
     use super::*;
 
-    /// The least sum over all labellings, and the first labelling that has it.
+    /// Returns the least sum over all labellings, and the first labelling that has it.
     fn by_trying_all(choices: &[Choice]) -> f64 {
         let all: usize = choices.iter().map(|choice| choice.labels.len()).product();
         let cost = |mut number: usize| {

@@ -1,4 +1,4 @@
-//! What people say about a boundary: names, and places where it is split.
+//! Names and splits of a boundary, as people or files give them.
 
 use std::collections::HashMap;
 
@@ -11,13 +11,13 @@ use super::{BoundaryKind, BoundaryPieces};
 /// Most characters of a name; longer ones are cut.
 pub const LONGEST_NAME: usize = 80;
 
-/// Names of pieces of a boundary, and places where it is split.
+/// Names of pieces of a boundary, and points where it is split.
 ///
-/// Both are tied to points on the boundary in world units. An edit of the domain elsewhere leaves them where
-/// they are. What no longer lies on the boundary has no effect, until an undo brings its place back.
+/// Both are tied to points on the boundary in world units. An edit of the domain elsewhere does not move
+/// them. A mark that is no longer on the boundary has no effect until an undo restores the boundary there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundaryMarks {
-    /// Where the boundary is split.
+    /// The points where the boundary is split, in world units.
     pub splits: Vec<DVec2>,
     /// A point of each named piece, and its name. Of several names on one piece, the first counts.
     pub names: Vec<(DVec2, String)>,
@@ -29,26 +29,26 @@ impl Eq for BoundaryMarks {}
 /// A polygon with a name, as files have them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPolygon {
-    /// Its rings.
+    /// The rings of the polygon.
     pub polygon: Polygon,
-    /// Its name; empty if it has none.
+    /// The name of the polygon; empty if it has none.
     pub name: String,
 }
 
 impl BoundaryMarks {
-    /// Whether there are none.
+    /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
         self.splits.is_empty() && self.names.is_empty()
     }
 
-    /// Memory of names and places, in bytes.
+    /// Returns the memory of names and places, in bytes.
     pub fn bytes(&self) -> usize {
         let names: usize = self.names.iter().map(|(_, name)| name.capacity()).sum();
         size_of_val(&*self.splits) + size_of_val(&*self.names) + names
     }
 
-    /// A name as files can hold it: without control characters, quotation marks and backslashes, which
-    /// become blanks, apostrophes and slashes, and without blanks at its ends.
+    /// Returns a name as files can hold it: without control characters, quotation marks and backslashes,
+    /// which become blanks, apostrophes and slashes, and without blanks at its ends.
     pub fn valid_name(text: &str) -> String {
         let valid = |c: char| match c {
             '"' => '\'',
@@ -60,10 +60,10 @@ impl BoundaryMarks {
         name.trim().to_owned()
     }
 
-    /// The domain that named polygons cover, and the names that they bring.
+    /// Returns the domain that named polygons cover, and the names that they bring.
     ///
     /// # Errors
-    /// As [`Domain::of_polygons`].
+    /// Fails as [`Domain::of_polygons`] does.
     pub fn domain_of(polygons: &[NamedPolygon]) -> Result<(Domain, Self), RegionError> {
         let plain: Vec<Polygon> = polygons.iter().map(|named| named.polygon.clone()).collect();
         let domain = Domain::of_polygons(&plain)?;
@@ -71,8 +71,8 @@ impl BoundaryMarks {
         Ok((domain, marks))
     }
 
-    /// The names that the polygons of a domain bring: that of an outer ring for its coasts, and with `island`
-    /// and a number for its holes, the largest first.
+    /// Returns the names from the polygons of a domain: the name of a polygon for the coasts of its outer
+    /// ring, and with `island` and a number for its holes, the largest first.
     ///
     /// A piece of the domain's boundary belongs to the polygon that has an edge at the middle of the piece.
     /// Sides on the frame get no names.

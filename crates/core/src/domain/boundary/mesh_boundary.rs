@@ -11,15 +11,15 @@ use crate::mesh::{Extract, NodeId};
 
 /// The boundary of a mesh in the pieces of its domain's boundary.
 ///
-/// An edge along the frame belongs to the open piece that its middle lies in. Any other belongs to the piece
-/// of the coast nearest to its middle. Where the mesh is a staircase, the nearest piece can change from edge
-/// to edge and back: so along a loop an edge may take a piece that is a little farther away, if that saves
-/// changes: what it is farther away, times its length, counts as much as changes do, times the square of
-/// their edges' lengths.
+/// An edge along the frame belongs to the open piece that contains its middle. Any other edge usually belongs
+/// to the piece of the coast nearest to its middle. Where the mesh is a staircase, the nearest piece can
+/// change from edge to edge and back. So an edge may take a piece that is a little farther away, if that
+/// saves changes along the loop. The labels of a loop have the least sum of costs: for each edge, its length
+/// times the additional distance, and for each change, the square of the lengths of its edges.
 #[derive(Clone, Debug)]
 pub struct MeshBoundary {
     pieces: BoundaryPieces,
-    /// In the order of [`Extract::boundary_edges`].
+    /// The piece of each edge, in the order of [`Extract::boundary_edges`].
     piece_of_edge: Vec<u32>,
     figures: Vec<PieceFigures>,
 }
@@ -29,7 +29,7 @@ pub struct MeshBoundary {
 pub struct PieceFigures {
     /// How many.
     pub edges: usize,
-    /// Their length in world units.
+    /// The length of these edges in world units.
     pub length: f64,
 }
 
@@ -43,18 +43,19 @@ pub struct PieceRun {
 }
 
 impl MeshBoundary {
-    /// The boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the corners
-    /// of the domain that are near each of them.
+    /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
+    /// corners of the domain that are near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
         Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
     }
 
-    /// The boundary of a mesh, divided by what the mesh alone says: sides of the frame, outer loops, holes.
+    /// Returns the boundary of a mesh in pieces that follow from the mesh alone: sides of the frame, outer
+    /// loops, holes.
     pub fn of_mesh(extract: &Extract) -> Self {
         Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
     }
 
-    /// The boundary of a mesh in pieces that were found before.
+    /// Returns the boundary of a mesh in pieces that were found before.
     pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
         let edges: Vec<[DVec2; 2]> = extract
             .boundary_edges()
@@ -86,36 +87,37 @@ impl MeshBoundary {
         Self { pieces, piece_of_edge, figures }
     }
 
-    /// All pieces of the domain's boundary, also those that the mesh does not have.
+    /// Returns all pieces of the domain's boundary, also those that the mesh does not have.
     pub fn pieces(&self) -> &BoundaryPieces {
         &self.pieces
     }
 
-    /// For each piece of [`Self::pieces`] the edges that the mesh has of it. It has none of an island that it
-    /// covers.
+    /// Returns for each piece of [`Self::pieces`] the edges that the mesh has of it. It has none of an island
+    /// that it covers.
     pub fn figures(&self) -> &[PieceFigures] {
         &self.figures
     }
 
-    /// The numbers of the pieces of which the mesh has edges.
+    /// Returns the numbers of the pieces that have edges in the mesh.
     pub fn present(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         (0..self.figures.len()).filter(|&piece| self.figures[piece].edges > 0)
     }
 
-    /// The numbers of the pieces of the domain's boundary of which the mesh has no edge.
+    /// Returns the numbers of the pieces of the domain's boundary that have no edge in the mesh.
     pub fn lost(&self) -> impl Iterator<Item = usize> + Clone + '_ {
         (0..self.figures.len()).filter(|&piece| self.figures[piece].edges == 0)
     }
 
-    /// The number of the piece of each edge of [`Extract::boundary_edges`].
+    /// Returns the number of the piece of each edge of [`Extract::boundary_edges`].
     pub fn piece_of_edge(&self) -> &[u32] {
         &self.piece_of_edge
     }
 
-    /// For each node the number of its piece plus one; 0 off the boundary, the lowest where pieces meet.
+    /// Returns, for each node, the number of its piece plus one: 0 off the boundary, and the lowest number
+    /// where pieces meet.
     ///
     /// # Panics
-    /// When the extract is that of another mesh.
+    /// Panics when `extract` belongs to another mesh.
     pub fn node_markers(&self, extract: &Extract) -> Vec<u32> {
         let mut markers = vec![0; extract.nodes().len()];
         for (edge, &piece) in extract.boundary_edges().zip(&self.piece_of_edge) {
@@ -127,11 +129,12 @@ impl MeshBoundary {
         markers
     }
 
-    /// The boundary as runs of edges of one piece each, in the order of the pieces, the longest first. Most
-    /// pieces have one run. More occur where straits are closed or islands joined in the mesh.
+    /// Returns the boundary as runs of edges of one piece each, in the order of the pieces, the longest run
+    /// of a piece first. Most pieces have one run. A piece has several where the mesh closes straits or joins
+    /// islands.
     ///
     /// # Panics
-    /// When the extract is that of another mesh.
+    /// Panics when `extract` belongs to another mesh.
     pub fn runs(&self, extract: &Extract) -> Vec<PieceRun> {
         let ends: Vec<[usize; 2]> = extract.boundary_edges().map(|edge| edge.ends).collect();
         let mut runs = Vec::new();
@@ -184,7 +187,7 @@ impl<'a> Candidates<'a> {
         Choice { labels, change }
     }
 
-    /// The open piece on a side of the frame that has a point.
+    /// Returns the open piece on a side of the frame that has a point.
     fn open_at(&self, side: FrameSide, point: DVec2) -> Option<u32> {
         let axis = side.axis();
         let open = self.pieces.list().iter().take_while(|piece| piece.kind == BoundaryKind::Open);

@@ -15,9 +15,9 @@ use crate::mesh::{Extract, NodeId};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BoundaryPiece {
-    /// Its name, which no other piece has.
+    /// The name of the piece. No other piece has it.
     pub name: String,
-    /// What it is.
+    /// The kind of the piece.
     pub kind: BoundaryKind,
     /// Whether a person or a file gave the name.
     pub is_named: bool,
@@ -29,17 +29,17 @@ pub struct BoundaryPiece {
 }
 
 impl BoundaryPiece {
-    /// Whether it is the whole of a ring.
+    /// Returns whether it is the whole of a ring.
     pub fn is_closed(&self) -> bool {
         self.points.first() == self.points.last()
     }
 
-    /// Its length in world units.
+    /// Returns the length in world units.
     pub fn length(&self) -> f64 {
         length(&self.points)
     }
 
-    /// The point halfway along it.
+    /// Returns the point halfway along it.
     pub fn middle(&self) -> DVec2 {
         let mut left = 0.5 * self.length();
         for ends in self.points.windows(2) {
@@ -54,8 +54,8 @@ impl BoundaryPiece {
     }
 }
 
-/// All pieces of the boundary of a domain. The number of a piece is its place in the list: first what is
-/// open, then mainlands, then islands, each the largest first; parts of a split stretch follow one another.
+/// All pieces of the boundary of a domain. The number of a piece is its index in the list: first open pieces,
+/// then mainlands, then islands, each from the largest on; the parts of a split stretch follow one another.
 #[derive(Clone, Debug)]
 pub struct BoundaryPieces {
     pieces: Vec<BoundaryPiece>,
@@ -69,7 +69,8 @@ pub struct BoundaryPieces {
 const TOLERANCE: f64 = 1e-6;
 
 impl BoundaryPieces {
-    /// The pieces of a domain; `None` for one that is given by a formula, whose boundary is that of its mesh.
+    /// Returns the pieces of a domain, or `None` for a domain that is given by a formula: its boundary is the
+    /// boundary of its mesh.
     pub fn of_domain(domain: &Domain, marks: &BoundaryMarks) -> Option<Self> {
         let frame = &domain.bounds;
         match &domain.shape {
@@ -82,8 +83,8 @@ impl BoundaryPieces {
         }
     }
 
-    /// The pieces of the boundary of a mesh alone, for a domain that is given by a formula. A mark counts up
-    /// to half a coarse cell from the boundary.
+    /// Returns the pieces of the boundary of a mesh alone, for a domain that is given by a formula. A mark
+    /// counts up to half a coarse cell from the boundary.
     pub fn of_mesh(extract: &Extract, marks: &BoundaryMarks) -> Self {
         let ring =
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
@@ -93,7 +94,7 @@ impl BoundaryPieces {
         Self::new(&rings, &lattice.bounds(), true, 0.5 * lattice.spacing(), marks)
     }
 
-    /// The pieces of a domain, or of the mesh if the domain alone does not say.
+    /// Returns the pieces of a domain, or of its mesh for a domain that is given by a formula.
     pub fn of(domain: &Domain, extract: &Extract, marks: &BoundaryMarks) -> Self {
         Self::of_domain(domain, marks).unwrap_or_else(|| Self::of_mesh(extract, marks))
     }
@@ -110,17 +111,17 @@ impl BoundaryPieces {
         Self { pieces, index, tolerance }
     }
 
-    /// The pieces, by number.
+    /// Returns the pieces, by number.
     pub fn list(&self) -> &[BoundaryPiece] {
         &self.pieces
     }
 
-    /// How far a mark may be from the boundary, in world units.
+    /// Returns how far a mark may be from the boundary, in world units.
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
 
-    /// The number of the piece nearest to a point within `reach`, and its nearest point.
+    /// Returns the number of the piece nearest to a point within `reach`, and its nearest point.
     pub fn nearest(&self, point: DVec2, reach: f64) -> Option<(usize, DVec2)> {
         let index = self.index.as_ref()?;
         let (segment, _) =
@@ -128,8 +129,8 @@ impl BoundaryPieces {
         Some((index.owner(segment), nearest_on_segment(point, index.segments.segment(segment))))
     }
 
-    /// The distances to the pieces that `counts` accepts: that to the nearest, and those up to `margin` more.
-    /// Sorted by number.
+    /// Returns the distances to the pieces that `counts` accepts: that to the nearest, and those up to
+    /// `margin` more. Sorted by number.
     pub(super) fn distances(
         &self,
         point: DVec2,
@@ -153,7 +154,7 @@ impl BoundaryPieces {
         found
     }
 
-    /// The piece that follows on the same stretch: the one that [`Self::joined`] would join.
+    /// Returns the piece that follows on the same stretch: the one that [`Self::joined`] would join.
     pub fn next_of(&self, piece: usize) -> Option<usize> {
         let stretch = self.pieces[piece].stretch;
         let first = self.pieces.iter().position(|other| other.stretch == stretch)?;
@@ -163,7 +164,7 @@ impl BoundaryPieces {
         (next != piece && meet).then_some(next)
     }
 
-    /// The marks with another name for a piece. An empty name gives it back the usual one.
+    /// Returns the marks with another name for a piece. An empty name gives it back the usual one.
     pub fn renamed(&self, marks: &BoundaryMarks, piece: usize, name: &str) -> BoundaryMarks {
         let mut marks = marks.clone();
         marks.names.retain(|(place, _)| !self.is_on(*place, piece));
@@ -174,8 +175,8 @@ impl BoundaryPieces {
         marks
     }
 
-    /// The marks with a split at the point of the boundary nearest to a point; `None` if there is none within
-    /// `reach`, or the boundary is split there already.
+    /// Returns the marks with a split at the point of the boundary nearest to a point; `None` if there is
+    /// none within `reach`, or the boundary is split there already.
     ///
     /// The whole of a ring stays in one piece until it is split at a second point. A name stays with the part
     /// that it is anchored on.
@@ -192,9 +193,9 @@ impl BoundaryPieces {
         Some(marks)
     }
 
-    /// The marks without the split between a piece and the next one of its stretch; `None` if there is none.
-    /// The name of the first stays; that of the next stays where the first has none. Two halves of a ring
-    /// become the whole ring.
+    /// Returns the marks without the split between a piece and the next one of its stretch; `None` if there
+    /// is no such split. The name of the first piece stays; the name of the next one stays if the first has
+    /// none. Two halves of a ring become the whole ring.
     pub fn joined(&self, marks: &BoundaryMarks, piece: usize) -> Option<BoundaryMarks> {
         let next = self.next_of(piece)?;
         let starts = if self.next_of(next) == Some(piece) { vec![next, piece] } else { vec![next] };
@@ -207,7 +208,7 @@ impl BoundaryPieces {
         Some(joined)
     }
 
-    /// Whether a mark at a place is one of a piece.
+    /// Returns whether a mark at a place is one of a piece.
     fn is_on(&self, place: DVec2, piece: usize) -> bool {
         self.nearest(place, self.tolerance).is_some_and(|(at, _)| at == piece)
     }
@@ -231,12 +232,12 @@ impl Index {
         Some(Self { segments: Segments::new(segments)?, ends })
     }
 
-    /// The number of the polyline of a segment.
+    /// Returns the number of the polyline of a segment.
     fn owner(&self, segment: u32) -> usize {
         self.ends.partition_point(|&end| end <= segment as usize)
     }
 
-    /// The number of a segment among those of its polyline.
+    /// Returns the number of a segment within its polyline.
     fn place(&self, segment: u32) -> usize {
         let owner = self.owner(segment);
         segment as usize - if owner == 0 { 0 } else { self.ends[owner - 1] }
@@ -244,11 +245,11 @@ impl Index {
 }
 
 /// A place on a polyline: the number of a segment, and a point on it.
-type Place = (usize, DVec2);
+type PointOnPolyline = (usize, DVec2);
 
-/// The pieces of stretches that are split at the points on them.
+/// Returns the pieces of stretches that are split at the points on them.
 fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<BoundaryPiece> {
-    let mut cuts: Vec<Vec<Place>> = vec![Vec::new(); stretches.len()];
+    let mut cuts: Vec<Vec<PointOnPolyline>> = vec![Vec::new(); stretches.len()];
     let index = if splits.is_empty() { None } else { Index::new(stretches.iter().map(|s| &*s.points)) };
     for (&split, index) in splits.iter().flat_map(|split| Some((split, index.as_ref()?))) {
         let Some((segment, _)) = index.segments.nearest(split, |_| true).filter(|(_, d)| *d <= tolerance)
@@ -260,7 +261,7 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
     }
     let mut pieces = Vec::new();
     for (number, (stretch, mut cuts)) in stretches.iter().zip(cuts).enumerate() {
-        let along = |&(segment, point): &Place| (segment, stretch.points[segment].distance(point));
+        let along = |&(segment, point): &PointOnPolyline| (segment, stretch.points[segment].distance(point));
         cuts.sort_by(|a, b| along(a).partial_cmp(&along(b)).expect("no distance is NaN"));
         cuts.dedup_by(|a, b| a.1.distance(b.1) <= tolerance);
         let parts = parts(&stretch.points, stretch.is_closed(), cuts, tolerance);
@@ -275,9 +276,14 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
     pieces
 }
 
-/// The parts of a polyline between cuts, which are in its order. A closed one is cut open at the first, and
-/// stays in one part if there is no other.
-fn parts(points: &[DVec2], is_closed: bool, mut cuts: Vec<Place>, tolerance: f64) -> Vec<Vec<DVec2>> {
+/// Returns the parts of a polyline between cuts, which are in its order. A closed one is cut open at the
+/// first, and stays in one part if there is no other.
+fn parts(
+    points: &[DVec2],
+    is_closed: bool,
+    mut cuts: Vec<PointOnPolyline>,
+    tolerance: f64,
+) -> Vec<Vec<DVec2>> {
     let last = points.len() - 1;
     if is_closed {
         let Some(&first) = cuts.first() else { return vec![points.to_vec()] };
@@ -288,7 +294,7 @@ fn parts(points: &[DVec2], is_closed: bool, mut cuts: Vec<Place>, tolerance: f64
         cuts.insert(0, (0, points[0]));
         cuts.push((last - 1, points[last]));
     }
-    let between = |ends: &[Place]| {
+    let between = |ends: &[PointOnPolyline]| {
         let [(from, start), (to, end)] = [ends[0], ends[1]];
         // The last point of a closed polyline is its first.
         let inner =

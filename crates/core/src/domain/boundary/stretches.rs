@@ -1,4 +1,4 @@
-//! From the rings of an outline to its stretches: parts along one side of the frame, and coasts.
+//! Divides the rings of an outline into stretches: parts along one side of the frame, and coasts.
 
 use std::cmp::Ordering;
 
@@ -7,20 +7,21 @@ use glam::DVec2;
 use super::super::{Ring, signed_area};
 use crate::geometry::Rect;
 
-/// What a piece of the boundary is.
+/// The kind of a piece of the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum BoundaryKind {
-    /// Along the frame, the rectangle of the coarse grid, which cuts the domain off from what it is part of.
+    /// A part along the frame, the rectangle of the coarse grid, where the domain is cut off from its
+    /// surroundings.
     Open,
-    /// Of an outer ring.
+    /// A part of an outer ring.
     Mainland,
-    /// Of the ring of a hole.
+    /// A part of the ring of a hole.
     Island,
 }
 
 impl BoundaryKind {
-    /// The word for it: `open`, `mainland` or `island`.
+    /// Returns the word for it: `open`, `mainland` or `island`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Open => "open",
@@ -44,7 +45,7 @@ pub enum FrameSide {
 }
 
 impl FrameSide {
-    /// The side of a frame along which an edge runs.
+    /// Returns the side of a frame along which an edge runs.
     pub(super) fn of([a, b]: [DVec2; 2], frame: &Rect) -> Option<Self> {
         let along = |axis: usize, value: f64| a[axis] == value && b[axis] == value;
         let Rect { min, max } = *frame;
@@ -57,7 +58,7 @@ impl FrameSide {
         sides.into_iter().find_map(|(holds, side)| holds.then_some(side))
     }
 
-    /// The coordinate that changes along the side: 0 for x, 1 for y.
+    /// Returns the coordinate that changes along the side: 0 for x, 1 for y.
     pub(super) fn axis(self) -> usize {
         match self {
             Self::South | Self::North => 0,
@@ -80,11 +81,11 @@ impl FrameSide {
 pub(super) struct Stretch {
     pub(super) kind: BoundaryKind,
     pub(super) side: Option<FrameSide>,
-    /// With the domain on the left. The whole of a ring ends with its first point, the lowest one.
+    /// The points, with the domain on the left. A whole ring ends with its first point, the lowest one.
     pub(super) points: Vec<DVec2>,
     /// Unless a person chooses another name.
     pub(super) name: String,
-    /// Position along the side, length of the coast, or area of the hole: what the order goes by.
+    /// The number that decides the order: position along the side, length of the coast, or area of the hole.
     measure: f64,
 }
 
@@ -104,13 +105,14 @@ impl Stretch {
     }
 }
 
-/// By y, then by x.
+/// Compares points by y, then by x.
 pub(super) fn compare(a: DVec2, b: DVec2) -> Ordering {
     a.y.total_cmp(&b.y).then(a.x.total_cmp(&b.x))
 }
 
-/// The stretches of rings that have the domain on their left, in their order: along the sides of a frame that
-/// cuts the rings, and elsewhere. Names do not depend on the order of the rings or on where a ring begins.
+/// Returns the stretches of rings that have the domain on their left, in their order: along the sides of a
+/// frame that cuts the rings, and elsewhere. Names do not depend on the order of the rings or on where a ring
+/// begins.
 pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, cutting: Option<&Rect>) -> Vec<Stretch> {
     let mut found = Vec::new();
     for ring in rings.filter(|ring| ring.len() > 2) {
@@ -143,9 +145,9 @@ fn push_stretches(ring: &Ring, cutting: Option<&Rect>, found: &mut Vec<Stretch>)
     }
 }
 
-/// The ranges of edges that are alike, from the number of the first edge to that after the last. A range can
-/// continue from the last edge of the ring to the first. Where all are alike, the range begins at the lowest
-/// point.
+/// Returns the ranges of edges that are alike, from the number of the first edge to that after the last. A
+/// range can continue from the last edge of the ring to the first. Where all are alike, the range begins at
+/// the lowest point.
 fn alike<T: PartialEq>(ring: &Ring, of_edge: impl Fn(usize) -> T) -> Vec<(usize, usize)> {
     let count = ring.len();
     let starts: Vec<usize> = (0..count).filter(|&n| of_edge(n) != of_edge(n + count - 1)).collect();
@@ -157,11 +159,11 @@ fn alike<T: PartialEq>(ring: &Ring, of_edge: impl Fn(usize) -> T) -> Vec<(usize,
     starts.iter().copied().zip(ends).collect()
 }
 
-/// Whether a frame cuts an outline off, so that edges along it are open.
+/// Returns whether a frame cuts an outline off, so that edges along it are open.
 ///
-/// Any outline touches its own bounding rectangle, by chance also along an edge. Then it is cut only if a
-/// corner of the rectangle lies on it between two sides, or a straight part along the rectangle is longer
-/// than all others. Another frame was chosen, and cuts whatever reaches it.
+/// Any outline touches its own bounding rectangle, by chance also along an edge. That rectangle cuts it only
+/// if a corner of the rectangle is on the outline between two sides, or a straight part along the rectangle
+/// is longer than all others. Any other frame was chosen, and cuts everything that reaches it.
 pub(super) fn is_cut(rings: &[&Ring], frame: &Rect) -> bool {
     let points = rings.iter().flat_map(|ring| ring.iter());
     let bounds = points.map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
@@ -185,7 +187,8 @@ pub(super) fn is_cut(rings: &[&Ring], frame: &Rect) -> bool {
     longest_along > longest_elsewhere
 }
 
-/// The line parallel to an axis that an edge lies on, by axis and coordinate, or else the number of the edge.
+/// Returns the line parallel to an axis that contains an edge, by axis and coordinate; otherwise the number
+/// of the edge as the error.
 fn straight(number: usize, [a, b]: [DVec2; 2]) -> Result<(usize, f64), usize> {
     (0..2).find(|&axis| a[axis] == b[axis]).map(|axis| (axis, a[axis])).ok_or(number)
 }
@@ -205,7 +208,7 @@ fn number(stretches: &mut [Stretch]) {
     }
 }
 
-/// The length of a polyline.
+/// Returns the length of a polyline.
 pub(super) fn length(points: &[DVec2]) -> f64 {
     points.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
 }

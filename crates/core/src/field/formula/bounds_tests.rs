@@ -5,7 +5,7 @@ use glam::dvec2;
 use super::{Formula, functions};
 use crate::geometry::Rect;
 
-/// Numbers where functions have kinks, poles and limits, and numbers between.
+/// Returns the numbers where functions have kinks, poles and limits, and numbers between.
 fn coordinate(random: &mut fastrand::Rng) -> f64 {
     const SPECIAL: [f64; 14] =
         [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, -0.5, 3.0, FRAC_PI_2, PI, 1e-9, -1e-300, 50.0, -7.0];
@@ -17,7 +17,7 @@ fn coordinate(random: &mut fastrand::Rng) -> f64 {
     }
 }
 
-/// A rectangle: a point, a line, small or large.
+/// Returns a rectangle: a point, a line, small or large.
 fn rectangle(random: &mut fastrand::Rng) -> Rect {
     let min = dvec2(coordinate(random), coordinate(random));
     let side = |random: &mut fastrand::Rng| match random.u8(..5) {
@@ -30,7 +30,7 @@ fn rectangle(random: &mut fastrand::Rng) -> Rect {
     Rect::new(min, min + dvec2(side(random), side(random)))
 }
 
-/// A number of a closed interval, often one of its ends or 0.
+/// Returns a number of a closed interval, often one of its ends or 0.
 fn within(random: &mut fastrand::Rng, low: f64, high: f64) -> f64 {
     match random.u8(..6) {
         0 => low,
@@ -53,7 +53,7 @@ fn check(formula: &Formula, rect: &Rect, points: usize, random: &mut fastrand::R
     points
 }
 
-/// A call of every function with simple values of x and y, and every operator.
+/// Returns a call of every function with simple values of x and y, and every operator.
 pub(super) fn simple_formulas() -> Vec<String> {
     let values = ["x", "y", "x*y", "x-y", "2", "-0.5", "1/x", "x^3", "0", "sqrt(y)", "inf"];
     let mut all = Vec::new();
@@ -91,7 +91,7 @@ fn values_of_every_function_lie_within_the_bounds() {
     assert!(points > 500_000, "{points}");
 }
 
-/// A random formula as text, nested up to `depth` levels.
+/// Returns a random formula as text, nested up to `depth` levels.
 pub(super) fn grown(random: &mut fastrand::Rng, depth: usize) -> String {
     const LEAVES: [&str; 10] = ["x", "y", "x", "y", "r", "theta", "0.5", "2", "3.7", "-1"];
     const SIGNS: [&str; 14] = ["+", "-", "*", "/", "%", "^", "<", "<=", ">", ">=", "==", "!=", "and", "or"];

@@ -8,7 +8,7 @@ use crate::geometry::Rect;
 
 /// A formula in x, y and `risk`: a cost per unit of length.
 ///
-/// The language is that of [`Formula`](super::Formula). Clones share the compiled program.
+/// The language is the one of [`Formula`](super::Formula). Clones share the compiled program.
 ///
 /// ```
 /// use meshbrush_core::field::CostFormula;
@@ -27,40 +27,41 @@ impl CostFormula {
     /// Reads and compiles a formula.
     ///
     /// # Errors
-    /// The first mistake in reading order, as for [`Formula::parse`](super::Formula::parse).
+    /// Fails with the first mistake in reading order, as for [`Formula::parse`](super::Formula::parse).
     pub fn parse(source: &str) -> Result<Self, ParseError> {
         let program = parser::compile(source, true)?;
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
-    /// Where the compiled formula lies in memory: equal for clones, which share it.
+    /// Returns the address of the compiled formula in memory. It is equal for clones, which share it.
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.program).addr()
     }
 
-    /// Memory that clones share, in bytes.
+    /// Returns the memory that clones share, in bytes.
     pub fn bytes(&self) -> usize {
         self.source.len() + self.program.bytes()
     }
 
-    /// Whether the value can depend on the risk.
+    /// Returns whether the value can depend on the risk.
     pub fn uses_risk(&self) -> bool {
         self.program.loads_risk()
     }
 
-    /// The value at the point (x, y), in world units, with the risk there. The caller must check it.
+    /// Returns the value at the point (x, y), in world units, with the risk there. The caller must check it.
     pub fn eval(&self, x: f64, y: f64, risk: f64) -> f64 {
         self.program.run_with_risk(x, y, risk)
     }
 
-    /// Bounds of [`Self::eval`] over a closed rectangle in world units with the given risks, by interval
-    /// arithmetic.
+    /// Returns bounds of [`Self::eval`] over a closed rectangle in world units with the given risks, by
+    /// interval arithmetic.
     pub fn bounds(&self, rect: &Rect, risk: Bounds) -> Bounds {
         interval::bounds(&self.program, rect, risk)
     }
 
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units, with the given risks
-    /// and bounds of their derivatives. `None` where the formula may jump, or a derivative is not known.
+    /// Returns bounds of the derivatives along x and y over a closed rectangle in world units, with the given
+    /// risks and bounds of their derivatives. `None` where the formula may jump, or a derivative is not
+    /// known.
     pub fn derivatives(
         &self,
         rect: &Rect,
@@ -75,7 +76,7 @@ impl CostFormula {
         derivatives::derivatives(&self.program, rect, (risk, slopes))
     }
 
-    /// The text as it was typed.
+    /// Returns the text as it was typed.
     pub fn source(&self) -> &str {
         &self.source
     }

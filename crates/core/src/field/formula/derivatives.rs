@@ -14,17 +14,17 @@ pub(super) struct Varying<G: Slopes> {
     pub value: Bounds,
     /// `None` where the values may jump, or a derivative is not known.
     pub gradient: Option<G>,
-    /// The gradient of a function whose square the value is, if one is known. Then the square root has no
+    /// The gradient of a function whose square is the value, if one is known. Then the square root has no
     /// pole at 0: √(x² + y²) is a distance.
     of_root: G::Root,
 }
 
 pub(super) const ONE: Bounds = Bounds::new(1.0, 1.0);
 
-/// Bounds of the derivatives along x and y over a rectangle, with the given risks and their derivatives.
-/// `None` where it may jump, or has a function whose derivative is not known here.
+/// Returns bounds of the derivatives along x and y over a rectangle, with the given risks and their
+/// derivatives. Returns `None` if the program may jump, or has a function whose derivative is not known here.
 ///
-/// At kinks, as of `abs` and `max`, the bounds hold the derivatives on all sides.
+/// At kinks, for example of `abs` and `max`, the bounds contain the derivatives on all sides.
 pub(super) fn derivatives(
     program: &Program,
     rect: &Rect,
@@ -37,14 +37,14 @@ pub(super) fn derivatives(
     are_known(&along).then_some(along)
 }
 
-/// Bounds of the derivatives along x and y, with any risk and no slope of it, and the largest slope in any
-/// direction; `None` where one of them is not known.
+/// Returns bounds of the derivatives along x and y, with any risk and no slope of it, and the largest slope
+/// in any direction; `None` where one of them is not known.
 pub(super) fn slopes(program: &Program, rect: &Rect) -> Option<([Bounds; 2], f64)> {
     let Gradient { along, length } = gradient(program, rect, (Bounds::ANYTHING, [ZERO; 2]), Gradient::of)?;
     are_known(&along).then_some((along, length))
 }
 
-/// The gradient of a program, as far as it may be told from derivatives along the axes by `of`.
+/// Returns the gradient of a program, if it is known. `of` makes a gradient from derivatives along the axes.
 fn gradient<G: Slopes>(
     program: &Program,
     rect: &Rect,
@@ -61,7 +61,8 @@ fn gradient<G: Slopes>(
 }
 
 impl<G: Slopes> Values for Varying<G> {
-    /// Without derivatives, unless the bounds are a number: other bounds may come from a jump.
+    /// Returns values without derivatives, unless the bounds are one number: other bounds may come from a
+    /// jump.
     fn of_bounds(value: Bounds) -> Self {
         let gradient = value.is_one().then_some(G::NONE);
         Self { value, gradient, of_root: G::keep(gradient.filter(|_| value.least >= 0.0)) }
@@ -99,12 +100,12 @@ impl<G: Slopes> Values for Varying<G> {
 }
 
 impl<G: Slopes> Varying<G> {
-    /// Values that are no squares as far as is known.
+    /// Returns values that are no squares as far as is known.
     pub fn new(value: Bounds, gradient: Option<G>) -> Self {
         Self::with_root(value, gradient, None)
     }
 
-    /// Values that are the square of a function with the gradient `of_root`, if one is known.
+    /// Returns values that are the square of a function with the gradient `of_root`, if one is known.
     pub fn with_root(value: Bounds, gradient: Option<G>, of_root: Option<G>) -> Self {
         Self { value, gradient, of_root: G::keep(of_root) }
     }
@@ -113,12 +114,12 @@ impl<G: Slopes> Varying<G> {
         G::kept(self.of_root)
     }
 
-    /// The gradient times a factor.
+    /// Returns the gradient times a factor.
     pub fn gradient_times(&self, factor: Bounds) -> Option<G> {
         Some(self.gradient?.times(factor))
     }
 
-    /// The gradient of the square root, from what its derivative gives.
+    /// Returns the gradient of the square root, from what its derivative gives.
     pub fn gradient_of_root(&self, by_derivative: Option<G>) -> Option<G> {
         // The root that is known may have the other sign.
         let of_size = |root: G| G::of_hypot(&root, &G::NONE);
@@ -133,12 +134,12 @@ impl<G: Slopes> Varying<G> {
     }
 }
 
-/// The sum of gradients, where both are known.
+/// Returns the sum of gradients, where both are known.
 fn sum<G: Slopes>(a: Option<G>, b: Option<G>) -> Option<G> {
     Some(a?.plus(&b?))
 }
 
-/// The derivative of an operation on one value, from its argument and its result.
+/// Returns the derivative of an operation on one value, from its argument and its result.
 fn factor(op: Op, a: Bounds, result: Bounds) -> Option<Bounds> {
     Some(match op {
         Op::Negate => Bounds::one(-1.0),
@@ -174,7 +175,7 @@ fn of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>, value: Bounds) -> O
     }
 }
 
-/// The gradient of a root of a sum of squares, or of a multiple of one.
+/// Returns the gradient of a root of a sum of squares, or of a multiple of one.
 fn root_of_two<G: Slopes>(op: Op, a: &Varying<G>, b: &Varying<G>) -> Option<G> {
     let multiple = |root: G, factor: &Varying<G>, size: fn(f64) -> f64| {
         let is_positive = factor.is_constant() && factor.value.least > 0.0;

@@ -6,7 +6,7 @@ use super::pointer::{draw_pointer, printable};
 
 /// A mistake in a formula.
 ///
-/// It prints as a sentence for a person: what was found, what was expected, what would help.
+/// Its text is a sentence for a person: what was found, what was expected, and what would help.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ParseError {
@@ -22,13 +22,13 @@ impl ParseError {
         Self { message: message.into(), span, pointer }
     }
 
-    /// The place of the mistake, in bytes of the formula's text; empty at its end.
+    /// Returns the place of the mistake, in bytes of the formula's text; empty at its end.
     pub fn span(&self) -> Range<usize> {
         self.span.clone()
     }
 
-    /// Two lines for a fixed-width font: the formula, or about 70 columns of it around the mistake, and
-    /// carets under the mistake.
+    /// Returns two lines for a fixed-width font: the formula, or about 70 columns of it around the mistake,
+    /// and carets under the mistake.
     ///
     /// ```
     /// # use meshbrush_core::field::Formula;
@@ -40,7 +40,7 @@ impl ParseError {
     }
 }
 
-/// At most 24 characters of a text found in a formula, between backquotes.
+/// Returns at most 24 characters of a text found in a formula, between backquotes.
 pub(super) fn quote(text: &str) -> String {
     let mut shown: String = text.chars().take(24).map(printable).collect();
     if text.chars().nth(24).is_some() {

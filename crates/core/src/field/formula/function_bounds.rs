@@ -1,7 +1,8 @@
 //! Bounds of the functions in formulas, from the bounds of their arguments.
 //!
-//! Functions of libm may be off by an ulp or two, and need not be monotone to the last bit: what is computed
-//! with them is widened. At a single point the interpreter takes the value itself, so there bounds are tight.
+//! Functions of libm may be wrong by an ulp or two, and need not be monotone to the last bit, so their
+//! results are widened. At a single point the interpreter takes the value itself, so the bounds there are
+//! tight.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,12 +15,12 @@ const ULPS: u32 = 8;
 /// The interval of all numbers, without NaN.
 const ALL: Bounds = Bounds::new(f64::NEG_INFINITY, f64::INFINITY);
 
-/// Bounds of a function of libm that never decreases.
+/// Returns bounds of a function of libm that never decreases.
 fn increasing(a: Bounds, function: fn(f64) -> f64) -> Bounds {
     a.increasing(function).widened(ULPS)
 }
 
-/// Bounds of a function that never decreases, whose arguments must lie in [`low`, `high`].
+/// Returns bounds of a function that never decreases and whose arguments must be in [`low`, `high`].
 fn increasing_within(a: Bounds, [low, high]: [f64; 2], function: fn(f64) -> f64) -> Bounds {
     if a.greatest < low || a.least > high {
         return Bounds::ANYTHING;
@@ -53,19 +54,19 @@ pub(super) fn log2(a: Bounds) -> Bounds {
     increasing_within(a, [0.0, f64::INFINITY], libm::log2)
 }
 
-/// Whether an interval may contain a number `offset` + k · `period` for a whole k.
+/// Returns whether an interval may contain a number `offset` + k · `period` for a whole k.
 fn may_contain(a: Bounds, offset: f64, period: f64) -> bool {
     // Arguments below have at most a million periods, so the quotients are off by less than 1e-9.
     let turns = |v: f64| (v - offset) / period;
     (turns(a.least) - 1e-9).ceil() <= turns(a.greatest) + 1e-9
 }
 
-/// Whether an angle is known well enough to say in which of its periods it lies.
+/// Returns whether the bounds of an angle are narrow enough to know its period.
 fn is_known_angle(a: Bounds) -> bool {
     a.least >= -1e6 && a.greatest <= 1e6
 }
 
-/// Bounds of sine or cosine, which has its greatest value at `crest` + 2πk.
+/// Returns bounds of sine or cosine, which has its greatest value at `crest` + 2πk.
 fn wave(a: Bounds, crest: f64, function: fn(f64) -> f64) -> Bounds {
     let whole = Bounds::new(-1.0, 1.0).valid_if(a.valid && !a.has_infinity());
     if !is_known_angle(a) {
@@ -141,7 +142,7 @@ pub(super) fn fract(a: Bounds) -> Bounds {
     a.increasing(functions::fract)
 }
 
-/// Bounds of a function of two values at the four corners of the rectangle of their bounds.
+/// Returns bounds of a function of two values at the four corners of the rectangle of their bounds.
 fn at_corners(a: Bounds, b: Bounds, function: fn(f64, f64) -> f64) -> Bounds {
     let [p, q, r, s] = [a.least, a.greatest, b.least, b.greatest];
     let results = [function(p, r), function(p, s), function(q, r), function(q, s)];
@@ -153,8 +154,8 @@ pub(super) fn hypot(a: Bounds, b: Bounds) -> Bounds {
     Bounds { least: result.least.max(0.0), ..result }
 }
 
-/// The angle jumps from π to −π across the negative x axis. Elsewhere its extremes over a rectangle are at
-/// the corners.
+/// Returns bounds of the angle of a direction, which jumps from π to −π across the negative x axis. Elsewhere
+/// its extremes over a rectangle are at the corners.
 pub(super) fn atan2(y: Bounds, x: Bounds) -> Bounds {
     if y.has_zero() && x.least <= 0.0 {
         return Bounds::new(-PI, PI).valid_if(x.valid && y.valid);
@@ -162,7 +163,7 @@ pub(super) fn atan2(y: Bounds, x: Bounds) -> Bounds {
     at_corners(y, x, libm::atan2).widened(ULPS)
 }
 
-/// As `power`: a square is exact, other powers come from libm.
+/// Returns bounds of `a^b`. A square is exact; other powers come from libm.
 pub(super) fn power(a: Bounds, b: Bounds) -> Bounds {
     let valid = a.valid && b.valid;
     let exponent = b.is_one().then_some(b.least);
@@ -183,7 +184,7 @@ pub(super) fn power(a: Bounds, b: Bounds) -> Bounds {
     if valid { result } else { result.union(Bounds::one(1.0)).valid_if(false) }
 }
 
-/// Bounds of a power with one whole exponent.
+/// Returns bounds of a power with one whole exponent.
 fn whole_power(a: Bounds, n: f64) -> Bounds {
     let exponent = Bounds::one(n);
     if n % 2.0 == 0.0 {
@@ -196,8 +197,8 @@ fn whole_power(a: Bounds, n: f64) -> Bounds {
     Bounds::of_results(&[libm::pow(a.least, n), libm::pow(a.greatest, n)], true).widened(ULPS)
 }
 
-/// Bounds of powers of numbers that are at least 0. The logarithm of a power is the product of b and the
-/// logarithm of a, so its extremes are at the corners.
+/// Returns bounds of powers of numbers that are at least 0. The logarithm of a power is the product of b and
+/// the logarithm of a, so its extremes are at the corners.
 fn power_of_positive(a: Bounds, b: Bounds) -> Bounds {
     let result = at_corners(a, b, libm::pow).widened(ULPS);
     // An odd negative power of −0 is −∞.

@@ -20,7 +20,7 @@ pub(super) enum Form {
 }
 
 impl Form {
-    /// The number of values on the stack while the value after `count` others is computed.
+    /// Returns the number of values on the stack while the value after `count` others is computed.
     pub(super) fn held(self, count: usize) -> usize {
         match self {
             Self::Fixed(..) => count,
@@ -51,16 +51,16 @@ pub(super) struct OfOne {
     pub value: fn(f64) -> f64,
     /// Bounds of the values.
     pub bounds: fn(Bounds) -> Bounds,
-    /// Bounds of the derivative, from those of the argument and of the result, if it is known.
+    /// Computes bounds of the derivative from bounds of the argument and of the result, if it is known.
     pub slope: Option<fn(Bounds, Bounds) -> Bounds>,
     /// A model of the values, if there is a better one than bounds.
     pub model: Option<fn(&Quadratic) -> Quadratic>,
 }
 
-/// What is known of a function of two values, from what is known of the values and from bounds of the result.
+/// Computes values and gradient of a function from those of its two arguments and bounds of the result.
 pub(super) type OfTwoVarying<G> = fn(Varying<G>, Varying<G>, Bounds) -> Varying<G>;
 
-/// The gradient of a function of three values, from what is known of the values.
+/// Computes the gradient of a function from its three arguments.
 type OfThreeVarying<G> = fn(Varying<G>, Varying<G>, Varying<G>) -> Option<G>;
 
 /// A derivative for each of the two kinds of gradients.
@@ -185,7 +185,7 @@ pub(super) static FUNCTIONS: &[Function] = &[
     two("mod(a, b)", &const { of_two(modulo, bounds::modulo) }, "a % b: what is left of a after whole steps of b, with the sign of b"),
 ];
 
-/// The instruction of a function that has one.
+/// Returns the instruction of a function that has one.
 pub(super) fn instruction(name: &str) -> Option<Op> {
     match find_function(name)?.form {
         Form::Fixed(_, op) | Form::Join(op) => Some(op),
@@ -256,7 +256,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("z", "the formula in `x` and `y`"),
 ];
 
-/// Every function as (call, meaning), for a help page or a completion list.
+/// Returns every function as (call, meaning), for a help page or a completion list.
 ///
 /// ```
 /// use meshbrush_core::field::formula::functions;
@@ -279,7 +279,7 @@ pub(super) fn find_noun(name: &str, has_risk: bool) -> Option<Noun> {
     found.map(|&(_, noun)| noun)
 }
 
-/// What a formula may name, for a message.
+/// Returns the names that a formula may use, for a message.
 pub(super) fn coordinates(has_risk: bool) -> &'static str {
     match has_risk {
         true => "a cost is a formula of `x`, `y` and `risk`",
@@ -287,7 +287,7 @@ pub(super) fn coordinates(has_risk: bool) -> &'static str {
     }
 }
 
-/// What to write instead of an unknown name, if anything is close enough.
+/// Returns a name to write instead of an unknown one, if one is similar enough.
 pub(super) fn suggestion(name: &str) -> Option<String> {
     let name = name.to_lowercase();
     match ELSEWHERE.iter().find(|(other, _)| *other == name) {
@@ -296,7 +296,7 @@ pub(super) fn suggestion(name: &str) -> Option<String> {
     }
 }
 
-/// The known word at the smallest distance, if that is under half of the word's length.
+/// Returns the known word at the smallest distance, if that is under half of the word's length.
 fn nearest(name: &str) -> Option<&'static str> {
     let functions = FUNCTIONS.iter().map(|f| (f.name(), f.call));
     let nouns = NOUNS.iter().map(|&(noun, _)| (noun, noun));
@@ -310,7 +310,8 @@ fn nearest(name: &str) -> Option<&'static str> {
         .map(|(.., advice)| advice)
 }
 
-/// The number of letters to insert, remove, replace or swap with their neighbour to get from `a` to `b`.
+/// Returns the number of letters to insert, remove, replace or swap with their neighbour to get from `a` to
+/// `b`.
 ///
 /// The work is the product of the lengths; `b` is a known word, and an `a` over 24 letters is far
 /// from all of them.
@@ -370,7 +371,7 @@ fn clamp(v: f64, lo: f64, hi: f64) -> f64 {
     min(max(v, lo), hi)
 }
 
-/// Linear interpolation, exact at both ends.
+/// Returns linear interpolation, exact at both ends.
 fn mix(a: f64, b: f64, t: f64) -> f64 {
     a * (1.0 - t) + b * t
 }
@@ -385,7 +386,7 @@ fn step(edge: f64, v: f64) -> f64 {
     }
 }
 
-/// A smooth step; if `lo` equals `hi` a sharp one, instead of 0/0.
+/// Returns a smooth step; if `lo` equals `hi` a sharp one, instead of 0/0.
 fn smoothstep(lo: f64, hi: f64, v: f64) -> f64 {
     if lo == hi {
         return step(lo, v);

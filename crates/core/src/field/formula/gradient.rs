@@ -1,4 +1,4 @@
-//! What is known of a gradient over a rectangle.
+//! Bounds of a gradient over a rectangle.
 
 use super::derivatives::Varying;
 use super::functions::{OfThree, OfTwo, OfTwoVarying};
@@ -6,42 +6,42 @@ use crate::field::Bounds;
 
 pub(super) const ZERO: Bounds = Bounds::new(0.0, 0.0);
 
-/// What rounding changes in a few operations, as a share of a bound.
+/// Bound of the effect of rounding in a few operations, as a share of a bound.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Bounds of a gradient over a rectangle.
 pub(super) trait Slopes: Copy + PartialEq {
-    /// The gradient of a function whose square a value is, where such gradients are followed.
+    /// The gradient of a function whose square is the value, or `()` if such gradients are not followed.
     type Root: Copy;
 
-    /// That of a constant.
+    /// The gradient of a constant.
     const NONE: Self;
 
-    /// A sum.
+    /// Returns a sum.
     fn plus(&self, other: &Self) -> Self;
 
-    /// A product with numbers that are not larger than the bounds.
+    /// Returns a product with numbers that are not larger than the bounds.
     fn times(&self, factor: Bounds) -> Self;
 
-    /// What holds for both.
+    /// Returns bounds that contain the gradients of both.
     fn union(&self, other: &Self) -> Self;
 
-    /// The gradient of √(a² + b²) from those of a and b, whatever their values.
+    /// Returns the gradient of √(a² + b²) from the gradients of a and b, for all values of a and b.
     fn of_hypot(a: &Self, b: &Self) -> Self;
 
-    /// The closer one of two that both hold.
+    /// Returns the closer one of two that both hold.
     fn or(self, other: Self) -> Self;
 
     /// Keeps the gradient of a root with a value.
     fn keep(root: Option<Self>) -> Self::Root;
 
-    /// The gradient that was kept.
+    /// Returns the gradient that was kept.
     fn kept(root: Self::Root) -> Option<Self>;
 
-    /// The derivative of a function of two values, if it is known.
+    /// Returns the derivative of a function of two values, if it is known.
     fn of_two(function: &OfTwo) -> Option<OfTwoVarying<Self>>;
 
-    /// The gradient of a function of three values, if it is known.
+    /// Returns the gradient of a function of three values, if it is known.
     fn of_three(function: &OfThree, values: [Varying<Self>; 3]) -> Option<Self>;
 }
 
@@ -55,11 +55,11 @@ pub(super) type Along = [Bounds; 2];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Gradient {
     pub along: Along,
-    /// No gradient is longer; infinite where no bound is known.
+    /// Upper bound of the length of the gradient; infinite if none is known.
     pub length: f64,
 }
 
-/// Whether the bounds along both axes are numbers.
+/// Returns whether the bounds along both axes are numbers.
 pub(super) fn are_known(along: &Along) -> bool {
     along.iter().all(|slope| slope.valid && !slope.has_infinity())
 }
@@ -109,13 +109,13 @@ impl Slopes for Along {
 }
 
 impl Gradient {
-    /// From the bounds along the axes alone.
+    /// Returns bounds from those along the axes alone.
     pub fn of(along: Along) -> Self {
         Self::new(along, f64::INFINITY)
     }
 
-    /// With a length that is known beside the bounds along the axes; the smaller one counts. NaN tells
-    /// nothing.
+    /// Returns bounds from those along the axes and a known bound of the length. The smaller length counts;
+    /// NaN stands for an unknown one.
     fn new(along: Along, length: f64) -> Self {
         let [x, y] = along.map(size);
         let by_axes = rounded_up(libm::hypot(x, y));
@@ -144,7 +144,7 @@ impl Slopes for Gradient {
         Self::new(self.along.union(&other.along), self.length.max(other.length))
     }
 
-    /// It is (a ∇a + b ∇b) / √(a² + b²), so no longer than the largest singular value of the matrix with
+    /// Bounds (a ∇a + b ∇b) / √(a² + b²). Its length is at most the largest singular value of the matrix with
     /// the rows ∇a and ∇b.
     fn of_hypot(a: &Self, b: &Self) -> Self {
         let along = Along::of_hypot(&a.along, &b.along);
@@ -183,12 +183,12 @@ impl Slopes for Gradient {
     }
 }
 
-/// A product; one with 0 is 0, whatever the other factor.
+/// Returns a product; one with 0 is 0, whatever the other factor.
 pub(super) fn times(a: Bounds, b: Bounds) -> Bounds {
     if a == ZERO || b == ZERO { ZERO } else { a.times(b) }
 }
 
-/// No number is farther from 0.
+/// Returns the largest absolute value of the numbers within bounds.
 fn size(bounds: Bounds) -> f64 {
     if bounds.valid { bounds.least.abs().max(bounds.greatest.abs()) } else { f64::INFINITY }
 }

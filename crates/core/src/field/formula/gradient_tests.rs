@@ -3,7 +3,8 @@ use glam::dvec2;
 use super::Formula;
 use crate::geometry::Rect;
 
-/// A random formula whose values over the unit square are moderate, so that their rounding does not count.
+/// Returns a random formula whose values over the unit square are moderate, so that their rounding does not
+/// count.
 fn random_formula(random: &mut fastrand::Rng, depth: usize) -> String {
     let number = |random: &mut fastrand::Rng| format!("{:.3}", 3.0 * random.f64() - 1.0);
     if depth == 0 {
@@ -40,7 +41,7 @@ fn random_formula(random: &mut fastrand::Rng, depth: usize) -> String {
     }
 }
 
-/// The largest slope in any direction; infinite where it is not known.
+/// Returns the largest slope in any direction; infinite where it is not known.
 fn steepness(formula: &Formula, rect: &Rect) -> f64 {
     formula.slopes(rect).map_or(f64::INFINITY, |(_, length)| length)
 }
@@ -79,8 +80,8 @@ fn no_formula_rises_faster_than_its_steepness() {
     assert!(known > 10_000 && tight > known / 4, "{known} {tight}");
 }
 
-/// Each of these has the same slope in all directions, or in one; the bounds along the axes alone would be
-/// larger by up to √2.
+/// Each of these formulas has the same slope in all directions, or in one; the bounds along the axes alone
+/// would be larger by up to √2.
 #[test]
 fn distances_have_their_slope_over_any_rectangle() {
     let distances = [

@@ -6,7 +6,7 @@ use super::program::{Op, Program};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
-/// Bounds of the values of a program over a rectangle, with the given risks.
+/// Returns bounds of the values of a program over a rectangle, with the given risks.
 pub(super) fn bounds(program: &Program, rect: &Rect, risk: Bounds) -> Bounds {
     let [x, y] = [0, 1].map(|axis: usize| Bounds::new(rect.min[axis], rect.max[axis]));
     machine::run(program, [x, y, risk])
@@ -38,7 +38,7 @@ impl Values for Bounds {
     }
 }
 
-/// Bounds of an operation on one value.
+/// Returns bounds of an operation on one value.
 pub(super) fn unary(op: Op, a: Bounds) -> Bounds {
     match op {
         Op::Negate => a.negated(),
@@ -52,7 +52,7 @@ pub(super) fn unary(op: Op, a: Bounds) -> Bounds {
     }
 }
 
-/// Bounds of an operation on two values.
+/// Returns bounds of an operation on two values.
 pub(super) fn binary(op: Op, a: Bounds, b: Bounds) -> Bounds {
     match op {
         Op::Add => a.plus(b),
@@ -72,7 +72,7 @@ pub(super) fn binary(op: Op, a: Bounds, b: Bounds) -> Bounds {
     }
 }
 
-/// The value of a function at one number, if it is not NaN; at 0, the values at 0 and −0.
+/// Returns the value of a function at one number, if it is not NaN; at 0, the values at 0 and −0.
 fn at_point(a: Bounds, function: fn(f64) -> f64) -> Option<Bounds> {
     let value = Bounds::one(function(a.least));
     let other = if a.least == 0.0 { Bounds::one(function(-a.least)) } else { value };

@@ -71,7 +71,7 @@ const OTHER_SIGNS: &[(&str, &str)] = &[
     ("//", "to divide and round down, write `floor(a/b)`"),
 ];
 
-/// As [`OTHER_SIGNS`], tried after [`SIGNS`].
+/// Characters of other languages, with the sign to write instead. Tried after [`SIGNS`].
 const OTHER_CHARS: &[(char, &str)] = &[
     ('=', "to compare, write `==`"),
     ('&', "write `and` or `&&`"),
@@ -108,7 +108,7 @@ impl<'a> Lexer<'a> {
         Self { source, at: 0 }
     }
 
-    /// The next token and its range of bytes; always [`Token::End`] at the end.
+    /// Returns the next token and its range of bytes; always [`Token::End`] at the end.
     pub(super) fn next(&mut self) -> Result<(Token<'a>, Range<usize>), ParseError> {
         let rest = &self.source[self.at..];
         let text = rest.trim_start();
@@ -162,8 +162,8 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// Bytes of the number at the start of `text`: digits with at most one point, then an optional exponent;
-/// 0 if there is none. An `e` without digits after it belongs to the next token.
+/// Returns the bytes of the number at the start of `text`: digits with at most one point, then an optional
+/// exponent; 0 if there is none. An `e` without digits after it belongs to the next token.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize| {
         let rest = &text.as_bytes()[from..];
@@ -189,7 +189,8 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// Bytes of the name at the start of `text`: a letter or `_`, then letters, `_`, digits and accents.
+/// Returns the bytes of the name at the start of `text`: a letter or `_`, then letters, `_`, digits and
+/// accents.
 fn name_length(text: &str) -> usize {
     let begins = |c: char| c.is_alphabetic() || c == '_';
     let goes_on = |c: char| begins(c) || c.is_ascii_digit() || ('\u{300}'..='\u{36f}').contains(&c);

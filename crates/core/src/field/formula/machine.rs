@@ -1,39 +1,39 @@
-//! Runs a compiled formula on what stands for its values over a whole rectangle.
+//! Runs a compiled formula on bounds or models of its values over a whole rectangle.
 
 use super::functions::OfThree;
 use super::program::{Compare, LARGE_STACK, Op, Program, SMALL_STACK};
 use crate::field::Bounds;
 
-/// What is known of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or
-/// a model.
+/// A description of the values of a part of a formula over a rectangle: bounds, bounds with derivatives, or a
+/// model.
 pub(super) trait Values: Copy {
-    /// What bounds alone tell.
+    /// Returns the description that follows from bounds alone.
     fn of_bounds(bounds: Bounds) -> Self;
 
-    /// Bounds of the values.
+    /// Returns bounds of the values.
     fn bounds(&self) -> Bounds;
 
-    /// An operation on one value.
+    /// Returns an operation on one value.
     fn one(op: Op, a: Self) -> Self;
 
-    /// An operation on two values, except a comparison.
+    /// Returns an operation on two values, except a comparison.
     fn two(op: Op, a: Self, b: Self) -> Self;
 
-    /// A function of three values.
+    /// Returns a function of three values.
     fn three(function: &OfThree, a: Self, b: Self, c: Self) -> Self;
 
-    /// What holds for both: at each point of the rectangle, either may be the value.
+    /// Returns a description that holds for both: at each point of the rectangle, either may be the value.
     fn either(self, other: Self) -> Self;
 }
 
 /// 0 or 1.
 const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 
-/// Slots of the stack for short formulas: what is known of a value can take many words, and clearing a larger
-/// stack would take longer than the formula.
+/// Slots of the stack for short formulas. A description can take many words, and clearing a larger stack
+/// would take longer than the formula.
 const TINY_STACK: usize = 4;
 
-/// What is known of the values of a program, from what is known of x, y and the risk.
+/// Returns the description of the values of a program, from the descriptions of x, y and the risk.
 pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
     let (slots, code) = (program.slots(), program.code());
     if slots <= TINY_STACK {
@@ -179,7 +179,7 @@ impl<V: Values> Machine<'_, V> {
     }
 }
 
-/// Whether values are true, if all or none of them are. NaN is true.
+/// Returns whether values are true, if all or none of them are. NaN is true.
 fn known_truth(bounds: Bounds) -> Option<bool> {
     if !bounds.has_zero() { Some(true) } else { bounds.is_one().then_some(false) }
 }
@@ -200,7 +200,7 @@ fn sign_of(op: Op) -> Option<Compare> {
     })
 }
 
-/// Bounds of a comparison. With NaN, only `!=` holds.
+/// Returns bounds of a comparison. With NaN, only `!=` holds.
 fn compared(sign: Compare, a: Bounds, b: Bounds) -> Bounds {
     let valid = a.valid && b.valid;
     let apart = a.greatest < b.least || b.greatest < a.least;

@@ -86,7 +86,7 @@ impl Formula {
     ///
     /// # Errors
     ///
-    /// The first mistake in reading order, with its place and what would help. Texts longer than
+    /// Fails with the first mistake in reading order, with its place and what would help. Texts longer than
     /// 64 KiB and expressions nested deeper than 200 are mistakes too.
     ///
     /// ```
@@ -101,7 +101,7 @@ impl Formula {
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
-    /// The value at the point (x, y), in world units.
+    /// Returns the value at the point (x, y), in world units.
     ///
     /// The caller must check the value: `sqrt(-1)` is NaN, `1/0` is infinite, and both are returned. `min`,
     /// `max` and `clamp` of NaN are NaN; a comparison with NaN is 0, except `!=`, which is 1.
@@ -109,7 +109,7 @@ impl Formula {
         self.program.run(x, y)
     }
 
-    /// Bounds of [`Self::eval`] over a closed rectangle in world units, by interval arithmetic.
+    /// Returns bounds of [`Self::eval`] over a closed rectangle in world units, by interval arithmetic.
     ///
     /// They hold for every point of the rectangle with coordinates in f64. A coordinate that occurs several
     /// times makes them wider than the values are; over smaller rectangles they are closer. At a single point
@@ -129,50 +129,50 @@ impl Formula {
         interval::bounds(&self.program, rect, Bounds::ANYTHING)
     }
 
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units. `None` where the
-    /// formula may jump, or a derivative is not known.
+    /// Returns bounds of the derivatives along x and y over a closed rectangle in world units. `None` where
+    /// the formula may jump, or a derivative is not known.
     pub(crate) fn derivatives(&self, rect: &Rect) -> Option<[Bounds; 2]> {
         self.slopes(rect).map(|(along, _)| along)
     }
 
-    /// Bounds of the derivatives along x and y over a closed rectangle in world units, and the largest slope
-    /// in any direction; `None` where the formula may jump, or one of them is not known.
+    /// Returns bounds of the derivatives along x and y over a closed rectangle in world units, and the
+    /// largest slope in any direction; `None` where the formula may jump, or one of them is not known.
     pub(crate) fn slopes(&self, rect: &Rect) -> Option<([Bounds; 2], f64)> {
         derivatives::slopes(&self.program, rect)
     }
 
-    /// A model of [`Self::eval`] over a rectangle, from models of the coordinates.
+    /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates.
     pub(crate) fn model(&self, [x, y]: [Quadratic; 2]) -> Quadratic {
         machine::run(&self.program, [x, y, Quadratic::UNKNOWN])
     }
 
-    /// The number of instructions.
+    /// Returns the number of instructions.
     pub(crate) fn length(&self) -> usize {
         self.program.code().len()
     }
 
-    /// The formula of a number: its shortest text.
+    /// Returns the formula of a number: its shortest text.
     pub fn constant_of(value: f64) -> Self {
         let source = format!("{value}");
         Self { program: Arc::new(Program::new(vec![Op::Number(value)], 1)), source: source.into() }
     }
 
-    /// The text as it was typed.
+    /// Returns the text as it was typed.
     pub fn source(&self) -> &str {
         &self.source
     }
 
-    /// Where the compiled formula lies in memory: equal for clones, which share it.
+    /// Returns the address of the compiled formula in memory. It is equal for clones, which share it.
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.program).addr()
     }
 
-    /// Memory that clones share, in bytes.
+    /// Returns the memory that clones share, in bytes.
     pub fn bytes(&self) -> usize {
         self.source.len() + self.program.bytes()
     }
 
-    /// The value, if the formula uses no coordinate.
+    /// Returns the value, if the formula uses no coordinate.
     ///
     /// ```
     /// # use meshbrush_core::field::Formula;

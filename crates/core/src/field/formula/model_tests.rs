@@ -4,15 +4,15 @@ use super::Formula;
 use super::bounds_tests::{grown, simple_formulas};
 use crate::field::{Bounds, Quadratic};
 
-/// A model of a formula over a square.
+/// Returns a model of a formula over a square.
 fn model(formula: &Formula, middle: DVec2, half: f64) -> Quadratic {
     let rest = f64::EPSILON * (middle.abs() + half);
     let coordinates = [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half, rest[axis]));
     formula.model(coordinates)
 }
 
-/// Compares a model with values at random points of a square and of a part of it. Says whether the model
-/// tells more than that the values are numbers.
+/// Compares a model with values at random points of a square and of a part of it. Returns whether the model
+/// contains more than the fact that the values are numbers.
 fn check(formula: &Formula, middle: DVec2, half: f64, random: &mut fastrand::Rng) -> bool {
     let model = model(formula, middle, half);
     for _ in 0..6 {

@@ -56,7 +56,7 @@ impl Values for Quadratic {
     }
 }
 
-/// The largest size of a number between two.
+/// Returns the largest size of a number between two.
 fn size(bounds: Bounds) -> f64 {
     bounds.least.abs().max(bounds.greatest.abs())
 }
@@ -78,7 +78,7 @@ pub(super) fn log10(a: &Quadratic) -> Quadratic {
     logarithm(a, libm::log10, LN_10)
 }
 
-/// A logarithm, and the natural logarithm of its base.
+/// Returns a logarithm, and the natural logarithm of its base.
 fn logarithm(a: &Quadratic, function: fn(f64) -> f64, of_base: f64) -> Quadratic {
     let Bounds { least, .. } = a.bounds();
     if least <= 0.0 {
@@ -99,7 +99,7 @@ pub(super) fn cos(a: &Quadratic) -> Quadratic {
     wave(a, cosine, -sine)
 }
 
-/// Sine or cosine, from its value and its derivative in the middle.
+/// Returns sine or cosine, from its value and its derivative in the middle.
 fn wave(a: &Quadratic, value: f64, slope: f64) -> Quadratic {
     let Bounds { least, greatest, valid } = a.bounds();
     if !valid {
@@ -124,8 +124,8 @@ pub(super) fn cosh(a: &Quadratic) -> Quadratic {
     a.composed([cosine, sine, 0.5 * cosine], libm::cosh(size(a.bounds())) / 6.0, 0.0)
 }
 
-/// What the slope of a function is off by where it is a difference of numbers up to 1, over the whole
-/// rectangle.
+/// Returns a bound of the error of a function's slope over the whole rectangle, if the slope is a difference
+/// of numbers up to 1.
 fn cancelled(a: &Quadratic) -> f64 {
     let Bounds { least, greatest, .. } = a.bounds();
     let step = greatest - least;
@@ -145,7 +145,7 @@ pub(super) fn atan(a: &Quadratic) -> Quadratic {
     a.composed([libm::atan(a.middle()), slope, -a.middle() * slope * slope], 1.0 / 3.0, 0.0)
 }
 
-/// The angle of a direction that is not near the negative x axis, where it jumps.
+/// Returns the angle of a direction that is not near the negative x axis, where it jumps.
 pub(super) fn atan2(y: &Quadratic, x: &Quadratic) -> Quadratic {
     if x.bounds().least > 0.0 {
         return atan(&y.over(x));
@@ -177,7 +177,7 @@ pub(super) fn gauss(d: &Quadratic, s: &Quadratic) -> Quadratic {
     share.composed([value, -t * value, bend], 1.381 / 6.0, cancelled(&share) + rounding)
 }
 
-/// A power with a constant exponent, or of a positive base.
+/// Returns a power with a constant exponent, or of a positive base.
 pub(super) fn power(a: &Quadratic, b: &Quadratic) -> Quadratic {
     if !b.is_constant() {
         return exp(&b.times(&ln(a)));
@@ -210,7 +210,7 @@ pub(super) fn mix(a: &Quadratic, b: &Quadratic, t: &Quadratic) -> Quadratic {
     a.times(&Quadratic::constant(1.0).minus(t)).plus(&b.times(t))
 }
 
-/// Between its limits; beyond them, bounds tell that it is 0 or 1.
+/// Returns a model for values between the limits. Beyond them, bounds show that the value is 0 or 1.
 pub(super) fn smoothstep(lo: &Quadratic, hi: &Quadratic, v: &Quadratic) -> Quadratic {
     let span = hi.minus(lo);
     let Bounds { least, greatest, .. } = span.bounds();

@@ -69,7 +69,7 @@ struct Arguments {
     count: usize,
     constant: bool,
     slots: usize,
-    /// Where `if` skips its first branch, and its second.
+    /// The indices of the skips of the first and of the second branch of `if`.
     skips: [usize; 2],
     /// The byte after the closing parenthesis.
     end: usize,
@@ -351,8 +351,8 @@ impl<'a> Parser<'a> {
         self.finish(left.start, left.constant && right.constant, slots)
     }
 
-    /// The number of instructions after the one at `at`. It fits 32 bits: the text has at most [`MAX_LENGTH`]
-    /// bytes, and no token makes more than three instructions.
+    /// Returns the number of instructions after the one at `at`. It fits 32 bits: the text has at most
+    /// [`MAX_LENGTH`] bytes, and no token makes more than three instructions.
     fn distance_from(&self, at: usize) -> u32 {
         (self.code.len() - at - 1) as u32
     }
@@ -399,7 +399,7 @@ impl<'a> Parser<'a> {
         self.mistake(span, format!("There is no {}; {advice}.", quote(name)))
     }
 
-    /// The mistake of a token after a value that neither continues nor ends it.
+    /// Returns the mistake for a token after a value that neither continues nor ends it.
     fn unexpected_after_value(&self) -> ParseError {
         let found = self.found();
         let message = match self.token {
@@ -432,12 +432,12 @@ fn infix_binding(token: Token) -> Option<u8> {
     }
 }
 
-/// The instruction of a function that is also written in another way.
+/// Returns the instruction of a function that is also written in another way.
 fn named_operator(name: &str) -> Op {
     instruction(name).expect("the table has this function")
 }
 
-/// What to write instead of a word that is an operator in other languages.
+/// Returns the operator to write instead of a word that is an operator in other languages.
 fn operator_word(name: &str) -> Option<&'static str> {
     match name.to_lowercase().as_str() {
         "and" => Some("`and` in small letters"),

@@ -9,9 +9,9 @@ const POINTER_COLUMNS: usize = 68;
 /// Columns of the marked part that a pointer shows at most; the other columns show the text around it.
 const CARET_COLUMNS: usize = 30;
 
-/// Two lines for a fixed-width font: the text, or about 70 columns of it around the marked part, and carets
-/// under that part. `span` is in bytes of `source`, on character boundaries; where it is empty there is one
-/// caret.
+/// Returns two lines for a fixed-width font: the text, or about 70 columns of it around the marked part, and
+/// carets under that part. `span` is in bytes of `source`, on character boundaries; where it is empty there
+/// is one caret.
 pub fn draw_pointer(source: &str, span: &Range<usize>) -> String {
     let shown = window(source, span);
     let text = |range: Range<usize>| source[range].chars().map(printable).collect::<String>();
@@ -25,7 +25,7 @@ pub fn draw_pointer(source: &str, span: &Range<usize>) -> String {
     format!("{before}{marked}{after}\n{indent}{carets}")
 }
 
-/// The range of bytes to show: the marked part, extended by one character on each side in turn.
+/// Returns the range of bytes to show: the marked part, extended by one character on each side in turn.
 ///
 /// Ends: each iteration takes at least one column, or stops at the limit or at both ends of the text.
 fn window(source: &str, span: &Range<usize>) -> Range<usize> {
@@ -59,8 +59,8 @@ fn window(source: &str, span: &Range<usize>) -> Range<usize> {
     }
 }
 
-/// What to show for a character of a text that may hold anything: line breaks and tabs as a space, invisible
-/// controls as `�`.
+/// Returns the character to show for a character of any text: a space for line breaks and tabs, `�` for
+/// invisible control characters.
 pub(super) fn printable(c: char) -> char {
     match c {
         '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' => '\u{fffd}',
@@ -75,8 +75,8 @@ fn columns(text: &str) -> usize {
     text.chars().map(char_columns).sum()
 }
 
-/// Columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for East Asian
-/// letters and pictographs.
+/// Returns the columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for
+/// East Asian letters and pictographs.
 fn char_columns(c: char) -> usize {
     c.width().unwrap_or(0) // none for control characters, which are not shown
 }

@@ -79,7 +79,7 @@ pub(super) enum Compare {
 }
 
 impl Compare {
-    /// The instruction for a comparison outside a chain.
+    /// Returns the instruction for a comparison outside a chain.
     pub(super) fn op(self) -> Op {
         match self {
             Self::Less => Op::Less,
@@ -140,22 +140,22 @@ impl Program {
         &self.code
     }
 
-    /// The number of stack slots that the program needs.
+    /// Returns the number of stack slots that the program needs.
     pub(super) fn slots(&self) -> usize {
         self.slots
     }
 
-    /// Memory of the instructions, in bytes.
+    /// Returns the memory of the instructions, in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&*self.code)
     }
 
-    /// Whether the value can depend on the risk.
+    /// Returns whether the value can depend on the risk.
     pub(super) fn loads_risk(&self) -> bool {
         self.loads_risk
     }
 
-    /// Whether the program takes a square root, or may raise something to the power 1/2.
+    /// Returns whether the program takes a square root, or may raise something to the power 1/2.
     pub(super) fn takes_roots(&self) -> bool {
         self.takes_roots
     }
@@ -297,14 +297,14 @@ fn truth(condition: bool) -> f64 {
     f64::from(u8::from(condition))
 }
 
-/// The smaller value, the later of two equal ones (0 and −0); NaN if either is.
+/// Returns the smaller value, the later of two equal ones (0 and −0); NaN if either is.
 ///
 /// `f64::min` would hide a NaN and leave the sign of 0 to the machine.
 pub(super) fn min(a: f64, b: f64) -> f64 {
     if a < b || a.is_nan() { a } else { b }
 }
 
-/// The larger value, the later of two equal ones; NaN if either is.
+/// Returns the larger value, the later of two equal ones; NaN if either is.
 pub(super) fn max(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

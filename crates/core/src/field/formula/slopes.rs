@@ -33,7 +33,7 @@ pub(super) fn cos(a: Bounds, _: Bounds) -> Bounds {
     bounds::sin(a).negated()
 }
 
-/// Without bounds where the result has a pole.
+/// Bounds the derivative of the tangent; its result has no bounds if there is a pole.
 pub(super) fn tan(_: Bounds, result: Bounds) -> Bounds {
     ONE.plus(result.squared())
 }
@@ -54,7 +54,7 @@ pub(super) fn tanh(_: Bounds, result: Bounds) -> Bounds {
     ONE.minus(result.squared())
 }
 
-/// With a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
+/// Bounds the derivative of a power with a constant exponent: (aⁿ)′ = n aⁿ⁻¹ a′.
 pub(super) fn power<G: Slopes>(a: Varying<G>, n: Varying<G>, value: Bounds) -> Varying<G> {
     if !n.is_constant() {
         return Varying::of_bounds(value);
@@ -78,7 +78,8 @@ pub(super) fn hypot<G: Slopes>(a: Varying<G>, b: Varying<G>, value: Bounds) -> V
 /// The greatest slope of the bell curve exp(−t²/2) is e^(−1/2), at t = 1.
 const STEEPEST_OF_BELL: f64 = 0.606_530_659_712_634;
 
-/// With a constant s: exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) · d′.
+/// Bounds the derivative of the bell curve with a constant s: exp(−(d/s)²/2)′ = −d / s² · exp(−(d/s)²/2) ·
+/// d′.
 pub(super) fn gauss<G: Slopes>(d: Varying<G>, s: Varying<G>, value: Bounds) -> Varying<G> {
     if !s.is_constant() {
         return Varying::of_bounds(value);
@@ -99,7 +100,7 @@ pub(super) fn mix<G: Slopes>(a: Varying<G>, b: Varying<G>, t: Varying<G>) -> Opt
     Some(first.gradient?.plus(&second.gradient?))
 }
 
-/// With constant limits: 6 t (1 − t) / (hi − lo) for the share t of the way.
+/// Bounds the derivative of the smooth step with constant limits: 6 t (1 − t) / (hi − lo) for the share t.
 pub(super) fn smoothstep<G: Slopes>(lo: Varying<G>, hi: Varying<G>, v: Varying<G>) -> Option<G> {
     let span = hi.value.minus(lo.value);
     if !lo.is_constant() || !hi.is_constant() || span.has_zero() {

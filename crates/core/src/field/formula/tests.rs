@@ -7,7 +7,7 @@ fn formula(source: &str) -> Formula {
     Formula::parse(source).unwrap_or_else(|e| panic!("{source}: {e}\n{}", e.pointer()))
 }
 
-/// The value at (A, B).
+/// Returns the value at (A, B).
 fn value(source: &str) -> f64 {
     formula(source).eval(A, B)
 }
@@ -525,7 +525,7 @@ mod referee {
         }
     }
 
-    /// With the parentheses it needs, and now and then some more.
+    /// Prints the formula with the parentheses that it needs, and sometimes a few more.
     fn print(tree: &Tree, least: u8, random: &mut fastrand::Rng) -> String {
         let text = match tree {
             Number(v) => format!("{v}"),

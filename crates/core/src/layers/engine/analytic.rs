@@ -17,7 +17,7 @@ use super::steepness::Slopes;
 pub struct Analytic {
     pub function: Function,
     pub quantity: Quantity,
-    /// Where models of the function are kept, if it has any.
+    /// The key of the function's models, if it has any.
     models: Option<ModelId>,
 }
 
@@ -41,7 +41,7 @@ pub struct Profile {
     pub at_zero: f64,
     pub slope: f64,
     pub range: f64,
-    /// What gradation carries away from the shapes, if that is known.
+    /// The diameters that gradation carries away from the shapes, if a closed form is known.
     pub graded: Option<Graded>,
 }
 
@@ -65,7 +65,7 @@ pub struct Graded {
 }
 
 impl Profile {
-    /// The value at a distance from the shapes.
+    /// Returns the value at a distance from the shapes.
     fn at(&self, distance: f64) -> f64 {
         let beyond = distance - self.reach;
         let within = beyond <= self.range;
@@ -76,8 +76,8 @@ impl Profile {
         if carried < asked && carried <= most { carried } else { asked }
     }
 
-    /// The same function with what gradation carries, where it is at least h_min. The shapes must lie where
-    /// h̄ is wanted, so that the way to them does.
+    /// Returns this function after gradation, where it is at least h_min. The shapes must be in the area
+    /// where h̄ is wanted, so that the segments to them are.
     fn graded(self, gradation: f64, h_min: f64, most: f64) -> Self {
         let below = if self.slope > 0.0 { ((h_min - self.at_zero) / self.slope).max(0.0) } else { 0.0 };
         // Within that distance h is h_min.
@@ -91,7 +91,7 @@ impl Profile {
         }
     }
 
-    /// The greatest slope, where the function does not jump.
+    /// Returns the greatest slope, where the function does not jump.
     pub fn steepness(&self) -> f64 {
         match self.graded {
             Some(Graded { gradation, .. }) => self.slope.min(gradation),
@@ -127,7 +127,7 @@ impl Function {
         }
     }
 
-    /// Whether models of the function are cheaper than its bounds.
+    /// Returns whether models of the function are cheaper than its bounds.
     fn has_models(&self) -> bool {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
@@ -144,7 +144,8 @@ impl Function {
         }
     }
 
-    /// The function with what gradation carries, where a closed form is known: at least h_min, up to `most`.
+    /// Returns the function with what gradation carries, where a closed form is known: at least h_min, up to
+    /// `most`.
     pub fn graded(&self, gradation: f64, h_min: f64, most: f64, bounds: &Rect) -> Option<Self> {
         let Self::Distance { shapes, profile } = self else { return None };
         let extent = shapes.extent();
@@ -155,7 +156,8 @@ impl Function {
         })
     }
 
-    /// What gradation carries to a point, and from where, if there is a closed form for it.
+    /// Returns the diameter that gradation carries to a point, and the point that it comes from, if a closed
+    /// form is known.
     pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
         let Self::Distance { shapes, profile } = self else { return None };
         let graded = profile.graded?;
@@ -166,7 +168,8 @@ impl Function {
         Some((profile.at(distance), from))
     }
 
-    /// Bounds of the gradient over a rectangle; unknown where the function may jump, or they are not known.
+    /// Returns bounds of the gradient over a rectangle; unknown where the function may jump, or they are not
+    /// known.
     pub fn slopes(&self, rect: &Rect) -> Slopes {
         match self {
             Self::Formula(formula) => {
@@ -187,18 +190,18 @@ impl Analytic {
         Self { function, quantity, models }
     }
 
-    /// The same, asked by its own bounds only.
+    /// Returns this function without models: searches use its bounds only.
     #[cfg(test)]
     pub fn without_models(self) -> Self {
         Self { models: None, ..self }
     }
 
-    /// The value at a point in world units, as it counts: where it is not valid, that of nothing.
+    /// Returns the value at a point in world units, as it counts: where it is not valid, that of nothing.
     pub fn at(&self, point: DVec2) -> f32 {
         self.value(self.function.at(point))
     }
 
-    /// Whether a value is one that a layer may have.
+    /// Returns whether a value is one that a layer may have.
     pub fn is_valid(&self, value: f64) -> bool {
         match self.quantity {
             // Infinity asks for nothing.
@@ -207,13 +210,13 @@ impl Analytic {
         }
     }
 
-    /// Whether all values in a rectangle, in world units, are certainly valid.
+    /// Returns whether all values in a rectangle, in world units, are certainly valid.
     pub fn is_valid_within(&self, rect: &Rect) -> bool {
         let Bounds { least, valid, .. } = self.function.bounds(rect);
         valid && (self.quantity == Quantity::Risk || least > 0.0)
     }
 
-    /// What [`Self::is_valid`] demands, for a message.
+    /// Returns the rule that [`Self::is_valid`] checks, for a message.
     pub fn rule(&self) -> &'static str {
         match self.quantity {
             Quantity::Diameter => "a target diameter must be positive; write inf where it asks for nothing",
@@ -221,7 +224,7 @@ impl Analytic {
         }
     }
 
-    /// The number itself, unchecked.
+    /// Returns the number itself, unchecked.
     pub fn raw(&self, point: DVec2) -> f64 {
         self.function.at(point)
     }
@@ -236,8 +239,8 @@ impl Analytic {
         }
     }
 
-    /// The range of the values of some cells, and where to divide them to know more. A cell has the value at
-    /// its centre.
+    /// Returns the range of the values of some cells, and where to divide them to know more. A cell has the
+    /// value at its centre.
     pub fn range(&self, cells: &Cells, lattice: &Lattice) -> (ValueRange, Option<Cut>) {
         let Some(cut) = cells.middle() else {
             return (ValueRange::one(self.at(cells.center(lattice))), None);
@@ -246,7 +249,7 @@ impl Analytic {
         (range, (!range.is_one()).then_some(cut))
     }
 
-    /// Bounds of the numbers at the centres of some cells.
+    /// Returns bounds of the numbers at the centres of some cells.
     fn bounds(&self, cells: &Cells, lattice: &Lattice) -> Bounds {
         // A model of threats already has the bounds of each that varies much, but near the rims of the
         // threats it does not say where no threat is.
@@ -260,7 +263,7 @@ impl Analytic {
         }
     }
 
-    /// The range of the values that count, from the bounds of the numbers.
+    /// Returns the range of the values that count, from the bounds of the numbers.
     pub fn enclosed(&self, bounds: Bounds) -> ValueRange {
         let Bounds { least, greatest, valid } = bounds;
         match self.quantity {

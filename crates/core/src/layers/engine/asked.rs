@@ -1,13 +1,13 @@
 //! Answers about all points of a rectangle at once.
 
-/// At how many points of a rectangle something is true.
+/// The share of the points of a rectangle at which a condition is true.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Share {
-    /// At no point.
+    /// The condition is true at no point.
     None,
-    /// At some points, or it is not known.
+    /// The condition is true at some points, or the share is unknown.
     Some,
-    /// At every point.
+    /// The condition is true at every point.
     All,
 }
 
@@ -18,13 +18,13 @@ impl Share {
         if holds { Self::All } else { Self::None }
     }
 
-    /// The same within a mask that covers some of the points.
+    /// Returns the answer within a mask that covers some of the points.
     #[inline]
     pub fn masked(self) -> Self {
         if self == Self::None { Self::None } else { Self::Some }
     }
 
-    /// Where either is true.
+    /// Returns the share of the points at which either condition is true.
     #[inline]
     pub fn or(self, other: Self) -> Self {
         match (self, other) {
@@ -34,7 +34,7 @@ impl Share {
         }
     }
 
-    /// Where both are true.
+    /// Returns the share of the points at which both conditions are true.
     #[inline]
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -44,7 +44,7 @@ impl Share {
         }
     }
 
-    /// Where it is not true.
+    /// Returns the share of the points at which the condition is not true.
     #[inline]
     pub fn not(self) -> Self {
         match self {

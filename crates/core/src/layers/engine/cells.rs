@@ -18,7 +18,7 @@ pub struct Cells {
     pub max: [i64; 2],
 }
 
-/// Where a rectangle of cells is divided in two.
+/// A cut that divides a rectangle of cells in two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cut {
     /// 0: between columns, 1: between rows.
@@ -28,7 +28,7 @@ pub struct Cut {
 }
 
 impl Cells {
-    /// The cells that touch a closed triangle, and others in the rectangle around it.
+    /// Returns the cells that touch a closed triangle, and others in the rectangle around it.
     #[inline]
     pub fn around(triangle: &Octagon, extent: LatticePoint) -> Self {
         let [min, max] = triangle.bounds();
@@ -39,18 +39,18 @@ impl Cells {
         }
     }
 
-    /// All cells of a lattice.
+    /// Returns all cells of a lattice.
     pub fn all(extent: LatticePoint) -> Self {
         Self { min: [0, 0], max: [i64::from(extent.x), i64::from(extent.y)] }
     }
 
-    /// The closed rectangle that the cells cover.
+    /// Returns the closed rectangle that the cells cover.
     #[inline]
     pub fn octagon(&self) -> Octagon {
         Octagon::rect(self.min, self.max)
     }
 
-    /// The two parts on both sides of a cut.
+    /// Returns the two parts on both sides of a cut.
     #[inline]
     pub fn divided(self, cut: Cut) -> [Self; 2] {
         let (mut low, mut high) = (self, self);
@@ -59,7 +59,8 @@ impl Cells {
         [low, high]
     }
 
-    /// The part on one side of lines along both axes; `upper` says for each axis whether it is the upper one.
+    /// Returns the part on one side of lines along both axes; `upper` says for each axis whether it is the
+    /// upper one.
     #[inline]
     pub fn quarter(&self, lines: [i64; 2], upper: [bool; 2]) -> Self {
         Self {
@@ -68,14 +69,14 @@ impl Cells {
         }
     }
 
-    /// Whether a cut has cells on both sides.
+    /// Returns whether a cut has cells on both sides.
     #[inline]
     pub fn admits(&self, cut: Cut) -> bool {
         self.min[cut.axis] < cut.at && cut.at < self.max[cut.axis]
     }
 
-    /// A cut through the longer side at a multiple of the largest power of two that has one there: parts of
-    /// several rectangles then coincide. `None` for a single cell.
+    /// Returns a cut through the longer side at a multiple of the largest power of two that has one there:
+    /// parts of several rectangles then coincide. `None` for a single cell.
     #[inline]
     pub fn middle(&self) -> Option<Cut> {
         let side = |axis: usize| self.max[axis] - self.min[axis];
@@ -89,15 +90,15 @@ impl Cells {
         Some(Cut { axis, at: last >> bit << bit })
     }
 
-    /// The centre in world units.
+    /// Returns the centre in world units.
     #[inline]
     pub fn center(&self, lattice: &Lattice) -> DVec2 {
         let twice = [0, 1].map(|axis: usize| (self.min[axis] + self.max[axis]) as f64);
         lattice.bounds().min + 0.5 * DVec2::from(twice) * lattice.step()
     }
 
-    /// The smallest rectangle around the centres of the cells, in world units. A line between cells, where a
-    /// function may jump, lies between two such rectangles.
+    /// Returns the smallest rectangle around the centres of the cells, in world units. A line between cells,
+    /// where a function may jump, lies between two such rectangles.
     #[inline]
     pub fn centers(&self, lattice: &Lattice) -> Rect {
         let corner = |place: [f64; 2]| lattice.bounds().min + DVec2::from(place) * lattice.step();
@@ -114,7 +115,7 @@ impl Cells {
         }
     }
 
-    /// The common cells.
+    /// Returns the common cells.
     pub fn intersection(&self, other: &Self) -> Option<Self> {
         let common = Self {
             min: [self.min[0].max(other.min[0]), self.min[1].max(other.min[1])],
@@ -123,7 +124,7 @@ impl Cells {
         (common.min[0] < common.max[0] && common.min[1] < common.max[1]).then_some(common)
     }
 
-    /// The rectangle in world units; parts beyond the lattice are cut off.
+    /// Returns the rectangle in world units; parts beyond the lattice are cut off.
     #[inline]
     pub fn world_rect(&self, lattice: &Lattice) -> Rect {
         let extent = lattice.extent();
@@ -139,7 +140,7 @@ impl Cells {
 }
 
 impl Cells {
-    /// The cells that a rectangle covers or touches from within, at least one along each side.
+    /// Returns the cells that a rectangle covers or touches from within, at least one along each side.
     pub fn of(rect: &LatticeRect) -> Self {
         let [min, max] = [rect.min, rect.max].map(|p| [i64::from(p.x), i64::from(p.y)]);
         Self { min: [0, 1].map(|axis: usize| min[axis].min(max[axis] - 1).max(0)), max }
@@ -147,7 +148,7 @@ impl Cells {
 }
 
 impl From<Cells> for LatticeRect {
-    /// The closed rectangle. The cells must lie on the lattice.
+    /// Returns the closed rectangle. The cells must lie on the lattice.
     fn from(cells: Cells) -> Self {
         let [min, max] = [cells.min, cells.max].map(|[x, y]| LatticePoint::new(x as u32, y as u32));
         Self { min, max }
@@ -180,12 +181,12 @@ impl GridOnLattice {
         Self { origin, steps, pixels_per_step: 1.0 / steps, log_steps: exponent(steps.min_element()) }
     }
 
-    /// Binary logarithm of the shorter side of a pixel in lattice steps, rounded down.
+    /// Returns the binary logarithm of the shorter side of a pixel in lattice steps, rounded down.
     pub fn log_steps(&self) -> i32 {
         self.log_steps
     }
 
-    /// The lines between squares at a scale, across an axis.
+    /// Returns the lines between squares at a scale, across an axis.
     #[inline]
     fn lines(&self, scale: i32, axis: usize) -> Lines {
         Lines {
@@ -195,13 +196,13 @@ impl GridOnLattice {
         }
     }
 
-    /// The lattice coordinate of line `n` between squares at a scale, along an axis.
+    /// Returns the lattice coordinate of line `n` between squares at a scale, along an axis.
     #[inline]
     fn line(&self, scale: i32, axis: usize, n: i64) -> i64 {
         self.lines(scale, axis).line(n)
     }
 
-    /// The square [x, y] at a scale, see [`ValueRanges`].
+    /// Returns the square [x, y] at a scale, see [`ValueRanges`].
     #[inline]
     pub fn square(&self, scale: i32, x: i64, y: i64) -> Cells {
         Cells {
@@ -210,21 +211,22 @@ impl GridOnLattice {
         }
     }
 
-    /// The lattice lines, one along each axis, between the quarters of the square [x, y] at a scale.
+    /// Returns the lattice lines, one along each axis, between the quarters of the square [x, y] at a scale.
     #[inline]
     pub fn middle(&self, scale: i32, [x, y]: [i64; 2]) -> [i64; 2] {
         [self.line(scale - 1, 0, 2 * x + 1), self.line(scale - 1, 1, 2 * y + 1)]
     }
 
-    /// The scale at which a rectangle of cells spans about one square. The whole raster can be smaller.
+    /// Returns the scale at which a rectangle of cells spans about one square. The whole raster can be
+    /// smaller.
     #[inline]
     pub fn scale_of(&self, cells: &Cells) -> i32 {
         let longer = (cells.max[0] - cells.min[0]).max(cells.max[1] - cells.min[1]).max(1);
         longer.ilog2() as i32 + 1 - self.log_steps
     }
 
-    /// The squares at a scale that have cells of a rectangle: [first column, first row], [last column, last
-    /// row].
+    /// Returns the squares at a scale that have cells of a rectangle: [first column, first row], [last
+    /// column, last row].
     #[inline]
     pub fn squares(&self, scale: i32, cells: &Cells) -> [[i64; 2]; 2] {
         let [x0, x1] = self.lines(scale, 0).between([cells.min[0], cells.max[0] - 1]);
@@ -232,8 +234,8 @@ impl GridOnLattice {
         [[x0, y0], [x1, y1]]
     }
 
-    /// The range of the values of a raster in a rectangle of cells, and where to divide the rectangle to know
-    /// more: at a line between squares. There is no such line when the range is exact.
+    /// Returns the range of the values of a raster in a rectangle of cells, and where to divide the rectangle
+    /// to know more: at a line between squares. There is no such line when the range is exact.
     pub fn range(&self, raster: &impl ValueRanges, cells: &Cells) -> (ValueRange, Option<Cut>) {
         let mut scale = self.scale_of(cells).max(raster.finest());
         loop {
@@ -266,13 +268,14 @@ struct Lines {
 }
 
 impl Lines {
-    /// The lattice coordinate of line `n`.
+    /// Returns the lattice coordinate of line `n`.
     #[inline]
     fn line(&self, n: i64) -> i64 {
         floor(self.origin + n as f64 * self.spacing + ROUNDING)
     }
 
-    /// The first and the last gap between lines that have cells from `first` to `last`. Gap n follows line n.
+    /// Returns the first and the last gap between lines that have cells from `first` to `last`. Gap n follows
+    /// line n.
     #[inline]
     fn between(&self, [first, last]: [i64; 2]) -> [i64; 2] {
         let (gap, end) = self.gap_and_end(first);
@@ -284,7 +287,7 @@ impl Lines {
         [gap, if is_next { gap + 1 } else { self.gap_and_end(last).0 }]
     }
 
-    /// The gap that has a cell, and the line where that gap ends.
+    /// Returns the gap that has a cell, and the line where that gap ends.
     #[inline]
     fn gap_and_end(&self, cell: i64) -> (i64, i64) {
         let mut n = floor((cell as f64 - self.origin) * self.per_step);
@@ -302,7 +305,7 @@ impl Lines {
     }
 }
 
-/// The range over squares from `low` to `high`, both included.
+/// Returns the range over squares from `low` to `high`, both included.
 #[inline]
 fn joined_range(raster: &impl ValueRanges, scale: i32, low: [i64; 2], high: [i64; 2]) -> ValueRange {
     let mut range = raster.range_anywhere(scale, low);
@@ -326,7 +329,7 @@ mod tests {
 
     use super::*;
 
-    /// The square of each cell along an axis, by looking at the lines one by one.
+    /// Returns the square of each cell along an axis, by looking at the lines one by one.
     fn squares_by_lines(origin: f64, spacing: f64, cells: std::ops::Range<i64>) -> Vec<i64> {
         let line = |n: i64| (origin + n as f64 * spacing + 1.0 / 65536.0).floor() as i64;
         let of_cell = |cell: i64| (-200..200).find(|&n| line(n) <= cell && cell < line(n + 1)).unwrap();

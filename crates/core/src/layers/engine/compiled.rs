@@ -31,12 +31,12 @@ pub struct CompiledLayer {
     graded: Option<Analytic>,
 }
 
-/// Where the values of a layer come from.
+/// The source of the values of a layer.
 #[derive(Clone, Debug)]
 enum Values {
     /// There are none.
     Nothing,
-    /// The same value everywhere.
+    /// One value everywhere.
     Constant(Analytic),
     /// Painted pixels, which are passed with each question.
     Paint,
@@ -47,7 +47,7 @@ enum Values {
 }
 
 impl CompiledLayer {
-    /// Without an `outline`, nothing is near to it.
+    /// Compiles a layer. Without an `outline`, no point is near to it.
     pub fn new(layer: &Layer, transfer: &Transfer, lattice: &Lattice, outline: Option<&Shapes>) -> Self {
         let spacing = lattice.spacing();
         let reading = |quantity, nothing| match quantity {
@@ -108,7 +108,7 @@ impl CompiledLayer {
         self.graded = function.map(|function| Analytic::new(function, analytic.quantity));
     }
 
-    /// The same, with functions asked by their own bounds only.
+    /// Returns this layer without models of its functions: searches use bounds only.
     #[cfg(test)]
     pub fn without_models(mut self) -> Self {
         if let Values::Analytic(analytic) = self.values {
@@ -117,12 +117,12 @@ impl CompiledLayer {
         self
     }
 
-    /// Whether the layer can be asked alone: where it asks, h̄ is no greater.
+    /// Returns whether the layer can be asked alone: where it asks, h̄ is no greater.
     pub fn is_plain(&self) -> bool {
         self.combine == Combine::Finest
     }
 
-    /// The function of the point that the layer is given by, if it is.
+    /// Returns the function of the point that the layer is given by, if it is.
     pub fn analytic(&self) -> Option<&Analytic> {
         match &self.values {
             Values::Constant(analytic) | Values::Analytic(analytic) => Some(analytic),
@@ -130,8 +130,8 @@ impl CompiledLayer {
         }
     }
 
-    /// Whether a cell that touches the triangle asks for more than the level. `around` are the cells around
-    /// the triangle.
+    /// Returns whether a cell that touches the triangle asks for more than the level. `around` are the cells
+    /// around the triangle.
     #[inline]
     pub fn any_below(
         &self,
@@ -179,7 +179,7 @@ impl CompiledLayer {
         any_cell(triangle, around, &mut ask)
     }
 
-    /// How many of some cells the mask covers, and where to divide them to know more.
+    /// Returns how many of some cells the mask covers, and where to divide them to know more.
     fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
         let Some(mask) = &self.mask else { return (Share::All, None) };
         let Some(cut) = cells.middle() else {
@@ -192,7 +192,7 @@ impl CompiledLayer {
         }
     }
 
-    /// What the layer asks for in some cells, and where to divide them to know more.
+    /// Returns the layer's answer in some cells, and the cut that divides them for a closer answer.
     pub fn answer(
         &self,
         paint: &PaintLayers,
@@ -213,7 +213,7 @@ impl CompiledLayer {
         (answer, mask_cut.or(cut).filter(|_| answer.is_undecided()))
     }
 
-    /// The diameters that the layer asks for in some cells, and where to divide them to know more.
+    /// Returns the diameters that the layer asks for in some cells, and where to divide them to know more.
     ///
     /// A line between pixels comes before an edge of the mask: there are few, and on both sides the diameters
     /// of single pixels are known. A curve of the values can be lower between two values than at both.
@@ -237,18 +237,18 @@ impl CompiledLayer {
         (diameters, cut)
     }
 
-    /// Whether the values are those of pixels.
+    /// Returns whether the values are those of pixels.
     pub fn has_pixels(&self) -> bool {
         matches!(self.values, Values::Paint | Values::Raster { .. })
     }
 
-    /// The diameters that the values of a range ask for.
+    /// Returns the diameters that the values of a range ask for.
     pub fn diameters_of(&self, range: ValueRange) -> Diameters {
         self.reading.diameters(range)
     }
 
-    /// The range of the values in some cells, `None` where the layer has none, and where to divide the cells
-    /// to know more.
+    /// Returns the range of the values in some cells, `None` where the layer has none, and where to divide
+    /// the cells to know more.
     fn range(
         &self,
         paint: &PaintLayers,
@@ -268,7 +268,8 @@ impl CompiledLayer {
         (Some(range), cut)
     }
 
-    /// Binary logarithm of the side of the pixels in lattice steps, rounded down, if there are any.
+    /// Returns the binary logarithm of the side of the pixels in lattice steps, rounded down, if there are
+    /// any.
     pub fn pixel_bits(&self, paint: &PaintLayers, lattice: &Lattice) -> Option<u32> {
         let log_steps = match &self.values {
             Values::Paint => GridOnLattice::new(paint.get(self.id)?.grid(), lattice).log_steps(),
@@ -278,14 +279,14 @@ impl CompiledLayer {
         Some(log_steps.clamp(0, 30) as u32)
     }
 
-    /// Whether the diameters of some cells may jump because they are those of pixels. `diameters` are those
-    /// of the cells.
+    /// Returns whether the diameters of some cells may jump because they are those of pixels. `diameters` are
+    /// those of the cells.
     pub fn jumps(&self, diameters: &Diameters) -> bool {
         self.has_pixels() && diameters.least < diameters.greatest
     }
 
-    /// Bounds of the gradient of the diameters of some cells, where the layer asks for one; unknown where
-    /// they may jump. `diameters` are those of the cells.
+    /// Returns bounds of the gradient of the diameters of some cells, where the layer asks for one; unknown
+    /// where they may jump. `diameters` are those of the cells.
     pub fn slopes(&self, cells: &Cells, diameters: &Diameters, lattice: &Lattice) -> Slopes {
         if diameters.least == diameters.greatest {
             return Slopes::FLAT;
@@ -305,7 +306,8 @@ impl CompiledLayer {
         }
     }
 
-    /// Whether the diameters rise to `h_max` without a jump where the layer stops asking in some cells.
+    /// Returns whether the diameters rise to `h_max` without a jump where the layer stops asking in some
+    /// cells.
     pub fn fades_to(&self, h_max: f64, cells: &Cells, lattice: &Lattice) -> bool {
         if self.coverage(cells, lattice).0 != Share::All {
             return false;
@@ -319,13 +321,14 @@ impl CompiledLayer {
         }
     }
 
-    /// What gradation carries to a point in world units, and from where, if there is a closed form for it.
+    /// Returns the diameter that gradation carries to a point in world units, and the point that it comes
+    /// from, if a closed form is known.
     pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
         self.graded.as_ref().and_then(|graded| graded.function.carried_to(point))
     }
 
-    /// The diameter that the layer asks for at a point in world units: infinite where it asks for nothing,
-    /// and NaN, zero or less where the value is not valid.
+    /// Returns the diameter that the layer asks for at a point in world units: infinite where it asks for
+    /// nothing, and NaN, zero or less where the value is not valid.
     pub fn diameter_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
         if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
             return f64::INFINITY;

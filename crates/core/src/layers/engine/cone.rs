@@ -14,11 +14,11 @@ pub struct Cone {
     spread: f64,
 }
 
-/// What rounding can change in a direction.
+/// Bound of the effect of rounding on a direction.
 const ROUNDING: f64 = 1e-9;
 
 impl Cone {
-    /// The directions from a point to the points of a rectangle, if they are near each other.
+    /// Returns the directions from a point to the points of a rectangle, if they are near each other.
     ///
     /// Within the radius r of a vector of the length d, unit vectors change by at most 2 r / (2 d − r).
     pub fn from_point(point: DVec2, rect: &Rect) -> Option<Self> {
@@ -28,22 +28,23 @@ impl Cone {
         (distance > 1.5 * radius).then(|| Self { toward: away / distance, spread: spread + ROUNDING })
     }
 
-    /// The unit vector in the middle.
+    /// Returns the unit vector in the middle.
     pub fn toward(self) -> DVec2 {
         self.toward
     }
 
-    /// The largest length of the difference between a unit vector of the cone and the one in the middle.
+    /// Returns the largest length of the difference between a unit vector of the cone and the one in the
+    /// middle.
     pub fn spread(self) -> f64 {
         self.spread
     }
 
-    /// The opposite directions.
+    /// Returns the opposite directions.
     pub fn opposite(self) -> Self {
         Self { toward: -self.toward, ..self }
     }
 
-    /// A cone that holds two, and the sums of vectors of both; `None` if it would be too wide.
+    /// Returns a cone that holds two, and the sums of vectors of both; `None` if it would be too wide.
     pub fn with(self, other: Self) -> Option<Self> {
         let toward = (self.toward + other.toward).try_normalize()?;
         let spread = |cone: Self| cone.toward.distance(toward) + cone.spread + ROUNDING;
@@ -51,12 +52,12 @@ impl Cone {
         (spread < 1.0).then_some(Self { toward, spread })
     }
 
-    /// Whether a step along `direction` goes along each vector of the cone, or at right angles to it.
+    /// Returns whether a step along `direction` goes along each vector of the cone, or at right angles to it.
     pub fn rises_along(&self, direction: DVec2) -> bool {
         direction.dot(self.toward) >= self.spread * direction.length()
     }
 
-    /// Of the steps that go along each vector, the direction of one that is near to `direction`.
+    /// Returns the direction of a step near to `direction` that does not go against any vector of the cone.
     pub fn turned(&self, direction: DVec2) -> DVec2 {
         if self.rises_along(direction) {
             return direction;

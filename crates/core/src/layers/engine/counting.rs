@@ -11,7 +11,7 @@ impl Counting {
     /// All layers of any stack.
     pub const ALL: Self = Self(u64::MAX);
 
-    /// Whether a layer can count. Beyond the first 64, all can.
+    /// Returns whether a layer can count. Beyond the first 64, all can.
     #[inline]
     pub fn has(self, number: usize) -> bool {
         number >= 64 || self.0 >> number & 1 == 1

@@ -21,20 +21,19 @@ use glam::DVec2;
 use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
-use super::cells::{Cells, Cut};
+use super::cells::Cells;
 use super::cone::Cone;
-use super::counting::Counting;
+use super::parts::{KnownParts, LEAST_BITS, PartId};
 use super::place::{Place, Point, TriangleInWorld, gap, rect_of};
-use super::squares::{KnownSquares, LEAST_BITS, Square};
-use super::steepness::{Slopes, slopes};
+use super::steepness::Slopes;
 
 /// A comparison that has not ended after so many rectangles says that h̄ is not below.
 const MOST_COMPARED: usize = 1 << 16;
 
-/// What is above the least value by less than this share of it is not searched, up to [`FEW`] rectangles.
+/// What is above the least value by less than this share of it is not searched.
 const TIGHT: f64 = 1e-9;
 
-/// The number of rectangles after which [`TOLERANCE`] is enough.
+/// The number of rectangles after which [`TOLERANCE`] is enough for files.
 const FEW: usize = 200;
 
 /// A value that is read is above the least one by at most this share of it.
@@ -52,16 +51,18 @@ const MOST_READ: usize = 1 << 13;
 /// How near a value that is read is to the least one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accuracy {
-    /// For files: above it by at most [`TOLERANCE`].
+    /// For files: the result exceeds h̄ by at most [`TIGHT`], or [`TOLERANCE`] if a closer search would take
+    /// long.
     Close,
-    /// Under the pointer: the same, but [`QUICK_TOLERANCE`] where that would take long.
+    /// For the pointer: the result exceeds h̄ by at most [`TOLERANCE`], or [`QUICK_TOLERANCE`] if a closer
+    /// search would take long.
     Quick,
 }
 
 impl Accuracy {
     fn tolerance(self, searched: usize) -> f64 {
         match self {
-            _ if searched < FEW => TIGHT,
+            Self::Close if searched < FEW => TIGHT,
             Self::Quick if searched >= QUICK => QUICK_TOLERANCE,
             Self::Close | Self::Quick => TOLERANCE,
         }
@@ -78,32 +79,26 @@ pub struct Search<'a, P> {
     pub finest: u32,
 }
 
-/// A rectangle to search.
+/// A part of the lattice to search.
 #[derive(Clone, Copy)]
 pub struct Part {
-    pub area: Area,
-    /// In world units, with the corner of the lattice as origin.
-    pub rect: Rect,
+    pub id: PartId,
     /// No cell has a lower h before gradation.
     pub least: f64,
     /// No cell has a greater one.
     pub greatest: f64,
-    /// From the place.
+    /// The distance from the searched point.
     pub distance: f64,
-    /// The layers that can count in it.
-    pub counting: Counting,
-}
-
-#[derive(Clone, Copy)]
-pub enum Area {
-    Square(Square),
-    /// Cells, and where to divide them.
-    Cells(Cells, Option<Cut>),
 }
 
 impl<P: Place> Search<'_, P> {
-    /// The squares in which values below `length` can lie, which are at least `least`.
-    pub fn start(&self, least: f64, length: f64) -> impl Iterator<Item = Square> + use<P> {
+    /// Returns squares that cover all values below `length`, which are at least `least`.
+    pub fn start(
+        &self,
+        known: &mut KnownParts,
+        least: f64,
+        length: f64,
+    ) -> impl Iterator<Item = PartId> + use<P> {
         let lattice = self.field.lattice();
         let reach = self.place.bounds().expanded(((length - least) / self.slope).max(0.0));
         let step = lattice.step();
@@ -113,59 +108,45 @@ impl<P: Place> Search<'_, P> {
             min: min.map(|v| (v.floor() as i64).saturating_sub(1).max(0)),
             max: max.map(|v| (v.ceil() as i64).saturating_add(1)),
         };
-        around.intersection(&all).into_iter().flat_map(|around| Square::covering(&around))
+        let around = around.intersection(&all).map(|around| known.covering(self.field, self.paint, &around));
+        around.into_iter().flatten()
     }
 
-    /// A part, unless its bound is at least `limit`, and its bound.
+    /// Returns a part, unless its bound is at least `limit`, and its bound.
     #[inline]
-    pub fn square(&self, known: &mut KnownSquares, square: Square, limit: f64) -> Option<(f64, Part)> {
-        let [least, greatest] = known.diameters(self.field, self.paint, square);
+    pub fn part(&self, known: &mut KnownParts, id: PartId, limit: f64) -> Option<(f64, Part)> {
+        let [least, greatest] = known.diameters(self.field, self.paint, id);
         if least >= limit {
             return None;
         }
-        let cells = square.cells(self.field.lattice().extent())?;
-        let counting = known.counting(self.field, self.paint, square);
-        self.bounded(Area::Square(square), &cells, [least, greatest], counting, limit)
-    }
-
-    fn cells(&self, cells: Cells, counting: Counting, limit: f64) -> Option<(f64, Part)> {
-        let (diameters, cut) = self.field.diameters(self.paint, &cells, counting);
-        self.bounded(Area::Cells(cells, cut), &cells, diameters, counting, limit)
-    }
-
-    #[inline]
-    fn bounded(
-        &self,
-        area: Area,
-        cells: &Cells,
-        [least, greatest]: [f64; 2],
-        counting: Counting,
-        limit: f64,
-    ) -> Option<(f64, Part)> {
-        let rect = rect_of(cells, self.field.lattice());
+        let cells = known.cells(id)?;
+        let rect = rect_of(&cells, self.field.lattice());
         // The exact distance takes longer.
         if least + self.slope * gap(&self.place.bounds(), &rect) >= limit {
             return None;
         }
-        let distance = self.place.distance(cells, &rect);
+        let distance = self.place.distance(&cells, &rect);
         let bound = least + self.slope * distance;
-        (bound < limit).then_some((bound, Part { area, rect, least, greatest, distance, counting }))
+        (bound < limit).then_some((bound, Part { id, least, greatest, distance }))
     }
 
-    /// The layers that can count in a part, if a least value of h + g d can lie inside it, and not only at
-    /// the place or on the border of the part.
+    /// Returns the rectangle of a part, in world units with the corner of the lattice as origin.
+    pub fn rect(&self, known: &KnownParts, id: PartId) -> Rect {
+        let empty = Rect::new(DVec2::ZERO, DVec2::ZERO);
+        known.cells(id).map_or(empty, |cells| rect_of(&cells, self.field.lattice()))
+    }
+
+    /// Returns whether a least value of h + g d can lie inside a part, and not only at the place or on the
+    /// border of the part.
     #[inline]
-    pub fn steep(&self, known: &mut KnownSquares, part: &Part) -> Option<Counting> {
-        let (slopes, counting) = match &part.area {
-            Area::Square(square) => known.slopes(self.field, self.paint, *square),
-            Area::Cells(cells, _) => slopes(self.field, self.paint, cells, part.counting),
-        };
-        let matters = slopes.exceed(self.slope) && !self.falls_throughout(&slopes, &part.rect);
-        matters.then_some(counting)
+    pub fn is_steep(&self, known: &mut KnownParts, part: PartId) -> bool {
+        let rect = self.rect(known, part);
+        let (slopes, _) = known.slopes(self.field, self.paint, part);
+        slopes.exceed(self.slope) && !self.falls_throughout(slopes, &rect)
     }
 
-    /// Whether h + g d falls along one direction all over a rectangle. The direction does not lead out of the
-    /// lattice.
+    /// Returns whether h + g d falls along one direction all over a rectangle. The direction does not lead
+    /// out of the lattice.
     ///
     /// The gradient of h + g d is that of h, and g times the unit vector u away from the nearest point of the
     /// place. The vector from the nearest point to y changes by at most |y − c| between the centre c of the
@@ -187,55 +168,30 @@ impl<P: Place> Search<'_, P> {
         slopes.fall_with(self.slope * away, self.slope * spread, within_lattice)
     }
 
-    /// Visits what a part, in which these layers can count, is divided into and can have a value below
-    /// `limit`, until `visit` returns true. Returns whether it did.
-    #[inline]
-    pub fn divide(
-        &self,
-        known: &mut KnownSquares,
-        (part, counting): (&Part, Counting),
-        limit: f64,
-        mut visit: impl FnMut(f64, Part) -> bool,
-    ) -> bool {
-        let mut offer = |found: Option<(f64, Part)>| found.is_some_and(|(bound, part)| visit(bound, part));
-        let halves = |cells: Cells, cut: Option<Cut>| cut.map(|cut| cells.divided(cut));
-        let halves = match part.area {
-            Area::Square(square) if square.bits > self.finest => {
-                return square
-                    .quarters()
-                    .into_iter()
-                    .any(|quarter| offer(self.square(known, quarter, limit)));
-            }
-            Area::Square(square) => square
-                .cells(self.field.lattice().extent())
-                .and_then(|cells| halves(cells, self.field.diameters(self.paint, &cells, counting).1)),
-            Area::Cells(cells, cut) => halves(cells, cut),
-        };
-        halves.into_iter().flatten().any(|cells| offer(self.cells(cells, counting, limit)))
+    /// Returns the parts that a part is divided into.
+    pub fn divided(&self, known: &mut KnownParts, part: PartId) -> impl Iterator<Item = PartId> + use<P> {
+        known.divided(self.field, self.paint, part, self.finest)
     }
 
-    /// Whether a cell, at distance d from the place, has h + g d < `length`. Cells at the place itself must
-    /// be known to have no h below.
-    fn any_below(&self, known: &mut KnownSquares, length: f64) -> bool {
+    /// Returns whether a cell of some parts, at distance d from the place, has h + g d < `length`. Cells at
+    /// the place itself must be known to have no h below.
+    fn any_below(&self, known: &mut KnownParts, start: impl Iterator<Item = PartId>, length: f64) -> bool {
         let mut parts = BestFirst::default();
-        let h_min = self.field.spec().transfer.h_min;
-        let offer = |bound: f64, part: Part, parts: &mut BestFirst<Part>| {
-            if part.greatest + self.slope * part.distance < length {
-                return true;
-            }
-            parts.push(bound, part);
-            false
+        let is_below = |known: &mut KnownParts, id: PartId, parts: &mut BestFirst<PartId>| {
+            let Some((bound, part)) = self.part(known, id, length) else { return false };
+            parts.push(bound, id);
+            part.greatest + self.slope * part.distance < length
         };
-        for square in self.start(h_min, length) {
-            if self.square(known, square, length).is_some_and(|(bound, part)| offer(bound, part, &mut parts))
-            {
+        for id in start {
+            if is_below(known, id, &mut parts) {
                 return true;
             }
         }
         for _ in 0..MOST_COMPARED {
-            let Some((_, part)) = parts.pop() else { return false };
-            let Some(counting) = self.steep(known, &part) else { continue };
-            if self.divide(known, (&part, counting), length, |bound, part| offer(bound, part, &mut parts)) {
+            let Some((_, id)) = parts.pop() else { return false };
+            if self.is_steep(known, id)
+                && self.divided(known, id).any(|part| is_below(known, part, &mut parts))
+            {
                 return true;
             }
         }
@@ -243,34 +199,42 @@ impl<P: Place> Search<'_, P> {
     }
 }
 
-/// Binary logarithm of a quarter of the side of a shape that fits a rectangle of the lattice.
+/// Returns the binary logarithm of a quarter of the side of a shape that fits a rectangle of the lattice.
 pub fn quarter_bits([min, max]: [[i64; 2]; 2]) -> u32 {
     let side = (max[0] - min[0]).max(max[1] - min[1]).max(1);
     (side as u64).ilog2().saturating_sub(2).max(LEAST_BITS)
 }
 
-/// Whether a cell of the lattice, at distance d from the closed triangle, has h + g d < `length`. Cells that
-/// touch the triangle must be known to have no h below.
+/// Returns whether a cell of the lattice, at distance d from the closed triangle, has h + g d < `length`.
+/// Cells that touch the triangle must be known to have no h below. `sources` hold all such cells, if they are
+/// known.
 pub fn any_below(
     field: &SizeField,
     paint: &PaintLayers,
-    known: &mut KnownSquares,
+    known: &mut KnownParts,
     corners: [LatticePoint; 3],
-    slope: f64,
-    length: f64,
+    (slope, length): (f64, f64),
+    sources: Option<&[PartId]>,
 ) -> bool {
     let place = TriangleInWorld::new(corners, field.lattice());
     // Many pixels can be equally far from a side of the triangle; cells are then divided at pixels.
     let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
-    Search { field, paint, place, slope, finest }.any_below(known, length)
+    let search = Search { field, paint, place, slope, finest };
+    match sources {
+        Some(sources) => search.any_below(known, sources.iter().copied(), length),
+        None => {
+            let start = search.start(known, field.spec().transfer.h_min, length);
+            search.any_below(known, start, length)
+        }
+    }
 }
 
-/// The least h + g d over the lattice, at distance d from a point in world units, and the place from which it
-/// comes; `start` is a value that is known, and its place.
+/// Returns the least h + g d over the lattice, at distance d from a point in world units, and the place from
+/// which it comes; `start` is a value that is known, and its place.
 pub fn least(
     field: &SizeField,
     paint: &PaintLayers,
-    known: &mut KnownSquares,
+    known: &mut KnownParts,
     point: DVec2,
     (slope, accuracy): (f64, Accuracy),
     start: (f64, DVec2),
@@ -284,8 +248,8 @@ pub fn least(
     let finest = field.pixel_bits(paint).max(LEAST_BITS);
     let search = Search { field, paint, place, slope, finest };
     let (mut best, mut parts) = (start, BestFirst::default());
-    for square in search.start(h_min, start.0) {
-        if let Some((bound, part)) = search.square(known, square, best.0 * (1.0 - TIGHT)) {
+    for id in search.start(known, h_min, start.0) {
+        if let Some((bound, part)) = search.part(known, id, best.0 * (1.0 - TIGHT)) {
             parts.push(bound, part);
         }
     }
@@ -295,9 +259,10 @@ pub fn least(
             break;
         }
         let is_one = part.least == part.greatest;
-        let center = part.rect.center();
+        let rect = search.rect(known, part.id);
+        let center = rect.center();
         // One value all over counts at the nearest place.
-        let at = if is_one { search.place.0.clamp(part.rect.min, part.rect.max) } else { center };
+        let at = if is_one { search.place.0.clamp(rect.min, rect.max) } else { center };
         let carried = slope * at.distance(search.place.0);
         if part.least + carried < best.0 {
             let value = field.ungraded_at(paint, origin + center).0 + carried;
@@ -305,38 +270,54 @@ pub fn least(
                 best = (value, origin + at);
             }
         }
-        if is_one {
+        if is_one || !search.is_steep(known, part.id) {
             continue;
         }
-        let Some(counting) = search.steep(known, &part) else { continue };
         let limit = best.0 * (1.0 - TIGHT);
-        search.divide(known, (&part, counting), limit, |bound, part| {
-            parts.push(bound, part);
-            false
-        });
+        for id in search.divided(known, part.id) {
+            if let Some((bound, part)) = search.part(known, id, limit) {
+                parts.push(bound, part);
+            }
+        }
     }
     best
 }
 
-/// What bounds of h̄ are put farther by, as a share: sums of distances are rounded.
+/// Share by which bounds of h̄ are widened, since sums of distances are rounded.
 const MARGIN: f64 = 2e-7;
 
 /// The number of rectangles in which [`graded_bounds`] looks at most.
 const MOST_BOUNDED: usize = 24;
 
-/// Bounds of h̄ over all points of some cells, from those before gradation, `[least, greatest]`.
+/// Bounds of h̄ over all points of some cells, and the parts from which gradation can carry a least value to
+/// a point of the cells.
+#[derive(Clone, Debug, Default)]
+pub struct GradedBounds {
+    /// No h̄ is smaller, in world units.
+    pub least: f64,
+    /// No h̄ is greater.
+    pub greatest: f64,
+    /// In no order.
+    pub sources: Vec<PartId>,
+}
+
+/// Returns bounds of h̄ over all points of some cells, from those before gradation, `[least, greatest]`, and
+/// from the sources of a rectangle around the cells.
 ///
 /// It ends when `is_enough` says so of the bounds of the least h̄, or after a few rectangles: the bounds
 /// hold at any time.
+///
+/// At every point of the cells h̄ is at most `greatest`. So a part with a bound of at least this value is no
+/// source: a lower value is carried to all triangles in the cells from other ones.
 pub fn graded_bounds(
     field: &SizeField,
     paint: &PaintLayers,
-    known: &mut KnownSquares,
-    cells: &Cells,
+    known: &mut KnownParts,
+    (cells, sources): (&Cells, &[PartId]),
     slope: f64,
     [least, greatest]: [f64; 2],
     is_enough: impl Fn([f64; 2]) -> bool,
-) -> [f64; 2] {
+) -> GradedBounds {
     let place = rect_of(cells, field.lattice());
     let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
     let finest = quarter_bits([cells.min, cells.max]);
@@ -344,36 +325,99 @@ pub fn graded_bounds(
     let mut parts = BestFirst::default();
     // The least h̄ is from `low` to `low_most`, and every h̄ is at most `high`.
     let (mut low_most, mut high) = (greatest, greatest);
-    let offer = |found: Option<(f64, Part)>, parts: &mut BestFirst<Part>, ends: [&mut f64; 2]| {
-        let Some((bound, part)) = found else { return };
-        let [low_most, high] = ends;
-        let nearest = center.clamp(part.rect.min, part.rect.max);
-        *low_most = low_most.min(part.greatest + slope * part.distance);
-        *high = high.min(part.greatest + slope * (nearest.distance(center) + half_diagonal));
-        parts.push(bound, part);
+    let mut offer = |known: &mut KnownParts, id: PartId, parts: &mut BestFirst<PartId>| {
+        if let Some((bound, part)) = search.part(known, id, high * (1.0 + MARGIN)) {
+            let rect = search.rect(known, id);
+            let nearest = center.clamp(rect.min, rect.max);
+            low_most = low_most.min(part.greatest + slope * part.distance);
+            high = high.min(part.greatest + slope * (nearest.distance(center) + half_diagonal));
+            parts.push(bound, id);
+        }
+        [low_most, high]
     };
-    for square in search.start(field.spec().transfer.h_min, least) {
-        offer(search.square(known, square, least), &mut parts, [&mut low_most, &mut high]);
+    let mut most = [greatest; 2];
+    for &id in sources {
+        most = offer(known, id, &mut parts);
     }
-    let mut low = least;
+    let (mut low, mut sources) = (least, Vec::new());
     for _ in 0..MOST_BOUNDED {
-        let Some((bound, part)) = parts.pop() else {
-            low = least;
-            break;
-        };
+        low = least;
+        let Some((bound, id)) = parts.pop() else { break };
         low = bound.min(least);
-        let Area::Square(square) = part.area else { break };
-        if square.bits <= finest || is_enough([low, low_most]) {
+        let is_least = bound >= least || !known.is_square_above(id, finest);
+        if is_least || is_enough([low, most[0]]) {
+            parts.push(bound, id);
             break;
         }
-        // Places of the cells themselves are known to have at least `least`.
-        if search.steep(known, &part).is_none() {
+        if !known.slopes(field, paint, id).0.exceed(slope) {
             continue;
         }
-        for quarter in square.quarters() {
-            offer(search.square(known, quarter, least), &mut parts, [&mut low_most, &mut high]);
+        if !search.is_steep(known, id) {
+            // It can still matter to a part of the cells.
+            sources.push(id);
+            continue;
+        }
+        for id in search.divided(known, id) {
+            most = offer(known, id, &mut parts);
         }
     }
+    let high = most[1] * (1.0 + MARGIN);
+    sources.extend(parts.into_parts().filter(|(bound, _)| *bound < high).map(|(_, id)| id));
     let [h_min, h_max] = [field.spec().transfer.h_min, field.spec().transfer.h_max];
-    [(low * (1.0 - MARGIN)).max(h_min), (high * (1.0 + MARGIN)).min(h_max)]
+    GradedBounds { least: (low * (1.0 - MARGIN)).max(h_min), greatest: high.min(h_max), sources }
+}
+
+/// What is carried from places beyond some changed cells.
+pub struct Elsewhere<'a> {
+    pub field: &'a SizeField,
+    pub paint: &'a PaintLayers,
+    pub slope: f64,
+    pub changed: &'a [Cells],
+}
+
+/// Returns the parts from which values are carried to some cells, unless a value of at most `limit` is
+/// carried to each of the cells from a part in which nothing has changed. `sources` are those of a rectangle
+/// around the
+/// cells.
+pub fn most_from_elsewhere(
+    elsewhere: &Elsewhere,
+    known: &mut KnownParts,
+    (cells, sources): (&Cells, &[PartId]),
+    limit: f64,
+) -> Option<Vec<PartId>> {
+    let Elsewhere { field, paint, slope, changed } = *elsewhere;
+    let place = rect_of(cells, field.lattice());
+    let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
+    let finest = quarter_bits([cells.min, cells.max]);
+    let search = Search { field, paint, place, slope, finest };
+    // What is too much here may be little enough for a part of the cells that is farther from the change.
+    let most = limit + 2.0 * slope * half_diagonal;
+    let mut parts = BestFirst::default();
+    let offer = |known: &mut KnownParts, id: PartId, parts: &mut BestFirst<PartId>| {
+        let Some((bound, part)) = search.part(known, id, most) else { return false };
+        let Some(cells) = known.cells(id) else { return false };
+        parts.push(bound, id);
+        let rect = search.rect(known, id);
+        let farthest = center.clamp(rect.min, rect.max).distance(center) + half_diagonal;
+        part.greatest + slope * farthest <= limit
+            && changed.iter().all(|changed| changed.intersection(&cells).is_none())
+    };
+    for &id in sources {
+        if offer(known, id, &mut parts) {
+            return None;
+        }
+    }
+    for _ in 0..MOST_BOUNDED {
+        let Some((bound, id)) = parts.pop() else { break };
+        if bound >= limit || !known.is_square_above(id, finest) {
+            parts.push(bound, id);
+            break;
+        }
+        for id in search.divided(known, id) {
+            if offer(known, id, &mut parts) {
+                return None;
+            }
+        }
+    }
+    Some(parts.into_parts().map(|(_, id)| id).collect())
 }

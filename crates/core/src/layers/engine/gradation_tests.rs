@@ -1,10 +1,10 @@
 use glam::{DVec2, dvec2};
 
-use super::KnownSquares;
+use super::KnownParts;
 use super::counting::Counting;
 use super::gradation::Search;
+use super::parts::Square;
 use super::place::{Place, Point};
-use super::squares::Square;
 use super::steepness::slopes;
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
@@ -29,7 +29,8 @@ fn random_threat(random: &mut fastrand::Rng) -> Threat {
     }
 }
 
-/// The least of h(ρ) + g |distance − ρ| over the distances ρ from a threat, by looking closer and closer.
+/// Returns the least of h(ρ) + g |distance − ρ| over the distances ρ from a threat, by looking closer and
+/// closer.
 fn radial_referee(field: &SizeField, threat: &Threat, distance: f64, slope: f64) -> f64 {
     let carried = |radius: f64| {
         let at = threat.at + dvec2(radius, 0.0);
@@ -67,7 +68,8 @@ fn what_a_threat_carries_is_found_up_to_the_tolerance() {
     assert!(carried > 60, "{carried}");
 }
 
-/// The least value at places along the border of a rectangle, and how far it can be above the least one.
+/// Returns the least value at places along the border of a rectangle, and how far it can be above the least
+/// one.
 fn least_on_border(rect: &Rect, value: impl Fn(DVec2) -> f64, steepest: f64) -> f64 {
     const COUNT: u32 = 300;
     let share = |n: u32| f64::from(n) / f64::from(COUNT);
@@ -96,24 +98,26 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         let place = Point(dvec2(random.f64(), random.f64()));
         let value = |p: DVec2| field.ungraded_at(paint, origin + p).0 + slope * p.distance(place.nearest(p));
         let search = Search { field: &field, paint, place: Point(place.0), slope, finest: 4 };
-        let known = &mut KnownSquares::default();
+        let known = &mut KnownParts::default();
         for _ in 0..300 {
             let bits = random.u32(22..30);
             let [column, row] = [0, 0].map(|_| random.u32(0..1 << (30 - bits)));
             let square = Square { bits, column, row };
-            let Some((_, part)) = search.square(known, square, f64::INFINITY) else { continue };
-            if search.steep(known, &part).is_some() {
+            let Some(cells) = square.cells(field.lattice().extent()) else { continue };
+            let id = known.square(&field, paint, square);
+            let Some((_, part)) = search.part(known, id, f64::INFINITY) else { continue };
+            if search.is_steep(known, id) {
                 continue;
             }
-            let cells = square.cells(field.lattice().extent()).unwrap();
+            let rect = search.rect(known, id);
             let (of_square, _) = slopes(&field, paint, &cells, Counting::ALL);
             steep_ones += usize::from(of_square.exceed(slope));
-            let mut least = least_on_border(&part.rect, value, of_square.longest() + slope);
+            let mut least = least_on_border(&rect, value, of_square.longest() + slope);
             if part.distance == 0.0 {
                 least = least.min(value(place.0));
             }
             for _ in 0..100 {
-                let at = part.rect.min + part.rect.size() * dvec2(random.f64(), random.f64());
+                let at = rect.min + rect.size() * dvec2(random.f64(), random.f64());
                 assert!(value(at) >= least * (1.0 - 1e-6), "{square:?} {at}: {} {least}", value(at));
             }
         }

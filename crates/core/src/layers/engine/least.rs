@@ -6,12 +6,12 @@ use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
 use super::gradation::{Part, Search, quarter_bits};
+use super::parts::KnownParts;
 use super::place::{Place, TriangleInWorld};
-use super::squares::KnownSquares;
 
 /// The least h̄ in a closed triangle.
 pub struct Least {
-    /// In world units.
+    /// The target diameter in world units.
     pub target: f64,
     /// A point of the triangle that has it.
     pub at: DVec2,
@@ -19,7 +19,7 @@ pub struct Least {
     pub from: DVec2,
 }
 
-/// What is above the least value by less than this share of it is not searched.
+/// A search stops at values that exceed the least value by less than this share of it.
 const TOLERANCE: f64 = 1e-9;
 
 /// The value is the least that was found in so many rectangles.
@@ -31,7 +31,7 @@ const PROJECTIONS: usize = 60;
 /// A slope with which no other cells count than those that touch the triangle.
 const NO_GRADATION: f64 = f64::MAX;
 
-/// The least h̄ in the closed triangle with these corners.
+/// Returns the least h̄ in the closed triangle with these corners.
 pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoint; 3]) -> Least {
     let lattice = field.lattice();
     let place = TriangleInWorld::new(corners, lattice);
@@ -40,48 +40,52 @@ pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoi
     let search = Search { field, paint, place, slope, finest };
     let origin = lattice.bounds().min;
     let all = Rect::new(DVec2::ZERO, lattice.bounds().max - origin);
-    let (target, rect) = search.least(&mut KnownSquares::few()).unwrap_or((field.spec().unasked, all));
+    let (target, rect) = search.least(&mut KnownParts::default()).unwrap_or((field.spec().unasked, all));
     let (at, from) = nearest_pair(&search.place, &rect);
     Least { target, at: origin + at, from: origin + from }
 }
 
 impl Search<'_, TriangleInWorld> {
-    /// The least value of a cell, carried to the triangle, and a rectangle that has it.
-    fn least(&self, known: &mut KnownSquares) -> Option<(f64, Rect)> {
+    /// Returns the least value of a cell, carried to the triangle, and a rectangle that has it.
+    fn least(&self, known: &mut KnownParts) -> Option<(f64, Rect)> {
         let mut parts = BestFirst::default();
         let mut best = (f64::INFINITY, Rect::UNIT);
-        let offer = |(bound, part): (f64, Part), parts: &mut BestFirst<Part>, best: &mut (f64, Rect)| {
+        let offer = |known: &KnownParts,
+                     (bound, part): (f64, Part),
+                     parts: &mut BestFirst<Part>,
+                     best: &mut (f64, Rect)| {
             let sure = part.greatest + self.slope * part.distance;
             if sure < best.0 {
-                *best = (sure, part.rect);
+                *best = (sure, self.rect(known, part.id));
             }
             if part.least < part.greatest {
                 parts.push(bound, part);
             }
         };
         let most = self.field.spec().transfer.h_max.max(self.field.spec().unasked);
-        for square in self.start(self.field.spec().transfer.h_min, most) {
-            let found = self.square(known, square, f64::INFINITY);
-            found.into_iter().for_each(|found| offer(found, &mut parts, &mut best));
+        for id in self.start(known, self.field.spec().transfer.h_min, most) {
+            let found = self.part(known, id, f64::INFINITY);
+            found.into_iter().for_each(|found| offer(known, found, &mut parts, &mut best));
         }
         for _ in 0..MOST {
             let limit = best.0 * (1.0 - TOLERANCE);
             let Some((bound, part)) = parts.pop().filter(|(bound, _)| *bound < limit) else { break };
             debug_assert!(bound <= part.greatest + self.slope * part.distance);
             // At the triangle itself, all cells count.
-            let steep = if part.distance == 0.0 { Some(part.counting) } else { self.steep(known, &part) };
-            let Some(counting) = steep else { continue };
-            self.divide(known, (&part, counting), limit, |bound, part| {
-                offer((bound, part), &mut parts, &mut best);
-                false
-            });
+            if part.distance > 0.0 && !self.is_steep(known, part.id) {
+                continue;
+            }
+            for id in self.divided(known, part.id) {
+                let found = self.part(known, id, limit);
+                found.into_iter().for_each(|found| offer(known, found, &mut parts, &mut best));
+            }
         }
         best.0.is_finite().then_some(best)
     }
 }
 
-/// A point of the triangle and a point of the rectangle that are as near to each other as any; the same point
-/// where the shapes meet. By alternating projections between convex sets.
+/// Returns a point of the triangle and a point of the rectangle that are as near to each other as any; the
+/// same point where the shapes meet. By alternating projections between convex sets.
 fn nearest_pair(triangle: &TriangleInWorld, rect: &Rect) -> (DVec2, DVec2) {
     let mut at = triangle.centroid();
     let mut from = at.clamp(rect.min, rect.max);

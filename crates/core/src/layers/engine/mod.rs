@@ -10,12 +10,12 @@ pub mod gradation;
 #[cfg(test)]
 mod gradation_tests;
 pub mod least;
+pub mod parts;
 mod place;
 pub mod reading;
 pub mod search;
-mod squares;
 mod steepness;
 
 pub use compiled::CompiledLayer;
+pub use parts::KnownParts;
 pub use reading::LEVELS;
-pub use squares::KnownSquares;

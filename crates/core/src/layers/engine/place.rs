@@ -8,24 +8,24 @@ use super::cells::Cells;
 
 /// A closed convex set, in world units with the corner of the lattice as origin.
 pub trait Place {
-    /// The smallest rectangle around the set.
+    /// Returns the smallest rectangle around the set.
     fn bounds(&self) -> Rect;
 
-    /// The point of the set that is nearest to `p`.
+    /// Returns the point of the set that is nearest to `p`.
     fn nearest(&self, p: DVec2) -> DVec2;
 
-    /// The distance to the closed rectangle of some cells, which covers `rect`.
+    /// Returns the distance to the closed rectangle of some cells, which covers `rect`.
     fn distance(&self, cells: &Cells, rect: &Rect) -> f64;
 }
 
-/// The rectangle of some cells, in world units with the corner of the lattice as origin.
+/// Returns the rectangle of some cells, in world units with the corner of the lattice as origin.
 #[inline]
 pub fn rect_of(cells: &Cells, lattice: &Lattice) -> Rect {
     let corner = |[x, y]: [i64; 2]| DVec2::new(x as f64, y as f64) * lattice.step();
     Rect::new(corner(cells.min), corner(cells.max))
 }
 
-/// The distance between two closed rectangles.
+/// Returns the distance between two closed rectangles.
 #[inline]
 pub fn gap(a: &Rect, b: &Rect) -> f64 {
     (a.min - b.max).max(b.min - a.max).max(DVec2::ZERO).length()

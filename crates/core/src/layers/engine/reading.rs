@@ -1,4 +1,4 @@
-//! From the values of a layer to target diameters.
+//! Converts the values of a layer to target diameters.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::asked::Share;
 /// Number of levels that a reading answers for. A lattice has fewer.
 pub const LEVELS: usize = 64;
 
-/// What the values of a layer ask for, prepared for comparisons.
+/// The target diameters for the values of a layer, prepared for comparisons.
 ///
 /// A value asks for more than level l when its target diameter is below ℓ_b of level l, Eq. (1). Risk and
 /// diameter depend on the value monotonically, so that this is one comparison with a limit for that level.
@@ -39,20 +39,20 @@ pub enum Reading {
     Band { between: [f64; 2], diameter: f64, lengths: Box<[f64; LEVELS]> },
 }
 
-/// What the values of a range ask for.
+/// The answer for the values of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Answer {
-    /// Where the values ask for more than a level.
+    /// The share of the points at which the values require more than a level.
     pub asks: Share,
-    /// Where the values ask for any diameter.
+    /// The share of the points at which the values have a target diameter.
     pub present: Share,
 }
 
 impl Answer {
-    /// Nothing is asked for.
+    /// No target diameter anywhere.
     pub const NOTHING: Self = Self { asks: Share::None, present: Share::None };
 
-    /// Whether the range needs to be divided to know more.
+    /// Returns whether the range needs to be divided to know more.
     #[inline]
     pub fn is_undecided(self) -> bool {
         self.asks == Share::Some || self.present == Share::Some
@@ -67,15 +67,15 @@ pub struct Diameters {
     pub least: f64,
     /// No point asks for more.
     pub greatest: f64,
-    /// Where any diameter is asked for.
+    /// The share of the points that have a target diameter.
     pub present: Share,
 }
 
 impl Diameters {
-    /// Nothing is asked for.
+    /// No target diameter anywhere.
     pub const NOTHING: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, present: Share::None };
 
-    /// Where less than a diameter is asked for.
+    /// Returns the share of the points whose target is below a diameter.
     fn share_below(self, diameter: f64) -> Share {
         share(self.least < diameter, self.greatest < diameter)
     }
@@ -87,7 +87,7 @@ pub fn lengths(spacing: f64) -> Box<[f64; LEVELS]> {
 }
 
 impl Reading {
-    /// Risks in a mesh with the given coarse spacing.
+    /// Returns risks in a mesh with the given coarse spacing.
     pub fn risk(transfer: &Transfer, spacing: f64, nothing: f32) -> Self {
         let table = TransferTable::new(transfer);
         let asks = |risk: f32, length: f64| transfer.diameter(f64::from(risk)) < length;
@@ -102,7 +102,8 @@ impl Reading {
         Self::Diameter { most: to_array(most) }
     }
 
-    /// What the values of a range ask for at a level.
+    /// Returns the answer for the values of a range: whether they require more than a level, and whether they
+    /// have a target at all.
     #[inline]
     pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
         let ValueRange { least, greatest } = range;
@@ -121,7 +122,7 @@ impl Reading {
         }
     }
 
-    /// The question whether values ask for more than a level, to be put to many ranges.
+    /// Returns the question whether values ask for more than a level, to be put to many ranges.
     #[inline]
     pub fn question(&self, level: usize) -> Question<'_> {
         match self {
@@ -133,8 +134,8 @@ impl Reading {
         }
     }
 
-    /// The diameter that a number asks for, not rounded; infinite where it asks for nothing, and NaN, zero or
-    /// less where it is not valid.
+    /// Returns the diameter that a number asks for, not rounded; infinite where it asks for nothing, and NaN,
+    /// zero or less where it is not valid.
     pub fn diameter_of(&self, value: f64) -> f64 {
         match self {
             Self::Risk { nothing, .. } if value <= f64::from(*nothing) => f64::INFINITY,
@@ -144,7 +145,7 @@ impl Reading {
         }
     }
 
-    /// The diameters that the values of a range ask for.
+    /// Returns the diameters that the values of a range ask for.
     pub fn diameters(&self, range: ValueRange) -> Diameters {
         let ValueRange { least, greatest } = range;
         match self {
@@ -193,16 +194,16 @@ impl Reading {
 /// Which values ask for more than a certain level.
 #[derive(Clone, Copy, Debug)]
 pub enum Question<'a> {
-    /// Those that are at least this one.
+    /// Values that are at least this one.
     AtLeast(f32),
-    /// Those that are at most this one.
+    /// Values that are at most this one.
     AtMost(f32),
-    /// Those that the reading gives a smaller diameter than this one.
+    /// Values that the reading converts to a diameter smaller than this one.
     Below { reading: &'a Reading, diameter: f64 },
 }
 
 impl Question<'_> {
-    /// How many of the values of a range ask for more.
+    /// Returns how many of the values of a range ask for more.
     #[inline]
     pub fn asks(self, range: ValueRange) -> Share {
         let ValueRange { least, greatest } = range;
@@ -213,8 +214,8 @@ impl Question<'_> {
         }
     }
 
-    /// Whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has a value
-    /// that asks.
+    /// Returns whether a greater or a lower value always asks for more: then a range with [`Share::Some`] has
+    /// a value that asks.
     #[inline]
     pub fn is_monotone(self) -> bool {
         matches!(self, Self::AtLeast(_) | Self::AtMost(_))
@@ -222,8 +223,8 @@ impl Question<'_> {
 }
 
 impl Reading {
-    /// Bounds of the derivative of the diameter by the value, between two values; 1 for diameters, and not
-    /// known for readings that may jump.
+    /// Returns bounds of the derivative of the diameter by the value, between two values; 1 for diameters,
+    /// and not known for readings that may jump.
     pub fn slopes(&self, least: f64, greatest: f64) -> Bounds {
         match self {
             // h̄ log(h_min / h_max) k risk^(k − 1), which is negative
@@ -257,14 +258,14 @@ fn to_array(values: Vec<f32>) -> Box<[f32; LEVELS]> {
     values.into_boxed_slice().try_into().expect("one value for each level")
 }
 
-/// The largest number below `length`.
+/// Returns the largest number below `length`.
 fn largest_below(length: f64) -> f32 {
     let nearest = length as f32;
     if f64::from(nearest) < length { nearest } else { nearest.next_down() }
 }
 
-/// The smallest risk from 0 to 1 that `asks`, which no smaller and every greater risk does; infinite if none
-/// does. By bisection of the bits: those of positive numbers have the order of the numbers.
+/// Returns the smallest risk from 0 to 1 that `asks`, which no smaller and every greater risk does; infinite
+/// if none does. By bisection of the bits: those of positive numbers have the order of the numbers.
 fn least_risk(asks: impl Fn(f32) -> bool) -> f32 {
     if !asks(1.0) {
         return f32::INFINITY;

@@ -7,8 +7,8 @@ use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
 use super::reading::Question;
 
-/// Whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where `ask`
-/// says so.
+/// Returns whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where
+/// `ask` says so.
 ///
 /// `ask` answers for all cells of a rectangle: where they ask for more, and where to divide the rectangle to
 /// know more. It must give a cut wherever the answer is [`Share::Some`].
@@ -49,8 +49,8 @@ pub struct RasterSearch<'a, R> {
 }
 
 impl<R: ValueRanges> RasterSearch<'_, R> {
-    /// Whether a pixel that touches the closed triangle asks for more than the level in question. `cells`
-    /// are those around the triangle.
+    /// Returns whether a pixel that touches the closed triangle asks for more than the level in question.
+    /// `cells` are those around the triangle.
     ///
     /// It starts at the scale where the triangle spans at most two squares along both axes, skips squares
     /// whose values do not ask or that do not touch the triangle, and ends at a square that asks.
@@ -71,7 +71,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         false
     }
 
-    /// The same for the square [x, y] at a scale, which has these cells.
+    /// Searches the square [x, y] at a scale, which has these cells.
     #[inline]
     fn square(
         &self,
@@ -97,7 +97,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
             || self.any_quarter(triangle, scale, [x, y], &cells)
     }
 
-    /// The same for the quarters of a square.
+    /// Searches the quarters of a square.
     fn any_quarter(&self, triangle: &Octagon, scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
         let middle = self.grid.middle(scale, [x, y]);
         for [i, j] in [[0, 0], [1, 0], [0, 1], [1, 1]] {

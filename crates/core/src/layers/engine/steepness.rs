@@ -16,15 +16,16 @@ use super::reading::Diameters;
 /// most this share of h̄ away: it carries values of at least 0 over distances up to h̄ / g.
 const MARGIN: f64 = 1e-9;
 
-/// What falls more slowly than by this share of the slopes is not taken to fall: they are rounded.
+/// A function counts as falling only if it falls by more than this share of the slopes, since they are
+/// rounded.
 const DIRECTION_MARGIN: f64 = 1e-6;
 
 /// Bounds of the gradient of a function in a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slopes {
-    /// Of the derivatives along x and y.
+    /// Bounds of the derivatives along x and y.
     along: [Bounds; 2],
-    /// No gradient is longer; infinite where the function may jump, or a bound is not known.
+    /// Upper bound of the length of the gradient; infinite if the function may jump, or no bound is known.
     length: f64,
     /// Each gradient is also the sum of a vector of the cone and one that `beside` bounds.
     cone: Option<Cone>,
@@ -34,10 +35,10 @@ pub struct Slopes {
 const NONE: [Bounds; 2] = [Bounds::new(0.0, 0.0); 2];
 
 impl Slopes {
-    /// Those of a constant.
+    /// The slopes of a constant.
     pub const FLAT: Self = Self { along: NONE, length: 0.0, cone: None, beside: NONE };
 
-    /// Those of a function that may jump.
+    /// The slopes of a function that may jump: nothing is known.
     pub const UNKNOWN: Self = Self {
         along: [Bounds::ANYTHING; 2],
         length: f64::INFINITY,
@@ -45,23 +46,23 @@ impl Slopes {
         beside: [Bounds::ANYTHING; 2],
     };
 
-    /// From bounds along the axes and the largest length. All must be numbers.
+    /// Returns slopes from bounds along the axes and the largest length. All must be numbers.
     pub fn new(along: [Bounds; 2], length: f64) -> Self {
         Self { along, length, cone: None, beside: along }
     }
 
-    /// From bounds along the axes, and a cone of all gradients if one is known.
+    /// Returns slopes from bounds along the axes, and a cone of all gradients if one is known.
     pub fn within(along: [Bounds; 2], cone: Option<Cone>) -> Self {
         let length = DVec2::from(along.map(|slope| slope.abs().greatest)).length();
         Self { along, length, cone, beside: if cone.is_some() { NONE } else { along } }
     }
 
-    /// In any direction, up to a length.
+    /// Returns slopes in any direction, up to a length.
     pub fn up_to(length: f64) -> Self {
         Self::new([Bounds::new(-length, length); 2], length)
     }
 
-    /// Those of a function of the function, from the bounds of its derivative.
+    /// Returns the slopes of a function of this function, from the bounds of its derivative.
     pub fn times(self, factor: Bounds) -> Self {
         let length = self.length * factor.abs().greatest;
         let scaled = |slopes: [Bounds; 2]| slopes.map(|slope| slope.times(factor));
@@ -78,7 +79,7 @@ impl Slopes {
         Self { along, length, cone, beside: if cone.is_some() { scaled(self.beside) } else { along } }
     }
 
-    /// Those of two functions of which either counts.
+    /// Returns slopes that hold for both of two functions.
     pub fn or(self, other: Self) -> Self {
         let union = |a: [Bounds; 2], b: [Bounds; 2]| [0, 1].map(|axis: usize| a[axis].union(b[axis]));
         let cone = match (self.cone, other.cone) {
@@ -90,20 +91,20 @@ impl Slopes {
         Self { along, length: self.length.max(other.length), cone, beside }
     }
 
-    /// No gradient is longer.
+    /// Returns an upper bound of the length of the gradient.
     #[cfg(test)]
     pub fn longest(&self) -> f64 {
         self.length
     }
 
-    /// Whether the function may change by more than `slope` per unit of length.
+    /// Returns whether the function may change by more than `slope` per unit of length.
     pub fn exceed(&self, slope: f64) -> bool {
         self.length > slope * (1.0 + MARGIN)
     }
 
-    /// Whether the function falls along one direction all over the rectangle, if a gradient is added to its
-    /// own: one that differs from `added` by at most `spread`. `permitted` changes a direction into one that
-    /// the step may have.
+    /// Returns whether the function falls along one direction all over the rectangle, if a gradient is added
+    /// to its own: one that differs from `added` by at most `spread`. `permitted` changes a direction into
+    /// one that the step may have.
     pub fn fall_with(&self, added: DVec2, spread: f64, permitted: impl Fn(DVec2) -> DVec2) -> bool {
         let falls = |bounds: &[Bounds; 2], cone: Option<Cone>| {
             let [least, greatest] = [bounds.map(|slope| slope.least), bounds.map(|slope| slope.greatest)];
@@ -119,8 +120,8 @@ impl Slopes {
     }
 }
 
-/// Bounds of the gradient of h̄ before gradation in some cells and on their border, unknown where it may
-/// jump; and which layers can count there, of those that can count around.
+/// Returns bounds of the gradient of h̄ before gradation in some cells and on their border, unknown where it
+/// may jump; and which layers can count there, of those that can count around.
 ///
 /// A layer whose values are above those of another one all over does not count where the finest counts.
 pub fn slopes(

@@ -52,7 +52,7 @@ pub(super) fn lower_at_edges(
     }
 }
 
-/// The triangles beside each edge: one or two.
+/// Returns the triangles beside each edge: one or two.
 fn edges(space: &QuadraticSpace) -> Vec<[Option<Side>; 2]> {
     let mut edges = vec![[None; 2]; space.values - space.nodes];
     for (element, triangle) in space.elements.iter().enumerate() {
@@ -66,8 +66,8 @@ fn edges(space: &QuadraticSpace) -> Vec<[Option<Side>; 2]> {
     edges
 }
 
-/// A factor, at most 1, that brings an affine function below the density in the strip around a segment. It
-/// has the given values, which are positive, at the ends.
+/// Returns a factor, at most 1, that brings an affine function below the density in the strip around a
+/// segment. It has the given values, which are positive, at the ends.
 fn factor_below(
     cost: &dyn CostDensity,
     [a, b]: [DVec2; 2],

@@ -33,10 +33,10 @@ struct Leg {
 }
 
 impl PathCertificate {
-    /// The work for a solution. Path and upper bound of `task` are replaced by those of each leg.
+    /// Returns the work for a solution. Path and upper bound of `task` are replaced by those of each leg.
     ///
     /// # Errors
-    /// As [`Certificate::new`].
+    /// Fails as [`Certificate::new`] does.
     pub fn new(solution: &Solution, task: &CertificateTask) -> Result<Self, PathError> {
         let stop: Arc<AtomicBool> = Arc::default();
         let count = solution.stops.len();
@@ -55,36 +55,36 @@ impl PathCertificate {
         Ok(Self { legs, cost: Arc::clone(&task.cost), width: task.width, mesh: None })
     }
 
-    /// The same work, which looks for better paths through the open triangles of a mesh.
+    /// Returns this work with a search for better paths through the open triangles of a mesh.
     pub fn with_search(self, mesh: Arc<PathMesh>) -> Self {
         Self { mesh: Some(mesh), ..self }
     }
 
-    /// No path by way of the waypoints costs less.
+    /// Returns the proved lower bound: no path through the waypoints costs less.
     pub fn lower(&self) -> f64 {
         self.legs.iter().map(|leg| leg.certificate.lower()).sum::<f64>() * (1.0 - 4.0 * f64::EPSILON)
     }
 
-    /// What the known path costs, rounded up.
+    /// Returns the cost of the known path, rounded up.
     pub fn upper(&self) -> f64 {
         self.legs.iter().map(|leg| leg.certificate.upper()).sum::<f64>() * (1.0 + 4.0 * f64::EPSILON)
     }
 
-    /// The best path that is known, with the bound so far.
+    /// Returns the best path that is known, with the bound so far.
     pub fn solution(&self) -> Solution {
         let mut solution = Solution::joined(self.legs.iter().map(|leg| leg.solution.clone()));
         solution.tighten(self.lower());
         solution
     }
 
-    /// By what part of its cost the known path can be improved at most.
+    /// Returns the largest share of its cost by which the known path can be improved.
     pub fn width(&self) -> f64 {
         let upper = self.upper();
         if upper > 0.0 { ((upper - self.lower()) / upper).max(0.0) } else { 0.0 }
     }
 
-    /// Why it ended; `None` while there is more to do. Where a leg falls short, the reason is that of the leg
-    /// that is left with the widest interval.
+    /// Returns why it ended; `None` while there is more to do. Where a leg falls short, the reason is that of
+    /// the leg that is left with the widest interval.
     pub fn end(&self) -> Option<CertificateEnd> {
         if self.width() <= self.width {
             return Some(CertificateEnd::Reached);
@@ -95,17 +95,17 @@ impl PathCertificate {
         self.widest(|_| true).and_then(|leg| self.legs[leg].certificate.end())
     }
 
-    /// How many programmes were solved.
+    /// Returns how many programmes were solved.
     pub fn programmes(&self) -> usize {
         self.legs.iter().map(|leg| leg.certificate.programmes()).sum()
     }
 
-    /// How many nodes the meshes of the last programmes had.
+    /// Returns how many nodes the meshes of the last programmes had.
     pub fn nodes(&self) -> usize {
         self.legs.iter().map(|leg| leg.certificate.nodes()).sum()
     }
 
-    /// As [`Certificate::stop_signal`], for all legs.
+    /// Returns a signal that stops the work on all legs, like [`Certificate::stop_signal`].
     pub fn stop_signal(&self) -> Arc<AtomicBool> {
         self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
     }
@@ -114,7 +114,7 @@ impl PathCertificate {
     /// all ended, or `None` if it goes on.
     ///
     /// # Errors
-    /// As [`Certificate::advance`].
+    /// Fails as [`Certificate::advance`] does.
     pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
         if self.end().is_none()
             && let Some(leg) = self.widest(|leg| self.has_more(leg))
@@ -129,7 +129,7 @@ impl PathCertificate {
         Ok(self.end())
     }
 
-    /// Whether a leg can be certified further, or a better path be sought for it.
+    /// Returns whether a leg can be certified further, or a better path be sought for it.
     fn has_more(&self, leg: &Leg) -> bool {
         match leg.certificate.end() {
             None => true,
@@ -160,7 +160,7 @@ impl PathCertificate {
         }
     }
 
-    /// The leg with the widest interval of those that count.
+    /// Returns the leg with the widest interval of those that count.
     fn widest(&self, counts: impl Fn(&Leg) -> bool) -> Option<usize> {
         let width = |leg: usize| {
             let certificate = &self.legs[leg].certificate;

@@ -17,12 +17,14 @@ const GROWTH: f64 = 3.5;
 const ALWAYS: f64 = 8000.0;
 /// How often a bisection halves what a triangle loses, and the most bisections of a triangle in one round.
 const ELSEWHERE: (f64, f64) = (1.5, 3.0);
-/// The same where the cost jumps: the flow goes round a triangle that was bisected, through the next one.
+/// The values for triangles where the cost jumps: the flow goes around a bisected triangle, through the next
+/// one.
 const AT_A_JUMP: (f64, f64) = (1.0, 4.0);
 /// Bisections of the range in which the equal loss is searched.
 const SEARCH_STEPS: usize = 60;
 
-/// What the bound loses in each triangle, in the unit of the cost, as far as the flow z of the dual tells.
+/// Returns the loss of the bound in each triangle, in the unit of the cost, as far as it follows from the
+/// flow z of the dual.
 ///
 /// ```text
 /// η = Σ |z_i| (mean c − mean ℓ)            the cost is more than its minorant
@@ -52,7 +54,7 @@ pub(super) fn estimates(
     (0..space.elements.len()).map(one).collect()
 }
 
-/// How often to bisect each triangle so that all together lose about `goal`.
+/// Returns how often to bisect each triangle so that all together lose about `goal`.
 ///
 /// One bisection divides what a triangle on the path loses by about 2^(3/2): its part of the path is shorter
 /// by √2, and an affine function misses half as much. A path is a line, so n bisections make 2^(n/2)

@@ -21,12 +21,12 @@ use crate::path::CostDensity;
 const SAMPLES: usize = 5;
 /// Most rectangles that are looked at for one bound.
 const MOST_RECTANGLES: usize = 240;
-/// What rounding can change a value by, as a part of it.
+/// Bound of the effect of rounding on a value, as a share of the value.
 const ROUNDING: f64 = 1e-13;
 /// A plane below this part of the least value at a corner is not used.
 const LOWEST: f64 = 0.05;
 
-/// What is known of the cost density in a triangle.
+/// Lower bounds of the cost density in a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Minorant {
     /// Values at the corners of an affine function that is below the density inside the triangle, and where
@@ -39,8 +39,8 @@ pub(super) struct Minorant {
 }
 
 impl Minorant {
-    /// Of the affine functions tried, the one with the greatest mean. It is below the density at all points
-    /// that are farther than `inset` from the edges.
+    /// Returns, of the affine functions tried, the one with the greatest mean. It is below the density at all
+    /// points that are farther than `inset` from the edges.
     pub(super) fn new(cost: &dyn CostDensity, triangle: &FlatTriangle, inset: f64) -> Self {
         let samples = Samples::new(cost, triangle);
         let origin = triangle.centroid();
@@ -68,8 +68,8 @@ impl Minorant {
         if fits && greater { Self { at_corners, mean, least } } else { constant }
     }
 
-    /// The same, for a cost of at most `most`. More than the best path can feel makes a programme ill
-    /// conditioned.
+    /// Limits the lower bound of the cost to `most`. Values far above those on the best path make a programme
+    /// ill conditioned.
     pub(super) fn at_most(self, most: f64) -> Self {
         let greatest = self.at_corners.iter().copied().fold(0.0, f64::max);
         if greatest <= most {
@@ -87,12 +87,12 @@ impl Minorant {
         self.least *= factor;
     }
 
-    /// Whether no affine function comes near the cost.
+    /// Returns whether no affine function comes near the cost.
     pub(super) fn has_jump(&self) -> bool {
         self.mean > 1.1 * self.affine_mean()
     }
 
-    /// The mean of the affine function.
+    /// Returns the mean of the affine function.
     pub(super) fn affine_mean(&self) -> f64 {
         self.at_corners.iter().sum::<f64>() / 3.0
     }
@@ -122,7 +122,7 @@ impl Samples {
         greatest - self.least()
     }
 
-    /// The mean, where an infinite value counts as the least value of the triangle.
+    /// Returns the mean, where an infinite value counts as the least value of the triangle.
     fn mean(&self, least: f64) -> f64 {
         let finite = |value: f64| if value.is_finite() { value } else { least };
         self.0.iter().map(|(_, value)| finite(*value)).sum::<f64>() / self.0.len() as f64
@@ -132,7 +132,7 @@ impl Samples {
         self.0.iter().fold(f64::INFINITY, |least, (point, value)| least.min(value - plane.at(*point)))
     }
 
-    /// The plane with the least squares of deviations; `None` where it is not finite.
+    /// Returns the plane with the least squares of deviations; `None` where it is not finite.
     fn fitted_plane(&self, origin: DVec2) -> Option<Plane> {
         let count = self.0.len() as f64;
         // The samples lie evenly around the centroid: the value is the mean, and the slope has two equations.
@@ -174,7 +174,8 @@ impl<'a> Search<'a> {
         Self { cost, triangle, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
     }
 
-    /// A lower bound, within `tolerance` of the least value where the allowance of rectangles is enough.
+    /// Returns a lower bound, within `tolerance` of the least value where the allowance of rectangles is
+    /// enough.
     fn bound(mut self, tolerance: f64) -> f64 {
         let [a, b, c] = self.triangle.corners;
         self.add(Rect::spanning(a, b).union(&Rect::new(c, c)), f64::NEG_INFINITY);
@@ -211,7 +212,7 @@ impl<'a> Search<'a> {
         self.open.push(Part { rectangle, bound: bound.max(bound_of_whole), is_exact });
     }
 
-    /// The mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
+    /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
     fn bound_by_slopes(&self, rectangle: &Rect) -> f64 {
         let Some(slopes) = self.cost.derivatives(rectangle) else { return f64::NEG_INFINITY };
         let middle = rectangle.center();
@@ -260,7 +261,7 @@ impl Clipped {
         &self.corners[..self.count]
     }
 
-    /// The part where `inside` is not negative.
+    /// Returns the part where `inside` is not negative.
     fn cut(&self, inside: impl Fn(DVec2) -> f64) -> Self {
         let mut cut = Self { count: 0, ..*self };
         let old = self.corners();
@@ -284,7 +285,7 @@ impl Clipped {
         }
     }
 
-    /// Whether it has no area.
+    /// Returns whether it has no area.
     fn is_flat(&self) -> bool {
         let corners = self.corners();
         let Some(&first) = corners.first() else { return true };

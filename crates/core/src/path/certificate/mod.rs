@@ -84,7 +84,7 @@ const STRIP_LOSS: f64 = 20.0;
 const MOST_WORK: u64 = 700_000;
 /// The number of steps that the solver usually takes for a programme.
 const USUAL_STEPS: u64 = 25;
-/// After so many programmes in a row that hardly raise the bound, it ends.
+/// Number of programmes in a row that hardly raise the bound after which the work ends.
 const MOST_IDLE: usize = 3;
 
 /// Raises the lower bound of what any path costs, programme by programme.
@@ -116,7 +116,7 @@ const MOST_IDLE: usize = 3;
 pub struct Certificate {
     task: CertificateTask,
     mesh: Mesh,
-    /// What is known of each triangle, by its id, with the level that it had then.
+    /// The bounds of the cost density in each triangle, by its id, with the level that it had then.
     minorants: Vec<Option<(u32, Minorant)>>,
     lower: f64,
     programmes: usize,
@@ -130,10 +130,10 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// The work for a task. The first bound comes with the first programme.
+    /// Returns the work for a task. The first bound comes with the first programme.
     ///
     /// # Errors
-    /// When start or goal lie outside the domain or apart, or the grid is too fine for a certificate.
+    /// Fails when start or goal lie outside the domain or apart, or the grid is too fine for a certificate.
     pub fn new(task: CertificateTask) -> Result<Self, PathError> {
         task.check()?;
         let end = (task.start() == task.goal()).then_some(CertificateEnd::Reached);
@@ -153,32 +153,33 @@ impl Certificate {
         })
     }
 
-    /// No path costs less.
+    /// Returns the proved lower bound: no path costs less.
     pub fn lower(&self) -> f64 {
         self.lower
     }
 
-    /// The cost of the known path.
+    /// Returns the cost of the known path.
     pub fn upper(&self) -> f64 {
         self.task.upper
     }
 
-    /// By what part of its cost the known path can be improved at most: (upper − lower) / upper.
+    /// Returns the largest share of its cost by which the known path can be improved: (upper − lower) /
+    /// upper.
     pub fn width(&self) -> f64 {
         if self.task.upper > 0.0 { (self.task.upper - self.lower).max(0.0) / self.task.upper } else { 0.0 }
     }
 
-    /// How many programmes were solved.
+    /// Returns how many programmes were solved.
     pub fn programmes(&self) -> usize {
         self.programmes
     }
 
-    /// How many nodes the mesh of the last programme had.
+    /// Returns how many nodes the mesh of the last programme had.
     pub fn nodes(&self) -> usize {
         self.nodes
     }
 
-    /// Why it ended; `None` while there is more to do.
+    /// Returns why it ended; `None` while there is more to do.
     pub fn end(&self) -> Option<CertificateEnd> {
         self.end
     }
@@ -204,8 +205,8 @@ impl Certificate {
     /// on.
     ///
     /// # Errors
-    /// When the cost has no positive lower bound somewhere, or the finer mesh shows that no path leads from
-    /// start to goal.
+    /// Fails when the cost has no positive lower bound somewhere, or the finer mesh shows that no path leads
+    /// from start to goal.
     pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
         if self.end.is_some() || self.stop.load(Ordering::Relaxed) {
             return Ok(self.end);
@@ -283,7 +284,7 @@ impl Certificate {
         let limits = Limits { max_triangles: 8 * self.task.most_nodes, ..Limits::default() };
         let refined = self.mesh.refine(&limits, |element| {
             let ancestor = before.locate(FlatTriangle::new(element.world_corners()).centroid()).triangle();
-            Ok(ancestor.is_some_and(|id| element.triangle.level() < wanted[id.index()]))
+            ancestor.is_some_and(|id| element.triangle.level() < wanted[id.index()])
         });
         if refined.is_err() {
             self.end = Some(CertificateEnd::TooLarge);
@@ -316,20 +317,20 @@ impl Certificate {
         let Ok(()) = mesh.bisect(wanted, MOST_ADDED, |mesh, t| Ok::<_, Infallible>(excess(mesh, t)));
     }
 
-    /// Half the width of the strips around edges, in world units.
+    /// Returns half the width of the strips around edges, in world units.
     fn inset(&self) -> f64 {
         let Rect { min, max } = self.mesh.lattice().bounds();
         let largest = min.abs().max(max.abs()).max_element();
         STRIP_ULPS * (largest.next_up() - largest)
     }
 
-    /// The factor that rounds a bound down for the strips around edges.
+    /// Returns the factor that rounds a bound down for the strips around edges.
     fn without_strips(&self, space: &QuadraticSpace) -> f64 {
         let diameters = space.elements.iter().map(|element| element.flat.diameter());
         (1.0 - STRIP_LOSS * self.inset() / diameters.fold(f64::INFINITY, f64::min)).max(0.0)
     }
 
-    /// An affine function below the cost for each triangle of the space.
+    /// Returns an affine function below the cost for each triangle of the space.
     fn minorants_of(&mut self, space: &QuadraticSpace) -> Result<Vec<Minorant>, PathError> {
         self.minorants.resize(self.mesh.raw_triangle_count(), None);
         let inset = self.inset();
@@ -354,7 +355,7 @@ impl Certificate {
     }
 }
 
-/// The functional v(goal) − v(start), as weights of values.
+/// Returns the functional v(goal) − v(start), as weights of values.
 fn gain_weights(
     start: &QuadraticElement,
     goal: &QuadraticElement,

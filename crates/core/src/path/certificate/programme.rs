@@ -17,12 +17,12 @@ use glam::DVec2;
 use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
 
-/// What the solver answers. It need not be optimal or feasible to be useful.
+/// The solver's answer. It need not be optimal or feasible to be useful.
 pub(super) struct ProgrammeSolution {
     /// The values of v, in the unit of the cost.
     pub function: Vec<f64>,
-    /// For each triangle and corner the multiplier of its cone in world coordinates: how much path there is,
-    /// and in which direction.
+    /// For each triangle and corner the multiplier of its cone in world coordinates: the amount and the
+    /// direction of the path there.
     pub flows: Vec<[DVec2; 3]>,
     /// How many steps the solver took.
     pub steps: u32,
@@ -85,7 +85,7 @@ impl Programme<'_> {
             .expect("the settings are valid")
     }
 
-    /// The column of a value; the pinned one has none.
+    /// Returns the column of a value; the pinned one has none.
     fn column(&self, number: u32) -> Option<usize> {
         match number.cmp(&self.pinned) {
             std::cmp::Ordering::Less => Some(number as usize),
@@ -137,7 +137,7 @@ impl Programme<'_> {
     }
 }
 
-/// A matrix by columns from its entries (column, row, value); entries at the same place are added.
+/// Returns a matrix by columns from its entries (column, row, value); entries at the same place are added.
 fn compressed(mut entries: Vec<(usize, usize, f64)>, rows: usize, columns: usize) -> CscMatrix<f64> {
     entries.sort_unstable_by_key(|&(column, row, _)| (column, row));
     let mut starts = vec![0; columns + 1];

@@ -3,7 +3,7 @@
 use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
 
-/// What rounding can change a value by, as a part of the terms that it is summed from.
+/// Bound of the effect of rounding on a sum, as a share of its terms.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// λ (v(goal) − v(start)), rounded down, with the greatest λ for which λ v is feasible.
@@ -20,7 +20,7 @@ pub(super) fn proven_gain(
     if least > 0.0 && scale > 0.0 && scale.is_finite() { least * scale } else { 0.0 }
 }
 
-/// The least ℓ / |∇v| over the corners of all triangles.
+/// Returns the least ℓ / |∇v| over the corners of all triangles.
 ///
 /// The gradient of v is affine, so |∇v| is convex: with an affine ℓ the corners decide.
 fn feasible_scale(space: &QuadraticSpace, minorants: &[Minorant], function: &[f64]) -> f64 {

@@ -32,7 +32,7 @@ pub(super) struct QuadraticElement {
 }
 
 impl QuadraticSpace {
-    /// The functions on the given triangles of a mesh. Values are numbered without gaps.
+    /// Returns the functions on the given triangles of a mesh. Values are numbered without gaps.
     pub(super) fn new(mesh: &Mesh, triangles: &[TriangleId]) -> Self {
         let mut number_of_node = vec![u32::MAX; mesh.raw_nodes().len()];
         let mut nodes = 0;
@@ -69,23 +69,24 @@ impl QuadraticSpace {
 }
 
 impl QuadraticElement {
-    /// The weights of the six values in the value at a point.
+    /// Returns the weights of the six values in the value at a point.
     pub(super) fn weights_at(&self, point: DVec2) -> [f64; 6] {
         let [a, b, c] = self.flat.barycentric(point);
         let corner = |share: f64| share * (2.0 * share - 1.0);
         [corner(a), corner(b), corner(c), 4.0 * b * c, 4.0 * c * a, 4.0 * a * b]
     }
 
-    /// The derivative at corner `corner` along an edge that ends there, as weights of three values: those at
-    /// the corner, at the middle of the edge and at its other end. `step` is 1 or 2 and says which edge: it
-    /// leads to corner `corner + step`, counted cyclically. The unit of length is the edge.
+    /// Returns the derivative at corner `corner` along an edge that ends there, as weights of three values:
+    /// those at the corner, at the middle of the edge and at its other end. `step` is 1 or 2 and says which
+    /// edge: it leads to corner `corner + step`, counted cyclically. The unit of length is the edge.
     pub(super) fn along_edge(&self, corner: usize, step: usize) -> [(u32, f64); 3] {
         let other = (corner + step) % 3;
         let middle = 6 - corner - other;
         [(self.values[corner], -3.0), (self.values[middle], 4.0), (self.values[other], -1.0)]
     }
 
-    /// An orthonormal frame at a corner that makes the rows of a programme sparse: one axis along an edge.
+    /// Returns an orthonormal frame at a corner that makes the rows of a programme sparse: one axis along an
+    /// edge.
     pub(super) fn frame(&self, corner: usize) -> CornerFrame {
         let [first, second] =
             [1, 2].map(|step| self.flat.corners[(corner + step) % 3] - self.flat.corners[corner]);
@@ -118,12 +119,12 @@ pub(super) struct CornerFrame {
 }
 
 impl CornerFrame {
-    /// A vector in world coordinates, from its components along the axes.
+    /// Returns a vector in world coordinates, from its components along the axes.
     pub(super) fn world(&self, components: [f64; 2]) -> DVec2 {
         components[0] * self.axis + components[1] * self.axis.perp()
     }
 
-    /// The gradient from the derivatives along the edge of the first axis and the other edge.
+    /// Returns the gradient from the derivatives along the edge of the first axis and the other edge.
     pub(super) fn gradient(&self, along: f64, other: f64) -> [f64; 2] {
         let first = along / self.length;
         [first, (other - self.skew * first) / self.across]

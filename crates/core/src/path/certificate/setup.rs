@@ -16,7 +16,7 @@ const GRADING: f64 = 0.7;
 /// A point this far outside a triangle, as a part of its height, counts as on its edge.
 const TOUCHES: f64 = 1e-9;
 
-/// A mesh that is finer near the path.
+/// Returns a mesh that is finer near the path.
 pub(super) fn graded_mesh(task: &CertificateTask) -> Result<Mesh, PathError> {
     let limits = Limits { max_triangles: 8 * task.most_nodes, ..Limits::default() };
     let too_fine = |_| PathError::TooLarge { limit: task.most_nodes };
@@ -25,16 +25,16 @@ pub(super) fn graded_mesh(task: &CertificateTask) -> Result<Mesh, PathError> {
     let graded = mesh.refine(&limits, |element| {
         let diameter = element.diameter();
         if diameter <= largest {
-            return Ok(false);
+            return false;
         }
         let centroid = FlatTriangle::new(element.world_corners()).centroid();
-        Ok(diameter > GRADING * distance_from(&task.path, centroid))
+        diameter > GRADING * distance_from(&task.path, centroid)
     });
     graded.map_err(|_| PathError::TooLarge { limit: task.most_nodes })?;
     Ok(mesh)
 }
 
-/// The distance of a point from a polyline of at least one point.
+/// Returns the distance of a point from a polyline of at least one point.
 pub(super) fn distance_from(path: &[DVec2], point: DVec2) -> f64 {
     let from_segment = |pair: &[DVec2]| {
         let along = pair[1] - pair[0];

@@ -30,7 +30,7 @@ pub enum Placement {
 /// Tells how a triangle of the certificate's mesh lies.
 pub type PlacementTest = Arc<dyn Fn(&Element) -> Placement + Send + Sync>;
 
-/// What to prove: that no path costs less than the known one by more than a part of its cost.
+/// The statement to prove: no path costs less than the known one by more than a given share of its cost.
 #[derive(Clone)]
 pub struct CertificateTask {
     /// The cost density.
@@ -38,15 +38,16 @@ pub struct CertificateTask {
     /// The coarse grid of the certificate's mesh. The bound is best where jumps of the cost follow the mesh:
     /// the lattice of the mesh that is shown, or a coarser one that has the lines between pixels.
     pub lattice: Lattice,
-    /// Where paths may go.
+    /// The test for the area in which paths may run.
     pub placement: PlacementTest,
     /// The known path, in world units, from the start to the goal.
     pub path: Vec<DVec2>,
-    /// Its cost, rounded up.
+    /// The cost of the known path, rounded up.
     pub upper: f64,
     /// The requested width: (upper − lower) / upper.
     pub width: f64,
-    /// It ends with a programme of so many nodes, or before one that would take too much work.
+    /// Number of nodes of the largest programme. The work also ends before a programme that would take too
+    /// long.
     pub most_nodes: usize,
 }
 
@@ -90,11 +91,11 @@ impl fmt::Display for CertificateEnd {
 }
 
 impl CertificateTask {
-    /// The task for a known path in a rectangle without holes. `upper` is the cost of the path, and `width`
-    /// the requested part of it.
+    /// Returns the task for a known path in a rectangle without holes. `upper` is the cost of the path, and
+    /// `width` the requested part of it.
     ///
     /// # Errors
-    /// When the rectangle is none.
+    /// Fails when the rectangle is none.
     pub fn in_rectangle(
         bounds: Rect,
         cost: Arc<dyn CostDensity>,
@@ -107,20 +108,20 @@ impl CertificateTask {
         Ok(Self { cost, lattice, placement, path, upper, width, most_nodes: MOST_NODES })
     }
 
-    /// A coarse grid for a certificate.
+    /// Returns a coarse grid for a certificate.
     ///
     /// # Errors
-    /// When the rectangle is none.
+    /// Fails when the rectangle is none.
     pub fn lattice_over(bounds: Rect) -> Result<Lattice, GridError> {
         Lattice::covering(bounds, bounds.size().max_element() / CELLS, 8 * MOST_NODES)
     }
 
-    /// As [`Self::lattice_over`], with the lines between the pixels of a raster over the rectangle, where
-    /// there is such a grid: a cost that is constant on pixels then follows the mesh. `size` is
-    /// [columns, rows].
+    /// Returns a lattice like [`Self::lattice_over`] that contains the lines between the pixels of a raster
+    /// over the rectangle, if there is one: the edges of the mesh then follow a cost that is constant on
+    /// pixels. `size` is [columns, rows].
     ///
     /// # Errors
-    /// When the rectangle is none.
+    /// Fails when the rectangle is none.
     pub fn lattice_along_pixels(bounds: Rect, size: [u32; 2]) -> Result<Lattice, GridError> {
         let mut cells = size[0].max(size[1]).max(1);
         while cells.is_multiple_of(2) && f64::from(cells) > CELLS {
@@ -134,14 +135,14 @@ impl CertificateTask {
         Lattice::covering(bounds, spacing, 8 * MOST_NODES)
     }
 
-    /// The same task, where paths stay in a domain that covers the rectangle of the task.
+    /// Restricts the paths of this task to a domain that covers the rectangle of the task.
     pub fn in_domain(self, domain: &Domain) -> Self {
         let on_lattice = DomainOnLattice::new(domain, BoundaryTreatment::Report, &self.lattice);
         self.within(on_lattice)
     }
 
-    /// As [`Self::in_domain`], with a domain on a lattice. The mesh begins with the grid of that lattice,
-    /// which should have no more cells than [`Self::lattice_over`] makes.
+    /// Restricts the paths of this task to a domain on a lattice. The mesh begins with the grid of that
+    /// lattice, which should have no more cells than [`Self::lattice_over`] makes.
     pub fn within(self, domain: DomainOnLattice) -> Self {
         let lattice = *domain.lattice();
         let placement: PlacementTest = Arc::new(move |element| {
@@ -156,7 +157,7 @@ impl CertificateTask {
         Self { lattice, placement, ..self }
     }
 
-    /// The same task, where paths stay outside regions besides.
+    /// Restricts the paths of this task to points outside some regions, besides earlier restrictions.
     pub fn outside_of(self, keep_out: Vec<Mask>) -> Self {
         let before = self.placement;
         let placement: PlacementTest = Arc::new(move |element| {

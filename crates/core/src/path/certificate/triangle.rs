@@ -11,7 +11,7 @@ pub(super) struct FlatTriangle {
 /// An affine function of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Plane {
-    /// Its value at `origin`.
+    /// The value at `origin`.
     pub value: f64,
     pub slope: DVec2,
     pub origin: DVec2,
@@ -31,14 +31,14 @@ impl FlatTriangle {
         Self { corners, slopes }
     }
 
-    /// Length of the longest side.
+    /// Returns the length of the longest side.
     pub(super) fn diameter(&self) -> f64 {
         let [a, b, c] = self.corners;
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 
-    /// The triangle without the points that are nearer to an edge than `inset`, or half of it if that is
-    /// less: all edges move towards the centre of the inscribed circle.
+    /// Returns the triangle without the points that are nearer to an edge than `inset`, or half of it if that
+    /// is less: all edges move towards the centre of the inscribed circle.
     pub(super) fn shrunk(&self, inset: f64) -> Self {
         let [a, b, c] = self.corners;
         let sides = [b.distance(c), c.distance(a), a.distance(b)];
@@ -53,12 +53,12 @@ impl FlatTriangle {
         self.corners.iter().sum::<DVec2>() / 3.0
     }
 
-    /// The point with the given barycentric coordinates.
+    /// Returns the point with the given barycentric coordinates.
     pub(super) fn point(&self, barycentric: [f64; 3]) -> DVec2 {
         self.corners.iter().zip(barycentric).map(|(&corner, share)| corner * share).sum()
     }
 
-    /// The barycentric coordinates of a point. They sum to 1, but for rounding.
+    /// Returns the barycentric coordinates of a point. They sum to 1, but for rounding.
     pub(super) fn barycentric(&self, point: DVec2) -> [f64; 3] {
         let [a, ..] = self.corners;
         let [_, second, third] = self.slopes.map(|slope| slope.dot(point - a));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 const CHUNK: i32 = 8;
 const CHUNK_BLOCKS: usize = (CHUNK * CHUNK) as usize;
 
-/// What is kept for blocks of 32 × 32 squares of one scale.
+/// A table with an entry for each block of 32 × 32 squares of one scale.
 ///
 /// Blocks are kept in chunks of 8 × 8. Clones share the chunks: when one block of a clone changes, a chunk is
 /// copied and not the whole table.
@@ -57,7 +57,7 @@ impl<T: Clone> Blocks<T> {
         Some(removed)
     }
 
-    /// Number of blocks.
+    /// Returns number of blocks.
     pub fn len(&self) -> usize {
         self.count
     }
@@ -66,7 +66,7 @@ impl<T: Clone> Blocks<T> {
         self.count == 0
     }
 
-    /// All blocks with [x, y], in the order of a hash table: sort what depends on it.
+    /// Returns all blocks with [x, y], in the order of a hash table. Sort where the order matters.
     pub fn iter(&self) -> impl Iterator<Item = ([i32; 2], &T)> {
         self.chunks.iter().flat_map(|(key, chunk)| {
             let [left, lowest] = key.corner();
@@ -76,7 +76,7 @@ impl<T: Clone> Blocks<T> {
         })
     }
 
-    /// Whether both have blocks at the same places, and `equal` accepts each pair.
+    /// Returns whether both tables have blocks at the same places, and `equal` accepts each pair.
     pub fn equal_by(&self, other: &Self, equal: impl Fn(&T, &T) -> bool) -> bool {
         let found = |([x, y], block): ([i32; 2], &T)| other.get(x, y).is_some_and(|b| equal(block, b));
         self.len() == other.len() && self.iter().all(found)
@@ -93,7 +93,7 @@ fn place_in_chunk(x: i32, y: i32) -> usize {
 struct Key(u64);
 
 impl Key {
-    /// The chunk of the block [x, y].
+    /// Returns the key of the chunk that contains the block [x, y].
     #[inline]
     fn of_chunk(x: i32, y: i32) -> Self {
         let [x, y] = [x, y].map(|n| u64::from((n >> CHUNK.ilog2()) as u32));
@@ -106,7 +106,7 @@ impl Key {
     }
 }
 
-/// One multiplication: the table is asked for each square that the mesher looks at.
+/// A hash of one multiplication: the table is read for each square that the mesher looks at.
 #[derive(Clone, Copy, Default)]
 struct KeyHasher(u64);
 

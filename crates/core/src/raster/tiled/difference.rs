@@ -1,13 +1,14 @@
-//! Where two tiled rasters differ.
+//! Finds the differences of two tiled rasters.
 
 use super::TiledRaster;
 use crate::geometry::Rect;
 
 impl TiledRaster {
-    /// Rectangles in world units, on the closed union of which two rasters differ; they may be larger than
-    /// the differing pixels. `None` where the rasters have other pixels or another blank value.
+    /// Returns rectangles in world units whose closed union contains all points where two rasters differ;
+    /// they may be larger than the differing pixels. Returns `None` if the rasters have other pixels or
+    /// another blank value.
     ///
-    /// Tiles that both share are not looked at.
+    /// Tiles that both share are skipped.
     pub fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
         if self.grid != other.grid || self.blank != other.blank {
             return None;

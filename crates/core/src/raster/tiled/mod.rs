@@ -27,8 +27,8 @@ pub use tile::{TILE, Tile, TilePlace};
 ///           +---+---+-------+
 /// ```
 ///
-/// Tiles can be asked for the range of their values over squares of any size: beside the tiles, there is a
-/// pyramid of ranges, which follows each change of a tile.
+/// Beside the tiles, the raster keeps a pyramid of ranges of values over squares of any size, which follows
+/// each change of a tile.
 #[derive(Clone, Debug)]
 pub struct TiledRaster {
     grid: PixelGrid,
@@ -37,7 +37,7 @@ pub struct TiledRaster {
     depths: Vec<Arc<Blocks<Node>>>,
     /// The ranges of scale 1, 2 … up to the coarsest, see [`ValueRanges`].
     scales: Vec<Arc<Blocks<Arc<Summary>>>>,
-    /// The tiles of depth 0 lie within.
+    /// The rectangle of the tiles of depth 0.
     extent: Option<Extent>,
 }
 
@@ -59,15 +59,15 @@ impl Node {
 }
 
 impl TiledRaster {
-    /// A raster with the value `blank` everywhere. `grid` places the pixels of depth 0.
+    /// Creates a raster with the value `blank` everywhere. `grid` places the pixels of depth 0.
     pub fn new(grid: PixelGrid, blank: f32) -> Self {
         Self { grid, blank, depths: Vec::new(), scales: Vec::new(), extent: None }
     }
 
-    /// A raster with the given tiles, parents before their children.
+    /// Creates a raster with the given tiles, parents before their children.
     ///
     /// # Errors
-    /// The place of the first tile that is beyond the limits or has no parent.
+    /// Fails with the place of the first tile that is beyond the limits or has no parent.
     pub fn from_tiles(
         grid: PixelGrid,
         blank: f32,
@@ -83,17 +83,17 @@ impl TiledRaster {
         Ok(raster)
     }
 
-    /// The value where nothing is painted.
+    /// Returns the value of points that are not painted.
     pub fn blank(&self) -> f32 {
         self.blank
     }
 
-    /// Whether the whole raster has the value of a blank one.
+    /// Returns whether the raster has the blank value everywhere.
     pub fn is_blank(&self) -> bool {
         self.whole_range().is_one()
     }
 
-    /// The value at a point in world units. On a line between pixels the right or upper pixel counts.
+    /// Returns the value at a point in world units. On a line between pixels the right or upper pixel counts.
     pub fn sample(&self, point: DVec2) -> f32 {
         let pixel = self.grid.pixel_from_world(point);
         let mut value = self.blank;
@@ -108,12 +108,12 @@ impl TiledRaster {
         value
     }
 
-    /// The tile at a place.
+    /// Returns the tile at a place.
     pub fn tile(&self, place: TilePlace) -> Option<&Arc<Tile>> {
         self.depths.get(usize::from(place.depth))?.get(place.x, place.y).map(|node| &node.tile)
     }
 
-    /// All tiles, in the order of their places.
+    /// Returns all tiles, in the order of their places.
     pub fn tiles(&self) -> impl Iterator<Item = (TilePlace, &Arc<Tile>)> {
         self.depths.iter().enumerate().flat_map(|(depth, tiles)| {
             let mut sorted: Vec<_> = tiles.iter().map(|(block, node)| (block, &node.tile)).collect();
@@ -122,14 +122,15 @@ impl TiledRaster {
         })
     }
 
-    /// What a new tile at a place takes from its parent, or a blank tile where there is no parent.
+    /// Returns the initial values of a new tile at a place: those of its parent, or blank if it has no
+    /// parent.
     pub fn inherited(&self, place: TilePlace) -> Tile {
         let parent = place.parent().and_then(|parent| self.tile(parent));
         parent.map_or(Tile::filled(self.blank), |parent| parent.enlarged(&place))
     }
 
-    /// Whether the raster would have the same value everywhere without the tile at a place, if its parent
-    /// took over its values: half its resolution is enough, or it is blank.
+    /// Returns whether the tile at a place can be merged into its parent without changing any value: half its
+    /// resolution is enough, or, at depth 0, the tile is blank.
     pub fn is_redundant(&self, place: TilePlace) -> bool {
         let node = self.node(usize::from(place.depth), place.x * TILE, place.y * TILE);
         node.is_some_and(|node| {
@@ -138,10 +139,10 @@ impl TiledRaster {
         })
     }
 
-    /// Removes a redundant tile, whose parent takes over its values.
+    /// Removes a redundant tile; its parent takes over its values.
     ///
     /// # Panics
-    /// When the tile has children.
+    /// Panics when the tile has children.
     pub fn merge(&mut self, place: TilePlace) {
         let Some(tile) = self.exchange(place, None) else { return };
         if let Some(parent) = place.parent() {
@@ -149,12 +150,12 @@ impl TiledRaster {
         }
     }
 
-    /// Number of tiles.
+    /// Returns number of tiles.
     pub fn tile_count(&self) -> usize {
         self.depths.iter().map(|tiles| tiles.len()).sum()
     }
 
-    /// Memory of tiles and ranges, in bytes. Tiles that clones share are counted for each clone.
+    /// Returns memory of tiles and ranges, in bytes. Tiles that clones share are counted for each clone.
     pub fn bytes(&self) -> usize {
         let of_node =
             |node: &Node| size_of::<Tile>() + node.summary.as_ref().map_or(0, |s| size_of_val(&**s));
@@ -163,18 +164,18 @@ impl TiledRaster {
         tiles + self.scales.iter().map(|ranges| ranges.len() * size_of::<Summary>()).sum::<usize>()
     }
 
-    /// The deepest tile that has the pixel in column `x` and row `y` of a depth, at most of that depth, and
-    /// the place of the pixel there.
+    /// Returns the deepest tile, of at most the given depth, that contains the pixel in column `x` and row
+    /// `y` of that depth, and the index of the pixel in it.
     #[inline]
     fn deepest_at(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
-        // Depth 0 first: most tiles have no children.
+        // Try depth 0 first: most tiles have no children.
         let (node, index) = self.ancestor(depth, 0, x, y)?;
         if depth == 0 || node.summary.is_none() {
             return Some((node, index));
         }
         let at = |to| self.ancestor(depth, to, x, y);
         at(depth).or_else(|| {
-            // A tile has all its ancestors: bisect between a depth with a tile and one without.
+            // A tile has all its ancestors, so bisect between a depth with a tile and one without.
             let (mut found, mut with, mut without) = ((node, index), 0, depth.min(self.depths.len()));
             while without - with > 1 && found.0.summary.is_some() {
                 let middle = (with + without) / 2;
@@ -188,15 +189,15 @@ impl TiledRaster {
         })
     }
 
-    /// The tile of depth `to` over the pixel in column `x` and row `y` of a greater depth, and the place of
-    /// the pixel there.
+    /// Returns the tile of depth `to` over the pixel in column `x` and row `y` of a greater depth, and the
+    /// index of the pixel in it.
     #[inline]
     fn ancestor(&self, depth: usize, to: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
         let up = (depth - to).min(31);
         self.node(to, x >> up, y >> up).map(|node| (node, index(x >> up, y >> up)))
     }
 
-    /// The tile with the pixel in column `x` and row `y` of a depth.
+    /// Returns the tile with the pixel in column `x` and row `y` of a depth.
     #[inline]
     fn node(&self, depth: usize, x: i32, y: i32) -> Option<&Node> {
         self.depths.get(depth)?.get(x >> TILE.ilog2(), y >> TILE.ilog2())

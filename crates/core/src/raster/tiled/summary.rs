@@ -1,4 +1,4 @@
-//! Changing tiles, and the pyramid of ranges that follows.
+//! Changes tiles and updates the pyramid of ranges.
 
 use std::ops::Index;
 use std::sync::Arc;
@@ -44,19 +44,19 @@ impl Extent {
         Self { min: pick(min, i32::min), max: pick(max, i32::max) }
     }
 
-    /// First and last square of a scale that has pixels of the tiles, [x, y] each.
+    /// Returns first and last square of a scale that has pixels of the tiles, [x, y] each.
     fn corners(&self, scale: i32) -> [[i32; 2]; 2] {
         let first = self.min.map(|n| (n * TILE) >> scale);
         [first, self.max.map(|n| (n * TILE + TILE - 1) >> scale)]
     }
 
-    /// The squares of a scale that have pixels of the tiles.
+    /// Returns the squares of a scale that have pixels of the tiles.
     pub(super) fn squares(&self, scale: i32) -> impl Iterator<Item = [i32; 2]> + use<> {
         let [[left, low], [right, high]] = self.corners(scale);
         (low..=high).flat_map(move |y| (left..=right).map(move |x| [x, y]))
     }
 
-    /// The scale at which at most 2 × 2 squares have all pixels of the tiles.
+    /// Returns the scale at which at most 2 × 2 squares have all pixels of the tiles.
     fn coarsest(&self) -> i32 {
         let fits = |&scale: &i32| {
             let [first, last] = self.corners(scale);
@@ -66,18 +66,18 @@ impl Extent {
     }
 }
 
-/// Squares of one scale within 32 × 32 of them, from [x, y].
+/// A rectangle of squares of one scale within a block of 32 × 32, beginning at [x, y].
 #[derive(Clone, Copy)]
-struct Part {
+struct SquareRange {
     x: i32,
     y: i32,
     side: i32,
 }
 
-impl Part {
+impl SquareRange {
     const WHOLE: Self = Self { x: 0, y: 0, side: TILE };
 
-    /// The squares of the next coarser scale that cover these, of the block [x, y].
+    /// Returns the squares of the next coarser scale that cover these, of the block [x, y].
     fn coarser(self, [x, y]: [i32; 2]) -> Self {
         let half = TILE / 2;
         let side = (self.side / 2).max(1);
@@ -91,11 +91,11 @@ impl Part {
 }
 
 impl TiledRaster {
-    /// Puts a tile at a place, or removes the one there, and returns what was there.
+    /// Puts a tile at a place, or removes the tile there, and returns the former one.
     ///
     /// # Panics
-    /// When the place is beyond the limits of `TilePlace::is_valid`, a new tile has no parent, or a tile to
-    /// remove has children.
+    /// Panics when the place is beyond the limits of `TilePlace::is_valid`, a new tile has no parent, or a
+    /// tile to remove has children.
     pub fn exchange(&mut self, place: TilePlace, tile: Option<Arc<Tile>>) -> Option<Arc<Tile>> {
         assert!(place.is_valid(), "{place:?} is checked where it is read");
         let is_new = tile.is_some();
@@ -113,7 +113,7 @@ impl TiledRaster {
         old
     }
 
-    /// Changes the pixels of the tile at a place; does nothing where there is none.
+    /// Changes the pixels of the tile at a place. Does nothing if there is no tile.
     pub fn change(&mut self, place: TilePlace, change: impl FnOnce(&mut Tile)) {
         if self.tile(place).is_none() {
             return;
@@ -151,9 +151,9 @@ impl TiledRaster {
         Some(removed.tile)
     }
 
-    /// Has as many scales as the tiles of depth 0 need, after the tile [x, y] of depth 0 changed.
+    /// Adjusts the number of scales to the tiles of depth 0, after the tile [x, y] of depth 0 changed.
     ///
-    /// Scales that are no longer needed stay until the last tile is removed: to find the extent again would
+    /// Scales that are no longer needed stay until the last tile is removed: finding the extent again would
     /// take a pass over all tiles.
     fn fit_scales(&mut self, tile: [i32; 2]) {
         if self.depths.is_empty() {
@@ -176,11 +176,11 @@ impl TiledRaster {
         };
         self.scales.push(Arc::default());
         for block in blocks {
-            self.summarize_part(scale, block, Part::WHOLE);
+            self.summarize_part(scale, block, SquareRange::WHOLE);
         }
     }
 
-    /// Computes the ranges of a tile's own pixels anew, if it has children.
+    /// Computes the ranges of a tile's own pixels again, if it has children.
     fn summarize(&mut self, place: TilePlace) {
         let children = place.children().into_iter().filter(|child| self.tile(*child).is_some());
         let children: Vec<TilePlace> = children.collect();
@@ -188,13 +188,14 @@ impl TiledRaster {
             node.summary = None;
         }
         for child in children {
-            self.summarize_part(-i32::from(child.depth), [child.x, child.y], Part::WHOLE);
+            self.summarize_part(-i32::from(child.depth), [child.x, child.y], SquareRange::WHOLE);
         }
     }
 
     /// Updates the ranges of all coarser scales after a tile changed.
     fn summarize_above(&mut self, place: TilePlace) {
-        let (mut scale, mut block, mut part) = (-i32::from(place.depth), [place.x, place.y], Part::WHOLE);
+        let (mut scale, mut block, mut part) =
+            (-i32::from(place.depth), [place.x, place.y], SquareRange::WHOLE);
         while scale < self.coarsest() && self.summarize_part(scale, block, part) {
             part = part.coarser(block);
             block = block.map(|n| n >> 1);
@@ -204,7 +205,7 @@ impl TiledRaster {
 
     /// Updates the ranges of the squares of the next coarser scale that cover a part of a block. Returns
     /// whether they changed.
-    fn summarize_part(&mut self, scale: i32, block: [i32; 2], part: Part) -> bool {
+    fn summarize_part(&mut self, scale: i32, block: [i32; 2], part: SquareRange) -> bool {
         let coarser = part.coarser(block);
         let ranges = self.coarser_ranges(scale, block, coarser);
         let above = block.map(|n| n >> 1);
@@ -232,9 +233,9 @@ impl TiledRaster {
         differs
     }
 
-    /// The ranges of a part of a block above `block`, which is a block of the given scale, from this block;
-    /// where there is none, those without it.
-    fn coarser_ranges(&self, scale: i32, block: [i32; 2], coarser: Part) -> Vec<ValueRange> {
+    /// Returns the ranges of the squares in `coarser` of the block above `block`, which is a block of the
+    /// given scale. They are computed from this block, or without it if it does not exist.
+    fn coarser_ranges(&self, scale: i32, block: [i32; 2], coarser: SquareRange) -> Vec<ValueRange> {
         let [x, y] = block;
         let at = |depth: i32, x, y| self.depths.get(depth as usize).and_then(|tiles| tiles.get(x, y));
         let node = if scale <= 0 { at(-scale, x, y) } else { None };
@@ -254,7 +255,7 @@ impl TiledRaster {
         coarser.squares().map(range).collect()
     }
 
-    /// The range of the values in a square above the coarsest scale.
+    /// Returns the range of the values in a square above the coarsest scale.
     pub(super) fn range_beyond(&self, scale: i32, x: i32, y: i32) -> ValueRange {
         let coarsest = self.coarsest();
         let up = (scale - coarsest).min(31);
@@ -262,7 +263,7 @@ impl TiledRaster {
         let within = squares.filter(|square| square.map(|n| n >> up) == [x, y]);
         let ranges = within.map(|[x, y]| (self.range(coarsest, x, y), 1));
         let found = ranges.reduce(|(a, m), (b, n)| (a.union(b), m + n));
-        // At most 2 × 2 squares have pixels: they fill a square of the next scale, or none.
+        // At most 2 × 2 squares have pixels. They fill a square of the next scale, or they do not.
         let is_filled = up == 1 && found.is_some_and(|(_, count)| count == 4);
         let range = found.map(|(range, _)| range);
         let blank = (!is_filled).then_some(ValueRange::one(self.blank));

@@ -5,7 +5,7 @@ use glam::{DVec2, dvec2};
 
 use super::*;
 
-/// Pixels of depth 0 that the model knows, along both axes.
+/// The pixels of depth 0 in the model, along both axes.
 const PIXELS: Range<i32> = -64..128;
 const DEEPEST: u8 = 2;
 
@@ -13,7 +13,7 @@ fn grid() -> PixelGrid {
     PixelGrid { origin: dvec2(-3.0, 7.0), pixel: dvec2(0.5, 0.25) }
 }
 
-/// Every pixel of the deepest depth, one by one.
+/// Every pixel of the deepest depth, stored one by one.
 struct Model {
     tiles: BTreeMap<TilePlace, Vec<f32>>,
     values: Vec<f32>,
@@ -44,7 +44,7 @@ impl Model {
         }
     }
 
-    /// Least and greatest value of a square, and whether all of it is in the model.
+    /// Returns least and greatest value of a square, and whether all of it is in the model.
     fn range(&self, scale: i32, x: i32, y: i32, blank: f32) -> [f32; 2] {
         let side = 1_i64 << (scale + i32::from(DEEPEST));
         let clip = |n: i32| {
@@ -65,7 +65,7 @@ fn random_values(random: &mut fastrand::Rng) -> Vec<f32> {
     (0..1024).map(|_| if kind == 0 { one } else { random.u8(..) as f32 }).collect()
 }
 
-/// A place for a tile with a parent, or one of the tiles without children.
+/// Returns a place for a tile with a parent, or the place of a tile without children.
 fn random_place(random: &mut fastrand::Rng, tiles: &BTreeMap<TilePlace, Vec<f32>>) -> TilePlace {
     let parents: Vec<_> = tiles.keys().filter(|place| place.depth < DEEPEST).collect();
     if parents.is_empty() || random.u8(..4) == 0 {
@@ -238,7 +238,7 @@ fn nanoseconds_per_range() {
         let start = std::time::Instant::now();
         let (mut x, mut y, mut sum) = (side / 2, side / 2, 0.0);
         for n in 0_i32..count {
-            // Neighbours, as a mesher asks; every 64 calls another place.
+            // Neighbours, in the order of a mesher; every 64 calls another position.
             (x, y) = if n % 64 == 0 {
                 (random.i32(..side), random.i32(..side))
             } else {

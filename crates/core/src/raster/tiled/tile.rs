@@ -9,11 +9,11 @@ pub const TILE: i32 = 32;
 /// Pixels of a tile.
 pub(super) const TILE_PIXELS: usize = (TILE * TILE) as usize;
 
-/// Where a tile lies: at depth d, pixels have the width of the grid's pixels divided by 2ᵈ, and the tile
+/// The position of a tile. At depth d, pixels have the width of the grid's pixels divided by 2ᵈ, and the tile
 /// covers the pixels [32 x, 32 y] to [32 x + 31, 32 y + 31]. The order is by depth, then x, then y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TilePlace {
-    /// How many times the pixels of the grid are halved.
+    /// Number of times the pixels of the grid are halved.
     pub depth: u8,
     /// Column of tiles of this depth.
     pub x: i32,
@@ -25,27 +25,27 @@ impl TilePlace {
     /// The greatest depth.
     pub const DEEPEST: u8 = 40;
 
-    /// Columns and rows of tiles are within ± this number: those of their pixels then fit an i32.
+    /// Limit of the absolute column and row of tiles: the columns and rows of their pixels then fit an i32.
     pub const FARTHEST: i32 = 1 << 25;
 
-    /// The tile that holds the pixel in column `x` and row `y` of the given depth.
+    /// Returns the tile that contains the pixel in column `x` and row `y` of the given depth.
     pub fn of_pixel(depth: u8, x: i32, y: i32) -> Self {
         Self { depth, x: x.div_euclid(TILE), y: y.div_euclid(TILE) }
     }
 
-    /// Whether depth, column and row are within their limits.
+    /// Returns whether depth, column and row are within their limits.
     pub fn is_valid(&self) -> bool {
         let is_near = |n: i32| (-Self::FARTHEST..=Self::FARTHEST).contains(&n);
         self.depth <= Self::DEEPEST && is_near(self.x) && is_near(self.y)
     }
 
-    /// The tile of the next smaller depth that covers this one; `None` at depth 0.
+    /// Returns the tile of the next smaller depth that covers this one; `None` at depth 0.
     pub fn parent(&self) -> Option<Self> {
         let depth = self.depth.checked_sub(1)?;
         Some(Self { depth, x: self.x >> 1, y: self.y >> 1 })
     }
 
-    /// The four tiles of the next depth that cover this one, row by row.
+    /// Returns the four tiles of the next depth that cover this one, row by row.
     pub fn children(&self) -> [Self; 4] {
         [0, 1, 2, 3].map(|n| Self {
             depth: self.depth + 1,
@@ -54,12 +54,13 @@ impl TilePlace {
         })
     }
 
-    /// The rectangle of the tile, in world units.
+    /// Returns the rectangle of the tile, in world units.
     pub fn area(&self, grid: &PixelGrid) -> Rect {
         grid.square(TILE.ilog2() as i32 - i32::from(self.depth), self.x, self.y)
     }
 
-    /// The rectangle of some pixels, in world units: [first, end], column and row within the tile each.
+    /// Returns the rectangle of some pixels, in world units. `first` and `end` are column and row within the
+    /// tile.
     pub fn area_of_pixels(&self, [first, end]: [[i32; 2]; 2], grid: &PixelGrid) -> Rect {
         let corner =
             |[x, y]: [i32; 2]| grid.square(-i32::from(self.depth), self.x * TILE + x, self.y * TILE + y).min;
@@ -77,22 +78,22 @@ impl TilePlace {
 pub struct Tile([f32; TILE_PIXELS]);
 
 impl Tile {
-    /// A tile with the same value everywhere.
+    /// Returns a tile with the same value everywhere.
     pub const fn filled(value: f32) -> Self {
         Self([value; TILE_PIXELS])
     }
 
-    /// A tile with the given values; `None` if they are not 32 × 32.
+    /// Returns a tile with the given values; `None` if they are not 32 × 32.
     pub fn from_values(values: &[f32]) -> Option<Self> {
         values.try_into().ok().map(Self)
     }
 
-    /// All values, row by row from the lowest.
+    /// Returns all values, row by row from the lowest.
     pub fn values(&self) -> &[f32] {
         &self.0
     }
 
-    /// The value of the pixel in column `x` and row `y` of the tile.
+    /// Returns the value of the pixel in column `x` and row `y` of the tile.
     pub fn get(&self, x: i32, y: i32) -> f32 {
         self.0[index(x, y)]
     }
@@ -102,7 +103,7 @@ impl Tile {
         self.0[index(x, y)] = value;
     }
 
-    /// The part of this tile that lies under one of its children, as a tile of twice the resolution.
+    /// Returns the part of this tile that lies under one of its children, as a tile of twice the resolution.
     pub fn enlarged(&self, child: &TilePlace) -> Self {
         let [left, lowest] = child.first_in_parent();
         let mut enlarged = Self::filled(0.0);
@@ -112,7 +113,7 @@ impl Tile {
         enlarged
     }
 
-    /// Whether half the resolution is enough: all blocks of 2 × 2 pixels have one value each.
+    /// Returns whether half the resolution is enough: all blocks of 2 × 2 pixels have one value each.
     pub(super) fn is_enlarged(&self) -> bool {
         let mut blocks = (0..TILE).step_by(2).flat_map(|y| (0..TILE).step_by(2).map(move |x| (x, y)));
         blocks.all(|(x, y)| {
@@ -121,7 +122,7 @@ impl Tile {
         })
     }
 
-    /// The smallest rectangle of pixels with all in which two tiles differ, see
+    /// Returns the smallest rectangle of pixels that contains all pixels in which two tiles differ, see
     /// [`TilePlace::area_of_pixels`]; `None` if they are equal.
     pub fn difference(&self, other: &Self) -> Option<[[i32; 2]; 2]> {
         let differing = (0..TILE_PIXELS).filter(|&index| self.0[index] != other.0[index]);
@@ -132,7 +133,8 @@ impl Tile {
         })
     }
 
-    /// Puts the lower left pixel of each block of 2 × 2 pixels of `child` where the child lies in this tile.
+    /// Copies the lower left pixel of each block of 2 × 2 pixels of `child` to the quadrant of the child in
+    /// this tile.
     pub(super) fn put_reduced(&mut self, place: &TilePlace, child: &Self) {
         let [left, lowest] = place.first_in_parent();
         for y in 0..TILE / 2 {
@@ -144,7 +146,7 @@ impl Tile {
 impl Index<usize> for Tile {
     type Output = f32;
 
-    /// The value at a place of the order of the pixels.
+    /// Returns the value at an index into the pixels.
     #[inline]
     fn index(&self, index: usize) -> &f32 {
         &self.0[index]
@@ -157,8 +159,8 @@ impl IndexMut<usize> for Tile {
     }
 }
 
-/// The place of the pixel in column `x` and row `y` of a tile in the order of its pixels. Columns and rows
-/// that are counted from elsewhere are taken modulo 32.
+/// Returns the index of the pixel in column `x` and row `y` of a tile. Columns and rows that are counted from
+/// elsewhere are taken modulo 32.
 #[inline]
 pub(super) fn index(x: i32, y: i32) -> usize {
     ((y & (TILE - 1)) * TILE + (x & (TILE - 1))) as usize

@@ -21,7 +21,7 @@ pub struct ExactPath {
     pub path: Vec<DVec2>,
 }
 
-/// The domain.
+/// Returns the domain.
 pub fn square() -> Rect {
     Rect::around(DVec2::ZERO, 2.0)
 }
@@ -45,7 +45,7 @@ fn range(a: f64, b: f64) -> CostRange {
     CostRange { least: least - MARGIN * least.abs(), greatest: greatest + MARGIN * greatest.abs() }
 }
 
-/// Least and greatest distance of a rectangle from the origin.
+/// Returns the least and greatest distance of a rectangle from the origin.
 fn distances(rectangle: &Rect) -> [f64; 2] {
     let nearest = DVec2::ZERO.clamp(rectangle.min, rectangle.max);
     [nearest.length(), rectangle.min.abs().max(rectangle.max.abs()).length()]
@@ -114,7 +114,7 @@ fn anywhere() -> PlacementTest {
     Arc::new(|_| Placement::Inside)
 }
 
-/// The path whose image is the segment from `from` to `to`.
+/// Returns the path whose image is the segment from `from` to `to`.
 fn path_of_segment(from: DVec2, to: DVec2, back: impl Fn(DVec2) -> DVec2) -> Vec<DVec2> {
     (0..=400).map(|i| back(from.lerp(to, f64::from(i) / 400.0))).collect()
 }
@@ -203,7 +203,7 @@ fn disc_hole() -> ExactPath {
     ExactPath { name: "disc hole", density: Arc::new(Kind::One), placement, exact, path }
 }
 
-/// All of them.
+/// Returns all problems whose exact path is known.
 pub fn exact_paths() -> Vec<ExactPath> {
     let straight = [dvec2(-1.3, -0.7), dvec2(1.4, 0.9)];
     let inverse = |z: DVec2| power(z, -1.0);

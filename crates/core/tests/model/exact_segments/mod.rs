@@ -7,7 +7,8 @@ use meshbrush_mesh::geometry::Rect;
 /// Coordinates are counted in these parts.
 const BITS: i32 = 110;
 
-/// Whether a segment enters an open rectangle. `None` where a coordinate is no multiple of 2⁻¹¹⁰, or above 8.
+/// Returns whether a segment enters an open rectangle. `None` where a coordinate is no multiple of 2⁻¹¹⁰, or
+/// above 8.
 ///
 /// Two convex sets do not meet if an axis or the normal of the segment separates them.
 pub fn enters(p: DVec2, q: DVec2, open: &Rect) -> Option<bool> {
@@ -28,7 +29,7 @@ pub fn enters(p: DVec2, q: DVec2, open: &Rect) -> Option<bool> {
     Some(sides.iter().any(|&side| side > 0) && sides.iter().any(|&side| side < 0))
 }
 
-/// A number in parts of 2⁻¹¹⁰, if it is a multiple of them.
+/// Returns a number in parts of 2⁻¹¹⁰, if it is a multiple of them.
 fn whole(x: f64) -> Option<i128> {
     if x == 0.0 {
         return Some(0);
@@ -45,7 +46,7 @@ fn whole(x: f64) -> Option<i128> {
     Some(if x < 0.0 { -size } else { size })
 }
 
-/// The product of two whole numbers: its upper and its lower 128 bits.
+/// Returns the product of two whole numbers: its upper and its lower 128 bits.
 fn product(a: i128, b: i128) -> (i128, u128) {
     let (x, y) = (a.unsigned_abs(), b.unsigned_abs());
     let low = |n: u128| n & u128::from(u64::MAX);

@@ -6,9 +6,9 @@ use std::collections::BinaryHeap;
 use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::Rect;
 
-/// The least cost between two places over a grid of n × n squares of a rectangle, where a step goes to any
-/// square at most `reach` away in both directions, by Dijkstra's algorithm. The cost of a step is the mean at
-/// a few of its points.
+/// Returns the least cost between two places over a grid of n × n squares of a rectangle, where a step goes
+/// to any square at most `reach` away in both directions, by Dijkstra's algorithm. The cost of a step is the
+/// mean at a few of its points.
 pub fn directions(
     density: &dyn Fn(DVec2) -> f64,
     bounds: Rect,

@@ -59,7 +59,7 @@ impl Driver {
         self.check_readings();
     }
 
-    /// What earlier readings found out changes no later one.
+    /// Checks that earlier readings do not change later ones.
     fn check_readings(&mut self) {
         let Self { document, follower, readings, .. } = self;
         for at in [dvec2(0.31, 0.62), dvec2(0.77, 0.24)] {
@@ -92,8 +92,8 @@ impl Driver {
         self.check_stop();
     }
 
-    /// One slice of work, as in the window: of the stroke under way, or of what follows from it. True at
-    /// rest.
+    /// Returns one slice of work, as in the window: of the stroke under way, or of what follows from it. True
+    /// at rest.
     fn work(&mut self, visits: usize) -> bool {
         if self.document.advance_stroke(visits) == Progress::More {
             return false;
@@ -156,7 +156,7 @@ impl Driver {
     }
 }
 
-/// How many triangles are in only one of two meshes, and the first of each.
+/// Returns how many triangles are in only one of two meshes, and the first of each.
 fn difference(followed: &Mesh, rebuilt: &Mesh) -> String {
     let corners = |mesh: &Mesh| {
         let ids = (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
@@ -171,7 +171,7 @@ fn difference(followed: &Mesh, rebuilt: &Mesh) -> String {
     format!("followed {}; from scratch {}", only(&followed, &rebuilt), only(&rebuilt, &followed))
 }
 
-/// The triangles that leave the program, as corners in any order.
+/// Returns the triangles that leave the program, as corners in any order.
 fn derived(follower: &Follower) -> Vec<[LatticePoint; 3]> {
     let cleaning = follower.settings().derived_cleaning();
     let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning);

@@ -14,23 +14,24 @@ use meshbrush_mesh::geometry::Rect;
 
 use super::{Choices, Scale};
 
-/// The size of something, by its logarithm: from some of the smallest diameters to a third of the domain.
+/// Returns the size of something, by its logarithm: from some of the smallest diameters to a third of the
+/// domain.
 fn size(choices: &mut impl Choices, scale: Scale) -> f64 {
     let least = (4.0 * scale.smallest).min(0.1);
     0.3 * (least / 0.3).powf(choices.share())
 }
 
-/// A diameter that a few hundred triangles of something of a size meet.
+/// Returns a diameter that a few hundred triangles of something of a size meet.
 fn diameter_for(choices: &mut impl Choices, size: f64, scale: Scale) -> f64 {
     (size * (0.15 + choices.share())).max(scale.smallest)
 }
 
-/// A place in the unit square.
+/// Returns a place in the unit square.
 fn place(choices: &mut impl Choices) -> DVec2 {
     dvec2(choices.share(), choices.share())
 }
 
-/// A polygon about a place: a square, or a triangle.
+/// Returns a polygon about a place: a square, or a triangle.
 fn polygon(choices: &mut impl Choices, centre: DVec2, size: f64) -> Polygon {
     let square = corners(&Rect::around(centre, 0.5 * size));
     match choices.below(3) {
@@ -44,7 +45,7 @@ fn polygon(choices: &mut impl Choices, centre: DVec2, size: f64) -> Polygon {
     }
 }
 
-/// A mask of one or two polygons.
+/// Returns a mask of one or two polygons.
 pub fn mask(choices: &mut impl Choices, scale: Scale) -> Option<Mask> {
     let size = size(choices, scale);
     let polygons: Vec<_> = (0..1 + choices.below(2))
@@ -71,7 +72,7 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     }
 }
 
-/// A constant that is too fine for all of the domain: it needs a mask, or is refused.
+/// Returns a constant that is too fine for all of the domain: it needs a mask, or is refused.
 pub fn small_constant(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let size = size(choices, scale);
     LayerKind::constant(diameter_for(choices, size, scale))
@@ -97,7 +98,7 @@ fn formula(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     LayerKind::target(Formula::parse(&text).unwrap())
 }
 
-/// A raster over a part of the domain, or beyond it, with a pixel that has no value, by any reading.
+/// Returns a raster over a part of the domain, or beyond it, with a pixel that has no value, by any reading.
 fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
     let corner = dvec2(choices.share(), choices.share()) - 0.4;
     let bounds = Rect::new(corner, corner + 0.2 + choices.share());
@@ -170,7 +171,7 @@ fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     LayerKind::Distance { to, at_zero, slope, range }
 }
 
-/// The same layer with one number changed, by much or by little.
+/// Returns a layer with one number changed, by much or by little.
 pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Option<LayerKind> {
     let factor = [0.5, 0.9, 1.1, 2.0, 1.0 - 1e-12, 1.0 + 1e-12][choices.below(6)];
     let mut kind = kind.clone();
@@ -197,7 +198,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
     Some(kind)
 }
 
-/// One threat moved, changed, added, removed, or exchanged with another.
+/// Returns one threat moved, changed, added, removed, or exchanged with another.
 fn other_threats(
     threats: &Threats,
     choices: &mut impl Choices,

@@ -1,7 +1,7 @@
 //! Operations on a document, made from any source of choices, and what must hold after each.
 //!
-//! `tests/model/document.rs` makes them from random numbers, `fuzz/` from the bytes of a fuzzer; what that finds is
-//! kept as bytes in `tests/model/document.rs`.
+//! `tests/model/document.rs` makes them from random numbers, `fuzz/` from the bytes of a fuzzer; what that
+//! finds is kept as bytes in `tests/model/document.rs`.
 
 mod driver;
 mod kinds;
@@ -25,7 +25,7 @@ use settings::setting;
 
 /// Where operations come from: random numbers, or the bytes of a fuzzer.
 pub trait Choices {
-    /// One of `0..count`; `count` is 256 at most.
+    /// Returns one of `0..count`; `count` is 256 at most.
     fn below(&mut self, count: usize) -> usize;
     /// From 0 to 1.
     fn share(&mut self) -> f64;
@@ -49,7 +49,7 @@ impl Choices for Bytes<'_> {
         usize::from(self.next()) % count
     }
 
-    /// Parts of 256: places of nodes, and of lines between pixels, come up often.
+    /// Returns the parts of 256: places of nodes, and of lines between pixels, come up often.
     fn share(&mut self) -> f64 {
         match self.next() {
             255 => 1.0,
@@ -166,7 +166,7 @@ impl Operation {
     }
 }
 
-/// The document as it comes back from a file.
+/// Returns the document as it comes back from a file.
 fn reopened(document: &Document) -> Document {
     let mut bytes = Vec::new();
     project::write(&mut bytes, &Project::of(document)).unwrap();

@@ -39,8 +39,8 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
 
 const SPACINGS: [f64; 4] = [0.3, 0.25, 0.2, 0.15];
 
-/// A few times a diameter, or the diameter of a level, as in a new document: triangles of that level then ask
-/// wherever a layer asks for anything at all.
+/// Returns a few times a diameter, or the diameter of a level, as in a new document: triangles of that level
+/// then ask wherever a layer asks for anything at all.
 fn largest_diameter(choices: &mut impl Choices, diameter: f64) -> f64 {
     match choices.below(4) {
         level @ 0..2 => bisection_edge_length(SPACINGS[choices.below(SPACINGS.len())], level as u32),
@@ -73,7 +73,7 @@ fn inside(choices: &mut impl Choices) -> Domain {
     Domain { bounds: Rect::UNIT, shape: formula.map_or(DomainShape::Whole, DomainShape::Formula) }
 }
 
-/// What no document can meet.
+/// Returns a setting that no document accepts.
 fn impossible(choices: &mut impl Choices) -> Setting {
     let bad = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300][choices.below(5)];
     match choices.below(6) {
@@ -86,8 +86,8 @@ fn impossible(choices: &mut impl Choices) -> Setting {
     }
 }
 
-/// A square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted one with
-/// a hole.
+/// Returns a square, a rectangle, a domain with a hole and a bite out of its rim by a formula, and a slanted
+/// one with a hole.
 pub fn domains() -> [Domain; 4] {
     let outline = vec![dvec2(0.0, 0.1), dvec2(0.9, 0.0), dvec2(1.0, 0.8), dvec2(0.3, 1.0)];
     let hole = vec![dvec2(0.3, 0.3), dvec2(0.6, 0.35), dvec2(0.5, 0.7)];

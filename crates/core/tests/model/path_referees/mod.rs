@@ -22,9 +22,9 @@ impl Radial {
         self.floor + self.bumps.iter().map(|[b, w]| b * (-(r / w) * (r / w)).exp()).sum::<f64>()
     }
 
-    /// The least cost between two places, by Clairaut's relation: along a geodesic, c(r) · r · sin of the
-    /// angle to the radius is a constant k. The paths considered go out or in, or in to a least radius and out
-    /// again; the angle between the places decides k.
+    /// Returns the least cost between two places, by Clairaut's relation: along a geodesic, c(r) · r · sin of
+    /// the angle to the radius is a constant k. The paths considered go out or in, or in to a least radius
+    /// and out again; the angle between the places decides k.
     pub fn exact(&self, p: DVec2, q: DVec2) -> f64 {
         let (r1, r2) = (p.length().min(q.length()), p.length().max(q.length()));
         let angle = p.angle_to(q).abs();
@@ -46,7 +46,7 @@ impl Radial {
         self.cost_of(k, least, r1) + self.cost_of(k, least, r2)
     }
 
-    /// Whether r c(r) grows everywhere up to a radius: then there is one geodesic of each kind.
+    /// Returns whether r c(r) grows everywhere up to a radius: then there is one geodesic of each kind.
     pub fn is_simple(&self, radius: f64) -> bool {
         let momentum = |n: u32| {
             let r = radius * f64::from(n) / 2000.0;
@@ -55,12 +55,12 @@ impl Radial {
         (1..2000).all(|n| momentum(n + 1) > momentum(n))
     }
 
-    /// The angle swept between two radii: ∫ k / (r √(c²r² − k²)) dr.
+    /// Returns the angle swept between two radii: ∫ k / (r √(c²r² − k²)) dr.
     fn swept(&self, k: f64, from: f64, to: f64) -> f64 {
         self.integral(k, from, to, |r, root| k / (r * root))
     }
 
-    /// The cost between two radii: ∫ c² r / √(c²r² − k²) dr.
+    /// Returns the cost between two radii: ∫ c² r / √(c²r² − k²) dr.
     fn cost_of(&self, k: f64, from: f64, to: f64) -> f64 {
         self.integral(k, from, to, |r, root| self.at_radius(r).powi(2) * r / root)
     }
@@ -84,7 +84,7 @@ impl Radial {
     }
 }
 
-/// Where a condition that holds below ends.
+/// Returns where a condition that holds below ends.
 fn bisect(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..100 {
         let middle = 0.5 * (low + high);

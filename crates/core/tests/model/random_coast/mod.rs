@@ -6,12 +6,12 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::domain::{Polygon, Ring};
 
-/// A point of the unit square.
+/// Returns a point of the unit square.
 pub fn place(random: &mut Rng) -> DVec2 {
     dvec2(random.f64(), random.f64())
 }
 
-/// A closed line with bays and capes of all sizes.
+/// Returns a closed line with bays and capes of all sizes.
 fn coast(random: &mut Rng, centre: DVec2, radius: f64, corners: usize, roughness: f64) -> Ring {
     let waves: Vec<(f64, f64)> = (0..9).map(|_| (random.f64() - 0.5, random.f64() * TAU)).collect();
     (0..corners)
@@ -28,7 +28,7 @@ fn coast(random: &mut Rng, centre: DVec2, radius: f64, corners: usize, roughness
         .collect()
 }
 
-/// A triangle with its tip at `from` when it is a needle, or a bar between two points.
+/// Returns a triangle with its tip at `from` when it is a needle, or a bar between two points.
 fn spit(random: &mut Rng, from: DVec2, to: DVec2) -> Ring {
     let width = 0.06 * 0.02f64.powf(random.f64());
     let across = width * (to - from).normalize().perp();

@@ -23,12 +23,12 @@ impl Radial {
         self.waves.iter().map(|[a, f, p]| a * f * (f * r + p).cos()).sum()
     }
 
-    /// The greatest n-th derivative.
+    /// Returns the greatest n-th derivative.
     fn steepest(&self, n: i32) -> f64 {
         self.waves.iter().map(|[a, f, _]| a.abs() * f.powi(n)).sum()
     }
 
-    /// Least and greatest distance of a rectangle from the centre.
+    /// Returns the least and greatest distance of a rectangle from the centre.
     fn distances(&self, rectangle: &Rect) -> [f64; 2] {
         let (min, max) = (rectangle.min - self.centre, rectangle.max - self.centre);
         [DVec2::ZERO.clamp(min, max).length(), min.abs().max(max.abs()).length()]
@@ -141,7 +141,7 @@ impl Cells {
         Self { side, costs: (0..side * side).map(|_| 1.0 + 4.0 * random.f64()).collect() }
     }
 
-    /// The cells that have a coordinate, in one direction.
+    /// Returns the cells that have a coordinate, in one direction.
     fn columns(&self, from: f64, to: f64) -> std::ops::RangeInclusive<usize> {
         let last = self.side as f64 - 1.0;
         let [from, to] = [from, to].map(|x| x * self.side as f64);
@@ -154,7 +154,8 @@ impl Cells {
         self.costs[row * self.side + column]
     }
 
-    /// The cheapest way from point to point within cells, over `count` points on each side of each cell.
+    /// Returns the cheapest way from point to point within cells, over `count` points on each side of each
+    /// cell.
     pub fn best_path(&self, start: DVec2, goal: DVec2, count: usize) -> (Vec<DVec2>, f64) {
         let mut points = vec![start, goal];
         let side = self.side as f64;

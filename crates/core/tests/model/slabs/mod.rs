@@ -62,7 +62,7 @@ impl Slabs {
         Self { slabs: heights.windows(2).map(slab).collect(), side }
     }
 
-    /// The parts of the complement of a set. Parts that only a point joins are several.
+    /// Returns the parts of the complement of a set. Parts that only a point joins are several.
     pub fn complement(&self, set: usize) -> Parts {
         let mut spans: Vec<Span> = Vec::new();
         for (number, slab) in self.slabs.iter().enumerate() {
@@ -118,8 +118,8 @@ impl Slabs {
         Parts { spans, part_of, areas }
     }
 
-    /// The area of each intersection of a bounded part with any part of another complement, as
-    /// (part, other part, area).
+    /// Returns the area of each intersection of a bounded part with any part of another complement, as (part,
+    /// other part, area).
     pub fn intersections(&self, parts: &Parts, others: &Parts) -> Vec<(usize, usize, f64)> {
         let mut found = Vec::new();
         let mut start = 0;

@@ -20,7 +20,7 @@ pub struct Definition {
     pub lines: [Vec<i64>; 2],
 }
 
-/// What bounds h̄.
+/// The bounds of h̄.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     pub h_min: f64,
@@ -47,7 +47,8 @@ pub struct Field {
 }
 
 impl Field {
-    /// The field of visible layers, from the bottom to the top, over a domain of [width, height] grains.
+    /// Returns the field of visible layers, from the bottom to the top, over a domain of [width, height]
+    /// grains.
     pub fn new(layers: &[Definition], size: Point, bounds: &Bounds, steps: i64) -> Self {
         let [xs, ys] = [0, 1].map(|axis| {
             let mut lines: Vec<i64> = layers.iter().flat_map(|layer| layer.lines[axis].clone()).collect();
@@ -69,7 +70,7 @@ impl Field {
         Self { pieces, gradation: bounds.gradation, steps }
     }
 
-    /// The least h̄ over a closed triangle in lattice coordinates.
+    /// Returns the least h̄ over a closed triangle in lattice coordinates.
     pub fn least_within(&self, triangle: &Triangle) -> f64 {
         let mut least = f64::INFINITY;
         for piece in self.pieces.iter().take_while(|piece| piece.diameter < f64::INFINITY) {
@@ -104,7 +105,7 @@ impl Field {
     }
 }
 
-/// What visible layers ask for at a point before gradation.
+/// Returns the target diameter of the visible layers at a point, before gradation.
 pub fn combined(layers: &[Definition], bounds: &Bounds, point: DVec2) -> f64 {
     let mut target = f64::INFINITY;
     for layer in layers {
@@ -121,7 +122,8 @@ pub fn combined(layers: &[Definition], bounds: &Bounds, point: DVec2) -> f64 {
     if target == f64::INFINITY { bounds.unasked } else { target.max(bounds.h_min).min(bounds.h_max) }
 }
 
-/// Whether a closed triangle and a closed rectangle have a common point: no side of either separates them.
+/// Returns whether a closed triangle and a closed rectangle have a common point: no side of either separates
+/// them.
 pub fn touches(triangle: &Triangle, min: Point, max: Point) -> bool {
     for axis in 0..2 {
         let places = triangle.map(|corner| corner[axis]);
@@ -141,7 +143,7 @@ pub fn touches(triangle: &Triangle, min: Point, max: Point) -> bool {
     })
 }
 
-/// The distance between a triangle and a rectangle without a common point.
+/// Returns the distance between a triangle and a rectangle without a common point.
 fn distance(triangle: [DVec2; 3], min: DVec2, max: DVec2) -> f64 {
     let mut least = f64::INFINITY;
     for n in 0..3 {

@@ -6,7 +6,7 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use std::sync::Arc;
 
-/// The unsaved work in a folder.
+/// Returns the unsaved work in a folder.
 fn abandoned(folder: &Path) -> Vec<Abandoned> {
     let work = |left| match left {
         Left::Work(work) => *work,

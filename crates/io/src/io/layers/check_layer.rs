@@ -1,38 +1,76 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::checks::{number_where, point, points, positive_length, rect_of, rings};
-use super::saved::{SavedDistanceTo, SavedKind, SavedPolygon, SavedQuantity};
-use super::spec::usual_name;
 use super::{
-    DistanceTo, FindFile, KeyFault, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading,
-    SavedLayer, SavedShape, SavedThreat, ShapeSpec, Step, ThreatsSpec,
+    RasterFile, RasterFormat, SavedDistanceTo, SavedKind, SavedLayer, SavedPolygon, SavedQuantity,
+    SavedShape, SavedThreat,
 };
+use crate::io::KeyFault;
+use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{Threat, ThreatError};
+use meshbrush_core::layers::{RasterReading, ShapeList, Threat, ThreatError, ValueCurve};
 
-/// Finds the files of a recipe; `None` for a layer of a project, which holds all data itself: there `file` is
-/// only a name for a person.
-type Files<'a> = Option<&'a FindFile<'a>>;
+/// Finds a file by the name that a text gives it. Errors are sentences.
+pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
+
+/// Where the data of a layer are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// In files, or in place.
+    InFiles,
+    /// In the project that the layer belongs to: pixels and paint in parts, everything else in place. `file`
+    /// is only a name for a person.
+    InProject,
+}
+
+/// The kind of a layer with its checked values; files were not read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CheckedKind {
+    /// Paint.
+    Paint,
+    /// A formula in x and y.
+    Formula(Formula),
+    /// Values by pixel, and what they mean.
+    Raster(RasterReading),
+    /// Points with a range; none where they are in a file.
+    Threats(Option<Vec<Threat>>),
+    /// A diameter that grows with the distance.
+    Distance(CheckedShapes, Growth),
+    /// A diameter that grows with the distance from a strip of this width, in world units.
+    Corridor(CheckedShapes, Growth, f64),
+    /// One diameter, in world units, where a raster's value lies between two numbers.
+    Band([f64; 2], f64),
+}
+
+/// The target of a distance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CheckedShapes {
+    /// The boundary of the domain.
+    Outline,
+    /// The shapes of the layer's file.
+    File,
+    /// Shapes in place.
+    InPlace(ShapeList),
+}
+
+/// How a target diameter grows with a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Target diameter at distance 0, in world units.
+    pub at_zero: f64,
+    /// Growth of the target diameter by unit of distance, dimensionless.
+    pub slope: f64,
+    /// The distance beyond which nothing is asked for, in world units; infinite without a limit.
+    pub range: f64,
+}
 
 impl SavedLayer {
-    /// Checks every value of a layer whose data are in files.
+    /// Checks every value.
     ///
     /// # Errors
-    /// For the first key that does not suit the kind, is missing, or has a value that cannot be used.
-    pub fn checked(&self, find: &FindFile) -> Result<LayerSpec, KeyFault> {
-        self.spec(Some(find))
-    }
-
-    /// Checks every value of a layer of a project: paint and pixels are parts of the project, and everything
-    /// else is in place.
-    ///
-    /// # Errors
-    /// As [`Self::checked`].
-    pub fn checked_in_project(&self) -> Result<LayerSpec, KeyFault> {
-        self.spec(None)
-    }
-
-    fn spec(&self, files: Files) -> Result<LayerSpec, KeyFault> {
+    /// Fails for the first key that does not suit the kind, is missing, or has a value that cannot be used.
+    pub fn checked(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {
         let kind = self.kind;
         if let Some(key) = self.given().find(|key| !kind.keys().contains(key)) {
             let (word, keys) = (kind.word(), kind.keys().join(", "));
@@ -41,70 +79,61 @@ impl SavedLayer {
                 format!("a layer of the kind \"{word}\" has no `{key}`; its own keys are {keys}."),
             ));
         }
-        Ok(LayerSpec {
-            name: self.name.clone().unwrap_or_else(|| usual_name(kind).to_owned()),
-            visible: self.visible,
-            locked: self.locked,
-            combine: self.combine.into(),
-            mask: self.mask(files)?,
-            kind: match kind {
-                SavedKind::Paint => self.paint(files)?,
-                SavedKind::Formula => self.formula()?,
-                SavedKind::Raster => self.raster(files)?,
-                SavedKind::Threats => self.threats(files)?,
-                SavedKind::Distance => self.distance(files)?,
-                SavedKind::Corridor => self.corridor(files)?,
-                SavedKind::Band => self.band(files)?,
-            },
+        self.mask_in_place()?;
+        Ok(match kind {
+            SavedKind::Paint => self.paint()?,
+            SavedKind::Formula => self.checked_formula()?,
+            SavedKind::Raster => self.raster(stored)?,
+            SavedKind::Threats => self.checked_threats()?,
+            SavedKind::Distance => CheckedKind::Distance(self.distance_to(stored)?, self.growth()?),
+            SavedKind::Corridor => {
+                let along = self.along()?;
+                let width = self.length("width", self.width)?;
+                CheckedKind::Corridor(along, self.growth()?, width)
+            }
+            SavedKind::Band => self.band(stored)?,
         })
     }
 
-    fn mask(&self, files: Files) -> Result<Option<MaskSpec>, KeyFault> {
+    /// Returns the polygons of the mask, if they are in place.
+    pub(super) fn mask_in_place(&self) -> Result<Option<Vec<Polygon>>, KeyFault> {
         match (&self.mask, &self.mask_file) {
-            (None, None) => Ok(None),
+            (None, _) => Ok(None),
             (Some(_), Some(_)) => {
                 Err(KeyFault::key("mask_file", "a layer has `mask` or `mask_file`, not both."))
             }
-            (None, Some(file)) => Ok(Some(MaskSpec::File(found("mask_file", file, files)?))),
+            (Some(polygons), None) if polygons.is_empty() => {
+                Err(KeyFault::value("mask", "a mask needs a polygon at least; leave it out to mask nothing."))
+            }
             (Some(polygons), None) => {
-                if polygons.is_empty() {
-                    return Err(KeyFault::value(
-                        "mask",
-                        "a mask needs a polygon at least; leave it out to mask nothing.",
-                    ));
-                }
-                each("mask", polygons, |polygon: &SavedPolygon| rings(polygon))
-                    .map(|polygons| Some(MaskSpec::Polygons(polygons)))
+                each("mask", polygons, |polygon: &SavedPolygon| rings(polygon)).map(Some)
             }
         }
     }
 
-    fn paint(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let quantity = self.needed("quantity", self.quantity)?.into();
+    fn paint(&self) -> Result<CheckedKind, KeyFault> {
+        self.needed("quantity", self.quantity)?;
         if self.file.is_none() && self.layer.is_some() {
             return Err(KeyFault::key(
                 "layer",
                 "`layer` names a layer of the project `file`, which is missing.",
             ));
         }
-        let path = self.file.as_ref().map(|_| self.found(files)).transpose()?;
-        let own_name = self.name.as_deref().unwrap_or(usual_name(self.kind));
-        let layer = self.layer.as_deref().unwrap_or(own_name);
-        Ok(KindSpec::Paint { quantity, from: path.map(|path| (path, layer.to_owned())) })
+        Ok(CheckedKind::Paint)
     }
 
-    fn formula(&self) -> Result<KindSpec, KeyFault> {
-        let quantity = self.needed("quantity", self.quantity)?.into();
+    fn checked_formula(&self) -> Result<CheckedKind, KeyFault> {
+        self.needed("quantity", self.quantity)?;
         let text = self.needed("formula", self.formula.as_deref())?;
-        Ok(KindSpec::Formula { quantity, formula: compiled("formula", text)? })
+        compiled("formula", text).map(CheckedKind::Formula)
     }
 
-    fn raster(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let raster = self.raster_file(files)?;
+    fn raster(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {
+        self.check_raster_file(stored)?;
         let reading = match (self.read_as, &self.curve) {
             (Some(SavedQuantity::Risk), None) => RasterReading::Risk,
             (Some(SavedQuantity::Diameter), None) => RasterReading::Diameter,
-            (None, Some(knots)) => RasterReading::Curve(curve(knots)?),
+            (None, Some(knots)) => RasterReading::Curve(Arc::new(curve(knots)?)),
             (Some(_), Some(_)) => {
                 return Err(KeyFault::key("curve", "a raster has `as` or `curve`, not both."));
             }
@@ -113,38 +142,30 @@ impl SavedLayer {
                 return Err(self.missing(&format!("{needs}, as in curve = [[0, 0.1], [50, 2]]")));
             }
         };
-        Ok(KindSpec::Raster { raster, reading })
+        Ok(CheckedKind::Raster(reading))
     }
 
-    fn threats(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let spec = match (&self.file, &self.threats) {
-            (Some(_), None) => ThreatsSpec::File(self.found(files)?),
-            (None, Some(list)) => ThreatsSpec::List(checked_threats(list)?),
+    fn checked_threats(&self) -> Result<CheckedKind, KeyFault> {
+        match (&self.file, &self.threats) {
+            (Some(_), None) => Ok(CheckedKind::Threats(None)),
+            (None, Some(list)) => threats(list).map(|list| CheckedKind::Threats(Some(list))),
             (Some(_), Some(_)) => {
-                return Err(KeyFault::key(
-                    "threats",
-                    "the threats are in `file` or in `threats`, not in both.",
-                ));
+                Err(KeyFault::key("threats", "the threats are in `file` or in `threats`, not in both."))
             }
             (None, None) => {
-                return Err(
-                    self.missing("needs `file`, a .csv, or `threats`, a list of { x, y, range, peak, law }")
-                );
+                let needs = "needs `file`, a .csv, or `threats`, a list of { x, y, range, peak, law }";
+                Err(self.missing(needs))
             }
-        };
-        Ok(KindSpec::Threats(spec))
+        }
     }
 
-    fn distance(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let to = match (self.to, &self.file, &self.shapes) {
-            (Some(SavedDistanceTo::Outline), None, None) => DistanceTo::Outline,
-            (None, Some(_), None) => DistanceTo::File(self.found(files)?),
-            (None, file, Some(shapes)) if file.is_none() || files.is_none() => {
-                let name = file.clone().unwrap_or_default();
-                DistanceTo::Shapes { name, shapes: each("shapes", shapes, SavedShape::checked)? }
-            }
+    fn distance_to(&self, stored: Stored) -> Result<CheckedShapes, KeyFault> {
+        match (self.to, &self.file, &self.shapes) {
+            (Some(SavedDistanceTo::Outline), None, None) => Ok(CheckedShapes::Outline),
+            (None, Some(_), None) => Ok(CheckedShapes::File),
+            (None, file, Some(shapes)) if file.is_none() || stored == Stored::InProject => shapes_of(shapes),
             (None, None, None) => {
-                return Err(self.missing("needs to = \"outline\", `file`, a .geojson, or `shapes`"));
+                Err(self.missing("needs to = \"outline\", `file`, a .geojson, or `shapes`"))
             }
             (to, _, shapes) => {
                 let key = if to.is_some() {
@@ -154,67 +175,60 @@ impl SavedLayer {
                 } else {
                     "file"
                 };
-                return Err(KeyFault::key(key, "a distance has one of `to`, `file` and `shapes`."));
+                Err(KeyFault::key(key, "a distance has one of `to`, `file` and `shapes`."))
             }
-        };
-        self.growing(to)
+        }
     }
 
-    fn corridor(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let along = match (&self.file, &self.shapes) {
-            (Some(_), None) => DistanceTo::File(self.found(files)?),
-            (None, Some(shapes)) => DistanceTo::Shapes {
-                name: String::new(),
-                shapes: each("shapes", shapes, SavedShape::checked)?,
-            },
-            (None, None) => return Err(self.missing("needs `file`, a .geojson, or `shapes`")),
-            (Some(_), Some(_)) => {
-                return Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`."));
-            }
-        };
-        let width = self.length("width", self.width)?;
-        self.growing(DistanceTo::Corridor { along: Box::new(along), width })
+    fn along(&self) -> Result<CheckedShapes, KeyFault> {
+        match (&self.file, &self.shapes) {
+            (Some(_), None) => Ok(CheckedShapes::File),
+            (None, Some(shapes)) => shapes_of(shapes),
+            (None, None) => Err(self.missing("needs `file`, a .geojson, or `shapes`")),
+            (Some(_), Some(_)) => Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`.")),
+        }
     }
 
-    /// A target diameter that grows with a distance.
-    fn growing(&self, to: DistanceTo) -> Result<KindSpec, KeyFault> {
+    fn growth(&self) -> Result<Growth, KeyFault> {
         let at_zero = self.length("at_zero", self.at_zero)?;
         let slope = self.needed("slope", self.slope)?;
         let rule = "the growth by unit of distance must be 0 or more, and finite";
-        number_where(slope, slope >= 0.0, rule).map_err(|sentence| KeyFault::value("slope", sentence))?;
+        number_where(slope, slope >= 0.0, rule).map_err(|fault| fault.within("slope"))?;
         let range = self.range.map(|range| self.length("range", Some(range))).transpose()?;
-        Ok(KindSpec::Distance { to, at_zero, slope, range })
+        Ok(Growth { at_zero, slope, range: range.unwrap_or(f64::INFINITY) })
     }
 
-    fn band(&self, files: Files) -> Result<KindSpec, KeyFault> {
-        let raster = self.raster_file(files)?;
+    fn band(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {
+        self.check_raster_file(stored)?;
         let between @ [least, greatest] = self.needed("between", self.between)?;
         if !(least.is_finite() && greatest.is_finite()) || least > greatest {
             let sentence = "write two finite numbers, the least value first.";
             return Err(KeyFault::value("between", sentence));
         }
-        Ok(KindSpec::Band { raster, between, diameter: self.length("diameter", self.diameter)? })
+        Ok(CheckedKind::Band(between, self.length("diameter", self.diameter)?))
     }
 
-    fn raster_file(&self, files: Files) -> Result<RasterFile, KeyFault> {
-        let path = self.found(files)?;
-        if files.is_none() {
-            return Ok(RasterFile { path, format: RasterFormat::Part, bounds: None });
+    fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {
+        self.needed("file", self.file.as_ref())?;
+        if stored == Stored::InFiles { self.raster_file().map(|_| ()) } else { Ok(()) }
+    }
+
+    /// Returns the file with its pixels.
+    ///
+    /// # Errors
+    /// Fails when it is missing, or is no raster.
+    pub fn raster_file(&self) -> Result<RasterFile, KeyFault> {
+        let path = self.needed("file", self.file.clone())?;
+        let bounds = self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))?;
+        match RasterFormat::of(&path) {
+            Ok(format) => Ok(RasterFile { path, format, bounds }),
+            Err(rule) => Err(KeyFault { given: Some(String::new()), ..KeyFault::value("file", rule) }),
         }
-        let format = RasterFormat::of(&path).map_err(|sentence| KeyFault::value("file", sentence))?;
-        let bounds = self.bounds.map(rect_of).transpose();
-        let bounds = bounds.map_err(|sentence| KeyFault::value("bounds", sentence))?;
-        Ok(RasterFile { path, format, bounds })
-    }
-
-    /// The file that holds the data.
-    fn found(&self, files: Files) -> Result<PathBuf, KeyFault> {
-        found("file", self.needed("file", self.file.as_deref())?, files)
     }
 
     fn length(&self, key: &'static str, value: Option<f64>) -> Result<f64, KeyFault> {
         let value = self.needed(key, value)?;
-        positive_length(value).map_err(|sentence| KeyFault::value(key, sentence))
+        positive_length(value).map_err(|fault| fault.within(key))
     }
 
     fn needed<T>(&self, key: &'static str, value: Option<T>) -> Result<T, KeyFault> {
@@ -224,18 +238,18 @@ impl SavedLayer {
     fn missing(&self, needs: &str) -> KeyFault {
         KeyFault::entry("kind", format!("a layer of the kind \"{}\" {needs}.", self.kind.word()))
     }
-}
 
-/// The file that a key names.
-fn found(key: &'static str, name: &str, files: Files) -> Result<PathBuf, KeyFault> {
-    let found = files.map_or_else(|| Ok(name.into()), |find| find(name));
-    found.map_err(|sentence| KeyFault::entry(key, sentence))
+    /// Returns the name of its file without folders, for a person; empty where there is none.
+    pub fn file_name(&self) -> String {
+        let path = self.file.as_deref().unwrap_or(Path::new(""));
+        path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    }
 }
 
 /// Compiles a formula.
 ///
 /// # Errors
-/// With the lines that point at the mistake.
+/// Fails with the lines that point at the mistake.
 pub fn compiled(key: &'static str, text: &str) -> Result<Formula, KeyFault> {
     Formula::parse(text).map_err(|mistake| {
         let pointer = Some(mistake.pointer().to_owned());
@@ -246,57 +260,64 @@ pub fn compiled(key: &'static str, text: &str) -> Result<Formula, KeyFault> {
 /// Checks each entry of a list.
 ///
 /// # Errors
-/// For the first one that cannot be used, with its place in the list.
+/// Fails for the first one that cannot be used, with its place in the list.
 pub fn each<T, U>(
     key: &'static str,
     list: &[T],
-    check: impl Fn(&T) -> Result<U, String>,
+    check: impl Fn(&T) -> Result<U, KeyFault>,
 ) -> Result<Vec<U>, KeyFault> {
-    let checked = |(index, entry)| {
-        check(entry).map_err(|sentence| KeyFault::value(key, sentence).at(Step::Index(index)))
-    };
+    let checked = |(index, entry)| check(entry).map_err(|fault| fault.within(index).within(key));
     list.iter().enumerate().map(checked).collect()
 }
 
-fn curve(knots: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, KeyFault> {
+fn curve(knots: &[[f64; 2]]) -> Result<ValueCurve, KeyFault> {
     if knots.is_empty() {
         return Err(KeyFault::value("curve", "a curve needs one pair [value, diameter] at least."));
     }
     each("curve", knots, |&[value, diameter]| {
         number_where(value, true, "a value of the raster must be finite")?;
-        positive_length(diameter).map(|_| [value, diameter])
+        positive_length(diameter).map(|_| ())
     })?;
     let unordered = knots.windows(2).position(|pair| pair[0][0] >= pair[1][0]);
     if let Some(first) = unordered {
         let sentence = "the values of a curve must ascend, and none may come twice.";
-        return Err(KeyFault::value("curve", sentence).at(Step::Index(first + 1)));
+        return Err(KeyFault::value("curve", sentence).at(first + 1));
     }
-    Ok(knots.to_vec())
+    ValueCurve::new(knots.to_vec()).map_err(|error| KeyFault::value("curve", error.to_string()))
 }
 
-fn checked_threats(list: &[SavedThreat]) -> Result<Vec<Threat>, KeyFault> {
-    let checked = |(index, saved): (usize, &SavedThreat)| {
+fn threats(list: &[SavedThreat]) -> Result<Vec<Threat>, KeyFault> {
+    each("threats", list, |saved| {
         let threat = Threat::from(*saved);
-        let fault = |error: ThreatError| {
-            let key = match error {
-                ThreatError::Place { x, .. } if !x.is_finite() => "x",
-                ThreatError::Place { .. } => "y",
-                ThreatError::Range(_) => "range",
-                ThreatError::Peak(_) => "peak",
-            };
-            KeyFault::value("threats", error.to_string()).at(Step::Index(index)).at(Step::Key(key))
+        let key = |error: &ThreatError| match error {
+            ThreatError::Place { x, .. } if !x.is_finite() => "x",
+            ThreatError::Place { .. } => "y",
+            ThreatError::Range(_) => "range",
+            ThreatError::Peak(_) => "peak",
         };
-        threat.check().map(|()| threat).map_err(fault)
-    };
-    list.iter().enumerate().map(checked).collect()
+        threat.check().map(|()| threat).map_err(|error| KeyFault::value(key(&error), error.to_string()))
+    })
+}
+
+fn shapes_of(shapes: &[SavedShape]) -> Result<CheckedShapes, KeyFault> {
+    let mut list = ShapeList::default();
+    each("shapes", shapes, |shape| shape.check())?;
+    for shape in shapes {
+        match shape {
+            SavedShape::Point(at) => list.points.push((*at).into()),
+            SavedShape::Line(along) => list.lines.push(along.iter().copied().map(Into::into).collect()),
+            SavedShape::Polygon(polygon) => list.polygons.push(rings(polygon)?),
+        }
+    }
+    Ok(CheckedShapes::InPlace(list))
 }
 
 impl SavedShape {
-    fn checked(&self) -> Result<ShapeSpec, String> {
+    fn check(&self) -> Result<(), KeyFault> {
         match self {
-            Self::Point(at) => point(*at).map(ShapeSpec::Point),
-            Self::Line(along) => points(along, 2, "a line").map(ShapeSpec::Line),
-            Self::Polygon(polygon) => rings(polygon).map(ShapeSpec::Polygon),
+            Self::Point(at) => point(*at).map(|_| ()),
+            Self::Line(along) => points(along, 2, "a line").map(|_| ()),
+            Self::Polygon(polygon) => rings(polygon).map(|_| ()),
         }
     }
 }

@@ -1,69 +1,73 @@
-//! Checks of single values. Errors are sentences without the name of the value.
+//! Checks of single values. The path of a fault begins at the value.
 
 use glam::DVec2;
 
+use crate::io::KeyFault;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::Number;
 
-/// A length in world units.
+/// Returns a length in world units.
 ///
 /// # Errors
-/// When it is not positive or not finite.
-pub fn positive_length(value: f64) -> Result<f64, String> {
+/// Fails when it is not positive or not finite.
+pub fn positive_length(value: f64) -> Result<f64, KeyFault> {
     let rule = "a length must be positive and finite";
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused(value, rule)) }
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(KeyFault::refused(value, rule)) }
 }
 
-/// A number in a range, which the sentence describes.
-pub(super) fn number_where(value: f64, holds: bool, rule: &str) -> Result<f64, String> {
-    if holds && value.is_finite() { Ok(value) } else { Err(refused(value, rule)) }
+/// Returns a number in a range, which the sentence describes.
+pub(super) fn number_where(value: f64, holds: bool, rule: &str) -> Result<f64, KeyFault> {
+    if holds && value.is_finite() { Ok(value) } else { Err(KeyFault::refused(value, rule)) }
 }
 
-fn refused(value: f64, rule: &str) -> String {
-    format!("{} cannot be used: {rule}.", Number(value))
-}
-
-/// The rectangle of x₀, y₀, x₁, y₁.
+/// Returns the rectangle of x₀, y₀, x₁, y₁.
 ///
 /// # Errors
-/// When a number is not finite, or the first corner is not the lower left one.
-pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, String> {
+/// Fails when a number is not finite, or the first corner is not the lower left one.
+pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, KeyFault> {
     let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
     if rect.is_proper() && rect.size().is_finite() {
         return Ok(rect);
     }
-    Err("these are no rectangle: write [x0, y0, x1, y1] with finite numbers, x0 less than x1 and y0 less \
-         than y1."
-        .into())
+    Err(KeyFault::here(
+        "these are no rectangle: write [x0, y0, x1, y1] with finite numbers, x0 less than x1 and y0 less than y1.",
+    ))
 }
 
-/// A point of finite coordinates, in world units.
+/// Returns a point of finite coordinates, in world units.
 ///
 /// # Errors
-/// When a coordinate is not finite.
-pub fn point([x, y]: [f64; 2]) -> Result<DVec2, String> {
+/// Fails when a coordinate is not finite.
+pub fn point([x, y]: [f64; 2]) -> Result<DVec2, KeyFault> {
     let point = DVec2::new(x, y);
-    if point.is_finite() { Ok(point) } else { Err("both coordinates of a point must be finite.".into()) }
+    if point.is_finite() {
+        Ok(point)
+    } else {
+        Err(KeyFault::here("both coordinates of a point must be finite."))
+    }
 }
 
-/// The points of a line, a ring or a path, in world units. `what` begins the sentence of an error.
+/// Returns the points of a line, a ring or a path, in world units. `what` begins the sentence of an error.
 ///
 /// # Errors
-/// When there are fewer than `least`, or a coordinate is not finite.
-pub fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Result<Vec<DVec2>, String> {
+/// Fails when there are fewer than `least`, or a coordinate is not finite.
+pub fn points(coordinates: &[[f64; 2]], least: usize, what: &str) -> Result<Vec<DVec2>, KeyFault> {
     if coordinates.len() < least {
-        return Err(format!("{what} needs {least} points at least, and this one has {}.", coordinates.len()));
+        let count = coordinates.len();
+        return Err(KeyFault::here(format!(
+            "{what} needs {least} points at least, and this one has {count}."
+        )));
     }
     coordinates.iter().copied().map(point).collect()
 }
 
-/// A polygon from its rings, the outer one first, with the first point repeated at the end of a ring or not.
+/// Returns a polygon from its rings, the outer one first, with the first point repeated at the end of a ring
+/// or not.
 ///
 /// # Errors
-/// A sentence, when there is no ring, a ring has too few points, or a coordinate is not finite.
-pub fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, String> {
+/// Fails with a sentence when there is no ring, a ring has too few points, or a coordinate is not finite.
+pub fn rings(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Vec<DVec2>>, KeyFault> {
     if rings.is_empty() {
-        return Err("a polygon needs its outer ring, a list of points.".into());
+        return Err(KeyFault::here("a polygon needs its outer ring, a list of points."));
     }
     let open = |ring: &Vec<[f64; 2]>| {
         let closed = ring.len() > 1 && ring.first() == ring.last();

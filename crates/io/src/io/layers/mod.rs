@@ -1,8 +1,7 @@
 //! The vocabulary of layers in text: in recipes (TOML) and in the settings of a project (JSON).
 //!
-//! [`SavedLayer`] is a layer as the text has it, [`LayerSpec`] the same with every value checked and every
-//! formula compiled. Neither reads the files that a layer names:
-//! [`LayerSpec::load`] makes a layer of the stack with the data of a [`LayerData`].
+//! [`SavedLayer`] is a layer as the text has it. [`SavedLayer::load`] checks its values and makes a layer of
+//! the stack, with the data of a [`LayerData`]: files, or the parts of a project.
 //!
 //! | `kind` | keys besides `name`, `visible`, `locked`, `combine`, `mask`, `mask_file` |
 //! |---|---|
@@ -16,25 +15,18 @@
 
 mod check_layer;
 mod checks;
-mod fault;
-mod files;
-mod load;
+mod fill;
+mod rasters;
 mod saved;
-mod spec;
 #[cfg(test)]
 mod tests;
-mod values;
+mod words;
 
-pub use check_layer::{compiled, each};
+pub use check_layer::{CheckedKind, CheckedShapes, FindFile, Growth, Stored, compiled, each};
 pub use checks::{point, points, positive_length, rect_of, rings};
-pub use fault::{KeyFault, Mark, Step};
-pub use files::{GridFiles, LayerError, LayerFiles};
-pub use load::{LayerData, TextError};
-pub use saved::{
-    SavedCombine, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat, saved_polygon,
+pub use fill::{LayerData, TextError};
+pub use rasters::{
+    RasterError, RasterFile, RasterFormat, RasterFrame, RasterLoader, RasterValues, check_values,
 };
-pub use spec::{
-    DistanceTo, FindFile, KindSpec, LayerSpec, MaskSpec, RasterFile, RasterFormat, RasterReading, ShapeSpec,
-    ThreatsSpec,
-};
-pub use values::check_values;
+pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat, saved_polygon};
+pub use words::{SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};

@@ -1,10 +1,11 @@
+use std::path::PathBuf;
+
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::{RasterFormat, RasterValues, SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerKind, Quantity, RasterReading, ShapeList, Threat, ThreatLaw,
-};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Threat, ThreatLaw};
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,7 +30,7 @@ pub struct SavedLayer {
     pub mask: Option<Vec<SavedPolygon>>,
     /// Where it counts: a file with polygons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mask_file: Option<String>,
+    pub mask_file: Option<PathBuf>,
     /// What the values of paint or of a formula mean.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quantity: Option<SavedQuantity>,
@@ -38,7 +39,7 @@ pub struct SavedLayer {
     pub formula: Option<String>,
     /// The file that holds the data.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
+    pub file: Option<PathBuf>,
     /// The name of a paint layer in `file`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<String>,
@@ -83,57 +84,6 @@ pub struct SavedLayer {
 /// A polygon: its rings, the outer one first, and their points.
 pub type SavedPolygon = Vec<Vec<[f64; 2]>>;
 
-/// The kinds of layers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedKind {
-    /// What is painted.
-    Paint,
-    /// A formula in x and y.
-    Formula,
-    /// Values by pixel.
-    Raster,
-    /// Points with a range.
-    Threats,
-    /// The distance to shapes.
-    Distance,
-    /// The distance to a strip along lines.
-    Corridor,
-    /// One diameter where a raster's value lies between two numbers.
-    Band,
-}
-
-/// See [`Combine`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedCombine {
-    /// The smaller target diameter counts.
-    #[default]
-    Finest,
-    /// Nothing below gets finer.
-    Floor,
-    /// The layer alone counts.
-    Replace,
-}
-
-/// See [`Quantity`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedQuantity {
-    /// Risk, 0 to 1.
-    Risk,
-    /// Target diameter in world units.
-    Diameter,
-}
-
-/// What a distance is to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedDistanceTo {
-    /// The boundary of the domain.
-    Outline,
-}
-
 /// A threat.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table such as { x = 1, y = 2, range = 3 }")]
@@ -152,19 +102,6 @@ pub struct SavedThreat {
     pub law: SavedLaw,
 }
 
-/// How the risk of a threat falls with the distance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SavedLaw {
-    /// See [`ThreatLaw::Radar`].
-    #[default]
-    Radar,
-    /// See [`ThreatLaw::Gaussian`].
-    Gaussian,
-    /// See [`ThreatLaw::Disc`].
-    Disc,
-}
-
 /// A point, line or polygon.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -177,36 +114,8 @@ pub enum SavedShape {
     Polygon(SavedPolygon),
 }
 
-impl SavedKind {
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Paint => "paint",
-            Self::Formula => "formula",
-            Self::Raster => "raster",
-            Self::Threats => "threats",
-            Self::Distance => "distance",
-            Self::Corridor => "corridor",
-            Self::Band => "band",
-        }
-    }
-
-    /// The keys of this kind alone.
-    pub fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Paint => &["quantity", "file", "layer"],
-            Self::Formula => &["quantity", "formula"],
-            Self::Raster => &["file", "bounds", "as", "curve"],
-            Self::Threats => &["file", "threats"],
-            Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
-            Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
-            Self::Band => &["file", "bounds", "between", "diameter"],
-        }
-    }
-}
-
 impl SavedLayer {
-    /// A visible layer of a kind, with no other key.
+    /// Returns a visible layer of a kind, with no other key.
     pub fn of_kind(kind: SavedKind) -> Self {
         Self {
             kind,
@@ -235,8 +144,8 @@ impl SavedLayer {
         }
     }
 
-    /// A layer of a stack, but for data that has no form as text: `file` names where that is.
-    pub fn of(layer: &Layer, file: Option<String>) -> Self {
+    /// Returns a layer of a stack, but for data that has no form as text: `file` names where that is.
+    pub fn of(layer: &Layer, file: Option<PathBuf>) -> Self {
         let kind = match &layer.kind {
             LayerKind::Paint(quantity) => {
                 Self { quantity: Some((*quantity).into()), ..Self::of_kind(SavedKind::Paint) }
@@ -259,7 +168,7 @@ impl SavedLayer {
                 ..Self::of_kind(SavedKind::Raster)
             },
             LayerKind::Threats(threats) => {
-                let threats = threats.list().iter().map(SavedThreat::of).collect();
+                let threats = threats.list().iter().copied().map(SavedThreat::from).collect();
                 Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
             }
             LayerKind::Distance { to, at_zero, slope, range } => Self {
@@ -290,7 +199,49 @@ impl SavedLayer {
         }
     }
 
-    /// The keys that are given and belong to some kinds only.
+    /// Returns the name of the layer, or the usual one of its kind.
+    pub fn shown_name(&self) -> &str {
+        self.name.as_deref().unwrap_or(self.kind.usual_name())
+    }
+
+    /// Returns whether it is painted.
+    pub fn is_paint(&self) -> bool {
+        self.kind == SavedKind::Paint
+    }
+
+    /// Returns whether it is a formula.
+    pub fn is_formula(&self) -> bool {
+        self.kind == SavedKind::Formula
+    }
+
+    /// Returns whether it needs both ends of the scale from the smallest to the largest target diameter.
+    pub fn uses_scale(&self) -> bool {
+        let is_image =
+            || self.file.as_ref().is_some_and(|file| RasterFormat::of(file) == Ok(RasterFormat::Png));
+        self.is_risk() || (self.read_as == Some(SavedQuantity::Diameter) && is_image())
+    }
+
+    /// Returns whether it asks for risk.
+    pub fn is_risk(&self) -> bool {
+        match self.kind {
+            SavedKind::Paint | SavedKind::Formula => self.quantity == Some(SavedQuantity::Risk),
+            SavedKind::Raster => self.read_as == Some(SavedQuantity::Risk),
+            SavedKind::Threats => true,
+            SavedKind::Distance | SavedKind::Corridor | SavedKind::Band => false,
+        }
+    }
+
+    /// Returns the kind of the values of its raster, if it reads one.
+    pub fn raster_values(&self) -> Option<RasterValues> {
+        match (self.kind, self.read_as) {
+            (SavedKind::Raster, Some(SavedQuantity::Risk)) => Some(RasterValues::Risk),
+            (SavedKind::Raster, Some(SavedQuantity::Diameter)) => Some(RasterValues::Diameter),
+            (SavedKind::Raster | SavedKind::Band, _) => Some(RasterValues::Any),
+            _ => None,
+        }
+    }
+
+    /// Returns the keys that are given and belong to some kinds only.
     pub fn given(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("quantity", self.quantity.is_some()),
@@ -314,17 +265,6 @@ impl SavedLayer {
     }
 }
 
-impl SavedThreat {
-    fn of(threat: &Threat) -> Self {
-        let law = match threat.law {
-            ThreatLaw::Radar => SavedLaw::Radar,
-            ThreatLaw::Gaussian => SavedLaw::Gaussian,
-            ThreatLaw::Disc => SavedLaw::Disc,
-        };
-        Self { x: threat.at.x, y: threat.at.y, range: threat.range, peak: threat.peak, law }
-    }
-}
-
 impl SavedShape {
     fn of_list(list: &ShapeList) -> Vec<Self> {
         let points = list.points.iter().map(|point| Self::Point(point.to_array()));
@@ -334,53 +274,9 @@ impl SavedShape {
     }
 }
 
-/// A polygon as a text has it.
+/// Returns a polygon as a text has it.
 pub fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
     polygon.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
-}
-
-impl SavedCombine {
-    fn is_usual(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
-impl From<SavedCombine> for Combine {
-    fn from(saved: SavedCombine) -> Self {
-        match saved {
-            SavedCombine::Finest => Self::Finest,
-            SavedCombine::Floor => Self::Floor,
-            SavedCombine::Replace => Self::Replace,
-        }
-    }
-}
-
-impl From<Combine> for SavedCombine {
-    fn from(combine: Combine) -> Self {
-        match combine {
-            Combine::Finest => Self::Finest,
-            Combine::Floor => Self::Floor,
-            Combine::Replace => Self::Replace,
-        }
-    }
-}
-
-impl From<SavedQuantity> for Quantity {
-    fn from(saved: SavedQuantity) -> Self {
-        match saved {
-            SavedQuantity::Risk => Self::Risk,
-            SavedQuantity::Diameter => Self::Diameter,
-        }
-    }
-}
-
-impl From<Quantity> for SavedQuantity {
-    fn from(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::Risk => Self::Risk,
-            Quantity::Diameter => Self::Diameter,
-        }
-    }
 }
 
 impl From<SavedThreat> for Threat {

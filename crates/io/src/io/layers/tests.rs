@@ -1,53 +1,50 @@
-use std::path::PathBuf;
+use std::path::Path;
+use std::sync::Arc;
 
 use super::*;
-
-/// Every file is there but those whose name begins with "gone".
-fn find(name: &str) -> Result<PathBuf, String> {
-    if name.starts_with("gone") { Err(format!("{name} is not there.")) } else { Ok(name.into()) }
-}
+use crate::io::KeyFault;
+use meshbrush_core::domain::Polygon;
+use meshbrush_core::layers::{LayerId, ShapeList, Threat};
+use meshbrush_core::raster::RasterPyramid;
 
 fn saved(json: &str) -> SavedLayer {
     serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"))
 }
 
-fn checked(json: &str) -> Result<LayerSpec, String> {
-    saved(json).checked(&find).map_err(|fault| fault.to_string())
+fn checked(json: &str) -> Result<CheckedKind, String> {
+    saved(json).checked(Stored::InFiles).map_err(|fault| fault.to_string())
 }
 
 #[test]
 fn every_kind_is_read_from_its_keys() {
     let full = r#"{ "kind": "formula", "quantity": "risk", "formula": "x", "name": "Storm", "visible": false,
         "locked": true, "combine": "replace", "mask": [[[[0, 0], [4, 0], [4, 3], [0, 0]]]] }"#;
-    let layer = checked(full).unwrap();
-    assert_eq!((layer.name.as_str(), layer.visible, layer.locked), ("Storm", false, true));
-    assert_eq!(layer.combine, meshbrush_core::layers::Combine::Replace);
-    let Some(MaskSpec::Polygons(polygons)) = &layer.mask else { panic!("{layer:?}") };
+    let layer = saved(full);
+    assert_eq!((layer.shown_name(), layer.visible, layer.locked), ("Storm", false, true));
+    assert_eq!(layer.combine, SavedCombine::Replace);
+    let polygons = layer.mask_in_place().unwrap().unwrap();
     assert_eq!(polygons[0][0].len(), 3, "the repeated first point is removed");
     for (json, expected) in [
-        (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Paint { quantity: Diameter, from: None }"),
-        (
-            r#"{ "kind": "raster", "file": "depth.asc", "curve": [[0, 0.1], [50, 2]] }"#,
-            "Raster { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, reading: Curve([[0.0, 0.1], [50.0, 2.0]]) }",
-        ),
+        (r#"{ "kind": "paint", "quantity": "diameter" }"#, "Paint"),
         (
             r#"{ "kind": "threats", "threats": [{ "x": 1, "y": 2, "range": 3 }] }"#,
-            "Threats(List([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",
+            "Threats(Some([Threat { at: DVec2(1.0, 2.0), range: 3.0, peak: 1.0, law: Radar }]))",
         ),
+        (r#"{ "kind": "threats", "file": "a.csv" }"#, "Threats(None)"),
         (
             r#"{ "kind": "distance", "to": "outline", "at_zero": 0.1, "slope": 0.2 }"#,
-            "Distance { to: Outline, at_zero: 0.1, slope: 0.2, range: None }",
+            "Distance(Outline, Growth { at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
             r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
-            "Distance { to: Shapes { name: \"\", shapes: [Point(DVec2(1.0, 2.0))] }, at_zero: 0.1, slope: 0.0, range: Some(5.0) }",
+            "Distance(InPlace(ShapeList { points: [DVec2(1.0, 2.0)], lines: [], polygons: [] }), Growth { at_zero: 0.1, slope: 0.0, range: 5.0 })",
         ),
         (
             r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,
-            "Band { raster: RasterFile { path: \"depth.asc\", format: Asc, bounds: None }, between: [-20.0, 0.0], diameter: 0.5 }",
+            "Band([-20.0, 0.0], 0.5)",
         ),
     ] {
-        assert_eq!(format!("{:?}", checked(json).unwrap().kind), expected, "{json}");
+        assert_eq!(format!("{:?}", checked(json).unwrap()), expected, "{json}");
     }
 }
 
@@ -73,7 +70,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             "slope: a layer of the kind \"paint\" has no `slope`",
         ),
         (r#"{ "kind": "formula", "quantity": "risk", "formula": "sqr(x)" }"#, "formula: There is no `sqr`"),
-        (r#"{ "kind": "raster", "file": "gone.asc", "as": "risk" }"#, "file: gone.asc is not there."),
+        (
+            r#"{ "kind": "raster", "file": "a.tif", "as": "risk" }"#,
+            "file: a raster is a .png or an .asc file.",
+        ),
         (
             r#"{ "kind": "raster", "file": "a.asc" }"#,
             "kind: a layer of the kind \"raster\" says what its values mean",
@@ -140,7 +140,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 /// Every key of every kind is a key of the table, and each kind refuses the keys of the others.
 #[test]
 fn the_kinds_and_their_keys_agree() {
-    use super::saved::SavedKind::*;
+    use super::SavedKind::*;
     let all = [Paint, Formula, Raster, Threats, Distance, Band];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
@@ -165,7 +165,7 @@ fn the_kinds_and_their_keys_agree() {
 
 #[test]
 fn a_layer_of_a_stack_is_saved() {
-    use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Quantity};
+    use meshbrush_core::layers::{Combine, Layer, LayerKind, Quantity};
     let formula = meshbrush_core::field::Formula::parse("x + 1").unwrap();
     let kind = LayerKind::Formula { quantity: Quantity::Diameter, formula };
     let layer = Layer {
@@ -180,6 +180,62 @@ fn a_layer_of_a_stack_is_saved() {
     let json = serde_json::to_string(&SavedLayer::of(&layer, None)).unwrap();
     let expected = r#"{"kind":"formula","name":"Open sea","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x + 1"}"#;
     assert_eq!(json, expected);
-    let spec = checked(&json).unwrap();
-    assert_eq!((spec.name, spec.combine, spec.locked), (layer.name, Combine::Floor, true));
+    assert_eq!(saved(&json).load(layer.id, &mut InMemory).unwrap(), layer);
+}
+
+/// Layers that have all data in place.
+struct InMemory;
+
+impl LayerData for InMemory {
+    type Error = Fault;
+
+    const STORED: Stored = Stored::InFiles;
+
+    fn raster(&mut self, _: &SavedLayer) -> Result<Arc<RasterPyramid>, Fault> {
+        unreachable!("no layer has a raster")
+    }
+
+    fn threats(&mut self, _: &Path) -> Result<Vec<Threat>, Fault> {
+        unreachable!("threats are in place")
+    }
+
+    fn shapes(&mut self, _: &Path) -> Result<ShapeList, Fault> {
+        unreachable!("shapes are in place")
+    }
+
+    fn polygons(&mut self, _: &Path) -> Result<Vec<Polygon>, Fault> {
+        unreachable!("masks are in place")
+    }
+}
+
+#[derive(Debug)]
+struct Fault(#[allow(dead_code)] String);
+
+impl From<KeyFault> for Fault {
+    fn from(fault: KeyFault) -> Self {
+        Self(fault.to_string())
+    }
+}
+
+impl From<TextError> for Fault {
+    fn from(error: TextError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// Whatever a layer of a stack has in place is there again when its text is read.
+#[test]
+fn a_layer_is_the_same_when_its_text_is_read() {
+    for json in [
+        r#"{"kind":"formula","name":"A","visible":false,"locked":true,"combine":"floor","quantity":"diameter","formula":"x"}"#,
+        r#"{"kind":"threats","name":"T","mask":[[[[0,0],[4,0],[4,3]]]],"threats":[{"x":1,"y":2,"range":3,"peak":0.5,"law":"disc"}]}"#,
+        r#"{"kind":"distance","name":"D","to":"outline","at_zero":0.1,"slope":0.2,"range":3}"#,
+        r#"{"kind":"distance","name":"S","shapes":[{"line":[[0,0],[1,1]]},{"polygon":[[[0,0],[1,0],[0,1]]]}],"at_zero":0.1,"slope":0.2}"#,
+        r#"{"kind":"corridor","name":"C","shapes":[{"line":[[0,0],[1,1]]}],"width":0.3,"at_zero":0.1,"slope":0.2}"#,
+        r#"{"kind":"paint","name":"P","quantity":"risk"}"#,
+    ] {
+        let layer = saved(json).load(LayerId(7), &mut InMemory).unwrap();
+        let again = SavedLayer::of(&layer, None).load(LayerId(7), &mut InMemory).unwrap();
+        assert_eq!(again, layer, "{json}");
+    }
 }

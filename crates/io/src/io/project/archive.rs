@@ -14,6 +14,8 @@ use flate2::write::DeflateEncoder;
 use super::super::{Flaw, Meter};
 use meshbrush_mesh::text::excerpt;
 
+/// The bytes with which every archive begins.
+pub const FIRST_BYTES: &[u8] = b"PK\x03\x04";
 const LOCAL: u32 = u32::from_le_bytes(*b"PK\x03\x04");
 const CENTRAL: u32 = u32::from_le_bytes(*b"PK\x01\x02");
 const END: u32 = u32::from_le_bytes(*b"PK\x05\x06");
@@ -44,10 +46,10 @@ impl<'a> Archive<'a> {
     /// Reads the directory without unpacking anything.
     ///
     /// # Errors
-    /// When the bytes are not an archive, are cut off or damaged, or use features of the format that are not
-    /// supported.
+    /// Fails when the bytes are not an archive, are cut off or damaged, or use features of the format that
+    /// are not supported.
     pub fn open(bytes: &'a [u8]) -> Result<Self, Flaw> {
-        if !bytes.starts_with(&LOCAL.to_le_bytes()) {
+        if !bytes.starts_with(FIRST_BYTES) {
             return Err(Flaw::Syntax(match bytes {
                 [] => "the file is empty. Use another copy.".into(),
                 _ => "this is not a Meshbrush project.".into(),
@@ -74,14 +76,14 @@ impl<'a> Archive<'a> {
         if rest.is_empty() { Ok(Self(parts)) } else { Err(Flaw::Damaged) }
     }
 
-    /// The part with this name.
+    /// Returns the part with this name.
     pub fn part(&self, name: &str) -> Option<&Part<'a>> {
         self.0.iter().find(|(other, _)| *other == name).map(|(_, part)| part)
     }
 }
 
 impl<'a> Part<'a> {
-    /// The number of bytes in the archive.
+    /// Returns the number of bytes in the archive.
     pub fn packed_bytes(&self) -> u64 {
         self.packed.len() as u64
     }
@@ -91,11 +93,11 @@ impl<'a> Part<'a> {
         self.size
     }
 
-    /// A reader that unpacks the part. The meter counts the packed bytes. Memory is allocated for what is
-    /// read, not for what is declared.
+    /// Returns a reader that unpacks the part. The meter counts the packed bytes. Memory is allocated for
+    /// what is read, not for what is declared.
     ///
     /// # Errors
-    /// When the part declares more than `most` bytes.
+    /// Fails when the part declares more than `most` bytes.
     pub fn unpack(&self, most: u64, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
         if self.size > most {
             return Err(Flaw::Syntax(format!(
@@ -111,10 +113,10 @@ impl<'a> Part<'a> {
         Ok(Unpacking { bytes, left: self.size, crc: Hasher::new(), expected: self.crc })
     }
 
-    /// All bytes of the part.
+    /// Returns all bytes of the part.
     ///
     /// # Errors
-    /// As [`Self::unpack`], and when the bytes are damaged.
+    /// Fails as [`Self::unpack`] does, and when the bytes are damaged.
     pub fn bytes(&self, most: u64, meter: &Meter) -> Result<Vec<u8>, Flaw> {
         let mut unpacking = self.unpack(most, meter)?;
         let mut bytes = Vec::new();
@@ -143,7 +145,7 @@ impl Read for Unpacking<'_> {
 }
 
 impl Unpacking<'_> {
-    /// Whether all declared bytes were read.
+    /// Returns whether all declared bytes were read.
     pub fn is_at_end(&self) -> bool {
         self.left == 0
     }
@@ -151,7 +153,7 @@ impl Unpacking<'_> {
     /// Checks the part after its last byte.
     ///
     /// # Errors
-    /// When bytes are left, or the checksum does not match.
+    /// Fails when bytes are left, or the checksum does not match.
     pub fn finish(mut self) -> Result<(), Flaw> {
         let surplus = self.bytes.read(&mut [0]).map_err(|_| Flaw::Damaged)?;
         let valid = self.left == 0 && surplus == 0 && self.crc.finalize() == self.expected;
@@ -159,7 +161,7 @@ impl Unpacking<'_> {
     }
 }
 
-/// The position of the end record, whose comment must end exactly at the end of the file.
+/// Returns the position of the end record, whose comment must end exactly at the end of the file.
 fn end_record(bytes: &[u8]) -> Option<usize> {
     let last = bytes.len().checked_sub(END_BYTES)?;
     let first = last.saturating_sub(usize::from(u16::MAX));
@@ -221,7 +223,7 @@ pub struct ArchiveWriter<W> {
 }
 
 impl<W: Write> ArchiveWriter<W> {
-    /// An archive without parts.
+    /// Creates an archive without parts.
     pub fn new(out: W) -> Self {
         Self { out, written: 0, directory: Vec::new(), count: 0 }
     }
@@ -229,8 +231,8 @@ impl<W: Write> ArchiveWriter<W> {
     /// Adds a part. The meter counts its bytes before packing.
     ///
     /// # Errors
-    /// Errors of the output and of `write`, when the archive would pass 4 GiB, and when the work was
-    /// cancelled.
+    /// Fails with the errors of the output and of `write`, when the archive would pass 4 GiB, and when the
+    /// work was cancelled.
     pub fn add(
         &mut self,
         name: &str,
@@ -267,7 +269,7 @@ impl<W: Write> ArchiveWriter<W> {
     /// Writes the directory, which completes the archive.
     ///
     /// # Errors
-    /// Errors of the output.
+    /// Fails with the errors of the output.
     pub fn finish(mut self) -> io::Result<()> {
         let mut end = END.to_le_bytes().to_vec();
         for word in [0, 0, self.count, self.count] {
@@ -297,12 +299,12 @@ pub struct Packing {
 }
 
 impl Packing {
-    /// A part without bytes.
+    /// Creates a part without bytes.
     pub fn new() -> Self {
         Self { packed: DeflateEncoder::new(Vec::new(), Compression::new(4)), crc: Hasher::new(), size: 0 }
     }
 
-    /// The packed bytes, and the number and CRC-32 of the bytes before packing.
+    /// Returns the packed bytes, and the number and CRC-32 of the bytes before packing.
     fn finish(self) -> io::Result<(Vec<u8>, u64, u32)> {
         Ok((self.packed.finish()?, self.size, self.crc.finalize()))
     }

@@ -19,8 +19,8 @@ use meshbrush_mesh::geometry::Rect;
 /// Settings as values of JSON, but for polygons and the pixels of rasters.
 pub type SettingsValues = Map<String, Value>;
 
-/// The values of settings, with the keys of `settings.json`. Rasters and the background picture have the
-/// given names.
+/// Returns the values of settings, with the keys of `settings.json`. Rasters and the background picture have
+/// the given names.
 pub fn values_of(settings: &Settings, names: &PartNames) -> SettingsValues {
     match serde_json::to_value(Saved::of(settings, names)) {
         Ok(Value::Object(values)) => values,
@@ -28,12 +28,12 @@ pub fn values_of(settings: &Settings, names: &PartNames) -> SettingsValues {
     }
 }
 
-/// The settings with these values, after all checks.
+/// Returns the settings with these values, after all checks.
 ///
 /// `polygons` are those of the domain, if it has any; `pixels` is an archive of [`write_pixels`].
 ///
 /// # Errors
-/// As for settings in a project.
+/// Fails as for settings in a project.
 pub fn settings_of(
     values: &SettingsValues,
     polygons: Option<Vec<Polygon>>,
@@ -51,7 +51,7 @@ pub fn settings_of(
 /// anything in it.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_pixels(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<bool> {
     let new = names.add(&project.settings);
     let mut pixels = parts(project, names, &new);
@@ -60,10 +60,10 @@ pub fn write_pixels(out: &mut dyn Write, project: &Project, names: &mut PartName
     Ok(!pixels.is_empty())
 }
 
-/// The paint of such an archive.
+/// Returns the paint of such an archive.
 ///
 /// # Errors
-/// When it is damaged.
+/// Fails when it is damaged.
 pub fn paint_of(pixels: Option<&[u8]>, settings: &Settings) -> Result<PaintLayers, PlacedFlaw> {
     paint(&archive_of(pixels)?, settings, &Meter::default())
 }

@@ -35,8 +35,8 @@ const PLACES: [(&str, &str); 26] = [
     ("layers.layer.shapes", r#"{"layers":[{"layer":{"shapes":[{"qqqq":1}]}}]}"#),
 ];
 
-/// What the present version has. Where this differs, raise [`VERSION`]: an older program would say that a key
-/// is unknown, in place of "written by a newer program".
+/// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
+/// key is unknown, in place of "written by a newer program".
 const KEYS_OF_VERSION: (u64, &str) = (3, KEYS);
 
 const KEYS: &str = "\

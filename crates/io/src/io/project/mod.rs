@@ -69,12 +69,12 @@ const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";
 const DOMAIN: &str = "domain.geojson";
-/// What errors call a part with the pixels of a raster.
+/// The name of a part with the pixels of a raster in error messages.
 const RASTER: &str = "raster";
 const BASE_RISK: &str = "base.risk";
 const BASE_DIAMETER: &str = "base.diameter";
 const BACKGROUND: &str = "background.png";
-/// What errors call the parts with paint.
+/// The name of the parts with paint in error messages.
 const PAINT: &str = "paint";
 const OLD_TILES: &str = "paint.tiles";
 
@@ -99,15 +99,15 @@ pub struct Project {
 }
 
 impl Project {
-    /// The current state of a document, the current stroke included.
+    /// Returns the current state of a document, the current stroke included.
     pub fn of(document: &Document) -> Self {
         Self { settings: document.settings().clone(), paint: document.paint().clone() }
     }
 
-    /// The document, with an empty history.
+    /// Returns the document, with an empty history.
     ///
     /// # Errors
-    /// A sentence for a person, when the settings are out of range.
+    /// Fails with a sentence for a person when the settings are out of range.
     pub fn into_document(self) -> Result<Document, String> {
         Document::new(self.settings, Some(self.paint)).map_err(|error| error.to_string())
     }
@@ -116,30 +116,36 @@ impl Project {
 /// Reads a document.
 ///
 /// # Errors
-/// When the file cannot be read, is not a project, is cut off or damaged, was written by a newer program, or
-/// has values that no document can have.
+/// Fails when the file cannot be read, is not a project, is cut off or damaged, was written by a newer
+/// program, or has values that no document can have.
 pub fn read(path: &Path) -> Result<Document, ReadError> {
     read_metered(path, &Meter::default())
 }
 
-/// As [`read`]; the bytes of the file are counted when they are read, and again when they are unpacked.
+/// Reads a project as [`read`] does. The bytes of the file are counted when they are read, and again when
+/// they are unpacked.
 ///
 /// # Errors
-/// As [`read`], and when the work was cancelled.
+/// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Document, ReadError> {
     read_stamped(path, meter).map(|(document, _)| document)
 }
 
-/// As [`read_metered`], with the stamp of the file's bytes.
+/// Reads a project as [`read_metered`] does, and returns also the stamp of the file's bytes.
 ///
 /// # Errors
-/// As [`read_metered`].
+/// Fails as [`read_metered`] does.
 pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp), ReadError> {
     let bytes = || -> Result<Vec<u8>, PlacedFlaw> {
         let mut bytes = Vec::new();
         let file = File::open(path)?;
         meter.expect(2 * file.metadata()?.len());
-        meter.count(file.take(MOST_BYTES + 1)).read_to_end(&mut bytes)?;
+        let mut file = meter.count(file.take(MOST_BYTES + 1));
+        (&mut file).take(archive::FIRST_BYTES.len() as u64).read_to_end(&mut bytes)?;
+        if bytes != archive::FIRST_BYTES {
+            return Ok(bytes); // another kind of file, however long: these bytes suffice to refuse it
+        }
+        file.read_to_end(&mut bytes)?;
         if bytes.len() as u64 > MOST_BYTES {
             let limit = MOST_BYTES >> 20;
             return Err(Flaw::Syntax(format!(
@@ -163,7 +169,7 @@ pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp),
 /// Reads a project from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
     parse(bytes, &Meter::default()).map_err(|flaw| flaw.in_file(name))
 }
@@ -171,7 +177,7 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// Writes a project.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
     write_named(out, project, &mut PartNames::default())
 }
@@ -179,7 +185,7 @@ pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
 /// Writes a project without the rasters and pictures that have a name already, and names the others.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub(super) fn write_named(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<()> {
     let new = names.add(&project.settings);
     write_parts(out, &parts(project, names, &new), &Meter::default())
@@ -188,7 +194,7 @@ pub(super) fn write_named(out: &mut dyn Write, project: &Project, names: &mut Pa
 /// Writes a project as [`write()`] does, and counts the bytes before packing.
 ///
 /// # Errors
-/// As [`write()`], and when the work was cancelled.
+/// Fails as [`write()`] does, and when the work was cancelled.
 pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> io::Result<()> {
     let mut names = PartNames::default();
     let new = names.add(&project.settings);
@@ -233,7 +239,7 @@ fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a NewParts) -> V
     parts
 }
 
-/// The part with the pixels of a paint layer.
+/// Returns the part with the pixels of a paint layer.
 fn paint_part(id: LayerId) -> String {
     format!("paint.{}", id.0)
 }
@@ -270,7 +276,7 @@ pub(super) fn parse_named(bytes: &[u8], names: &mut PartNames, meter: &Meter) ->
     Ok(Project { settings, paint })
 }
 
-/// The pixels of the paint layers.
+/// Returns the pixels of the paint layers.
 fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintLayers, PlacedFlaw> {
     let mut paint = PaintLayers::default();
     let mut allowance = Allowance::for_parts(paint_parts(archive, settings).map(|(_, _, part)| part));
@@ -285,7 +291,7 @@ fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintL
     Ok(paint)
 }
 
-/// The parts with paint, and the layers that they belong to.
+/// Returns the parts with paint, and the layers that they belong to.
 fn paint_parts<'b, 'a>(
     archive: &'b Archive<'a>,
     settings: &'b Settings,
@@ -294,7 +300,7 @@ fn paint_parts<'b, 'a>(
     settings.layers.iter().filter_map(part)
 }
 
-/// The pixels of the paint in version 1.
+/// Returns the pixels of the paint in version 1.
 fn old_paint(archive: &Archive, size: [u32; 2], bounds: Rect, meter: &Meter) -> Result<PaintLayers, Flaw> {
     let part = archive.part(OLD_TILES).ok_or(Flaw::Damaged)?;
     let mut unpacking = part.unpack(pixels::most_tile_bytes(size), meter)?;
@@ -313,7 +319,7 @@ fn old_paint(archive: &Archive, size: [u32; 2], bounds: Rect, meter: &Meter) -> 
 /// Writes an archive of the tiles in which the paint of layers differs from an earlier state.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub(super) fn write_paint_changes(
     out: &mut dyn Write,
     before: &PaintLayers,
@@ -333,7 +339,7 @@ pub(super) fn write_paint_changes(
 /// Reads such an archive into the paint of layers.
 ///
 /// # Errors
-/// When it is damaged. Some of the changes may then be made.
+/// Fails when it is damaged. Some of the changes may then be made.
 pub(super) fn read_paint_changes(
     bytes: &[u8],
     settings: &Settings,

@@ -23,7 +23,7 @@ pub struct TilePixels {
     pub diameter: Box<[f32]>,
 }
 
-/// The pixels of a tile, in a raster of `size` = [columns, rows].
+/// Returns the pixels of a tile, in a raster of `size` = [columns, rows].
 pub fn tile_area(place: TilePlace, size: [u32; 2]) -> PixelRect {
     let min = place.map(|n| n * TILE);
     PixelRect { min, max: [(min[0] + TILE).min(size[0]), (min[1] + TILE).min(size[1])] }

@@ -1,4 +1,4 @@
-//! What projects of version 1 had in place of the layers: one base field, and two rasters of paint.
+//! Projects of version 1, which had one base field and two rasters of paint in place of the layers.
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub(super) struct SavedRaster {
 }
 
 impl SavedRaster {
-    /// The place and the size of the raster.
+    /// Returns the place and the size of the raster.
     fn checked(&self) -> Result<(Rect, [u32; 2]), PlacedFlaw> {
         let size = checked_size([self.columns, self.rows])?;
         Ok((rect("base", self.bounds)?, size))
@@ -50,7 +50,7 @@ impl SavedRaster {
 pub(super) const OLD_PAINT: [LayerId; 2] = [LayerId(1), LayerId(2)];
 
 impl SavedBase {
-    /// The layers that version 1 had: the base, and paint over it.
+    /// Returns the layers that version 1 had: the base, and paint over it.
     pub(super) fn into_layers(self, parts: &mut impl Parts) -> Result<Vec<Layer>, PlacedFlaw> {
         let mut raster = |saved: SavedRaster, reading: RasterReading| -> Result<_, PlacedFlaw> {
             let (bounds, size) = saved.checked()?;
@@ -70,10 +70,10 @@ impl SavedBase {
 }
 
 impl Saved {
-    /// The size of the paint in a project of version 1: [columns, rows]. `None` in newer ones.
+    /// Returns the size of the paint in a project of version 1: [columns, rows]. `None` in newer ones.
     ///
     /// # Errors
-    /// When the resolution is one that no such project had.
+    /// Fails when the resolution is one that no such project had.
     pub(super) fn old_paint_size(&self) -> Result<Option<[u32; 2]>, PlacedFlaw> {
         let Some(resolution) = self.resolution else { return Ok(None) };
         if !OLD_RESOLUTIONS.contains(&resolution) {

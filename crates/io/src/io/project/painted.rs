@@ -25,17 +25,17 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// The allowance for a file with these parts of paint.
+    /// Returns the allowance for a file with these parts of paint.
     pub fn for_parts<'p, 'a: 'p>(parts: impl Iterator<Item = &'p Part<'a>>) -> Self {
         let packed: u64 = parts.map(Part::packed_bytes).sum();
         let total = ALWAYS_ALLOWED.max(packed.saturating_mul(MOST_RATIO));
         Self { total, left: total }
     }
 
-    /// A reader that unpacks a part.
+    /// Returns a reader that unpacks a part.
     ///
     /// # Errors
-    /// When it declares more bytes than are left.
+    /// Fails when it declares more bytes than are left.
     pub fn unpack<'a>(&mut self, part: &Part<'a>, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
         let size = part.declared_bytes();
         self.left = self.left.checked_sub(size).ok_or_else(|| {
@@ -52,7 +52,7 @@ impl Allowance {
 /// Writes all pixels of a layer.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write(out: &mut dyn Write, raster: &TiledRaster) -> io::Result<()> {
     write_grid(out, raster.grid())?;
     tiled::write_raster(out, raster)
@@ -61,13 +61,13 @@ pub fn write(out: &mut dyn Write, raster: &TiledRaster) -> io::Result<()> {
 /// Reads all pixels of a layer.
 ///
 /// # Errors
-/// When they are damaged, or have a value that cannot be painted.
+/// Fails when they are damaged, or have a value that cannot be painted.
 pub fn read(input: &mut Unpacking, quantity: Quantity) -> Result<TiledRaster, Flaw> {
     let grid = read_grid(input)?;
     tiled::read_raster(input, grid, quantity)
 }
 
-/// The tiles in which a raster differs from an earlier state.
+/// Returns the tiles in which a raster differs from an earlier state.
 pub fn changes(before: Option<&TiledRaster>, after: &TiledRaster) -> ChangedTiles {
     let mut changes = ChangedTiles::new();
     for (place, tile) in after.tiles() {
@@ -87,7 +87,7 @@ pub fn changes(before: Option<&TiledRaster>, after: &TiledRaster) -> ChangedTile
 /// Writes changes of a layer.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_changes(out: &mut dyn Write, raster: &TiledRaster, changes: &ChangedTiles) -> io::Result<()> {
     write_grid(out, raster.grid())?;
     tiled::write_changes(out, changes)
@@ -96,7 +96,7 @@ pub fn write_changes(out: &mut dyn Write, raster: &TiledRaster, changes: &Change
 /// Reads changes of a layer, and the grid of its pixels.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<(PixelGrid, ChangedTiles), Flaw> {
     Ok((read_grid(input)?, tiled::read_changes(input, quantity)?))
 }

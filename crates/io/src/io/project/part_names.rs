@@ -13,7 +13,7 @@ pub(in super::super) struct PartNames {
     pictures: Vec<(String, Arc<Picture>)>,
 }
 
-/// What has no part yet.
+/// Data that have no part yet.
 #[derive(Debug, Default)]
 pub(super) struct NewParts {
     pub rasters: Vec<(String, Arc<RasterPyramid>)>,
@@ -44,24 +44,24 @@ impl PartNames {
         new
     }
 
-    /// The name of a raster; empty if it has none.
+    /// Returns the name of a raster; empty if it has none.
     pub(super) fn of_raster(&self, raster: &Arc<RasterPyramid>) -> &str {
         let found = self.rasters.iter().find(|(_, other)| Arc::ptr_eq(raster, other));
         found.map_or("", |(name, _)| name)
     }
 
-    /// The name of a picture; empty if it has none.
+    /// Returns the name of a picture; empty if it has none.
     pub(super) fn of_picture(&self, picture: &Arc<Picture>) -> &str {
         let found = self.pictures.iter().find(|(_, other)| Arc::ptr_eq(picture, other));
         found.map_or("", |(name, _)| name)
     }
 
-    /// The raster that was read or written under a name.
+    /// Returns the raster that was read or written under a name.
     pub(super) fn raster(&self, name: &str) -> Option<&Arc<RasterPyramid>> {
         self.rasters.iter().find(|(other, _)| other == name).map(|(_, raster)| raster)
     }
 
-    /// The picture that was read or written under a name.
+    /// Returns the picture that was read or written under a name.
     pub(super) fn picture(&self, name: &str) -> Option<&Arc<Picture>> {
         self.pictures.iter().find(|(other, _)| other == name).map(|(_, picture)| picture)
     }

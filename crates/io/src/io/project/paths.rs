@@ -13,7 +13,7 @@ use meshbrush_core::layers::Mask;
 use meshbrush_core::path::Weights;
 use meshbrush_mesh::text::excerpt;
 
-/// Between which places, what they cost, and where they do not go.
+/// The waypoints, the cost and the keep-out regions of paths.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SavedPaths {
@@ -61,10 +61,10 @@ impl SavedPaths {
         self.routes.is_empty() && self.cost.is_none() && self.keep_out.is_empty()
     }
 
-    /// The paths; their places and weights are checked with all settings.
+    /// Returns the paths; their places and weights are checked with all settings.
     ///
     /// # Errors
-    /// When the formula or a region is not valid.
+    /// Fails when the formula or a region is not valid.
     pub(super) fn load(self) -> Result<Arc<PathPlan>, Flaw> {
         let route = |route: Vec<[f64; 2]>| route.into_iter().map(DVec2::from_array).collect();
         let cost = match self.cost {
@@ -89,8 +89,8 @@ impl SavedKeepOut {
     fn load(self) -> Result<KeepOut, Flaw> {
         let Self { name, polygons } = self;
         let polygons = polygons.iter().map(|polygon| rings(polygon)).collect::<Result<Vec<_>, _>>();
-        let mask =
-            polygons.and_then(|polygons: Vec<_>| Mask::new(&polygons).map_err(|error| error.to_string()));
+        let mask = polygons.map_err(|fault| fault.to_string());
+        let mask = mask.and_then(|polygons| Mask::new(&polygons).map_err(|error| error.to_string()));
         match mask {
             Ok(mask) => Ok(KeepOut { name, mask }),
             Err(problem) => {

@@ -13,7 +13,7 @@ use meshbrush_mesh::geometry::Rect;
 const RISK: u8 = 1;
 const DIAMETER: u8 = 2;
 
-/// Most bytes of the tiles of rasters with `size` = [columns, rows].
+/// Returns the most bytes of the tiles of rasters with `size` = [columns, rows].
 pub fn most_tile_bytes(size: [u32; 2]) -> u64 {
     let [columns, rows] = size.map(|side| u64::from(side.div_ceil(TILE)));
     columns * rows * (5 + 8 * u64::from(TILE * TILE))
@@ -22,7 +22,7 @@ pub fn most_tile_bytes(size: [u32; 2]) -> u64 {
 /// Reads all tiles of rasters with `size` = [columns, rows].
 ///
 /// # Errors
-/// When a tile lies outside the rasters or is out of order, or has a value that cannot be painted.
+/// Fails when a tile lies outside the rasters or is out of order, or has a value that cannot be painted.
 pub fn read_tiles(input: &mut Unpacking, size: [u32; 2]) -> Result<Tiles, Flaw> {
     let tiles_along = size.map(|side| side.div_ceil(TILE));
     let mut tiles = Tiles::new();
@@ -57,7 +57,7 @@ pub fn read_tiles(input: &mut Unpacking, size: [u32; 2]) -> Result<Tiles, Flaw> 
 /// Writes a raster row by row from the lowest.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
     raster.values().chunks_exact(raster.size()[0] as usize).try_for_each(|row| write_floats(out, row))
 }
@@ -65,7 +65,7 @@ pub fn write_raster(out: &mut dyn Write, raster: &Raster) -> io::Result<()> {
 /// Reads a raster of risks; places without a value are NaN.
 ///
 /// # Errors
-/// When the bytes end too early, or a value is not between 0 and 1.
+/// Fails when the bytes end too early, or a value is not between 0 and 1.
 pub fn read_risks(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
     read_raster(input, bounds, size, |value| value.is_nan() || is_risk(value), "risk")
 }
@@ -73,7 +73,7 @@ pub fn read_risks(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result
 /// Reads a raster of target diameters; where it asks for nothing they are infinite or NaN.
 ///
 /// # Errors
-/// When the bytes end too early, or a value is not positive.
+/// Fails when the bytes end too early, or a value is not positive.
 pub fn read_diameters(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
     read_raster(input, bounds, size, |value| value.is_nan() || value > 0.0, "target diameter")
 }
@@ -81,7 +81,7 @@ pub fn read_diameters(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Re
 /// Reads a raster of any values; NaN where it has none.
 ///
 /// # Errors
-/// When the bytes end too early.
+/// Fails when the bytes end too early.
 pub fn read_values(input: &mut Unpacking, bounds: Rect, size: [u32; 2]) -> Result<Raster, Flaw> {
     read_raster(input, bounds, size, |_| true, "value")
 }

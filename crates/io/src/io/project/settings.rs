@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::super::Flaw;
 use super::super::error::PlacedFlaw;
-use super::super::words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
+use super::super::json::{self, JsonFlaw};
+use super::super::settings::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::old_version::SavedBase;
 use super::part_names::PartNames;
 use super::paths::SavedPaths;
@@ -72,7 +73,7 @@ pub(super) struct Saved {
     gradation: Option<f64>,
     rule: SavedRule,
     max_triangles: usize,
-    /// In bytes.
+    /// The memory budget in bytes.
     max_memory: usize,
 }
 
@@ -181,18 +182,18 @@ pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
 
 /// Access to the other parts that the settings refer to.
 pub(super) trait Parts {
-    /// The polygons of the domain.
+    /// Returns the polygons of the domain.
     fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
-    /// The picture behind the mesh.
+    /// Returns the picture behind the mesh.
     fn background(&mut self, part: &str) -> Result<Arc<Picture>, PlacedFlaw>;
-    /// The pixels of a raster of [columns, rows], which layers read.
+    /// Returns the pixels of a raster of [columns, rows], which layers read.
     fn raster(&mut self, part: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
-    /// The pixels of the base field in version 1, likewise.
+    /// Returns the pixels of the base field in version 1, likewise.
     fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
 }
 
 impl Saved {
-    /// The settings, whose rasters and pictures have the given names.
+    /// Returns the settings, whose rasters and pictures have the given names.
     pub(super) fn of(settings: &Settings, names: &PartNames) -> Self {
         let Transfer { h_min, h_max, shape } = settings.transfer;
         Self {
@@ -234,9 +235,9 @@ impl Saved {
     /// Reads the text.
     ///
     /// # Errors
-    /// When it is not valid, or of a newer version: then the error says by which program.
+    /// Fails when it is not valid, or of a newer version: then the error says by which program.
     pub(super) fn parse(text: &[u8]) -> Result<Self, PlacedFlaw> {
-        let head: Head = serde_json::from_slice(text).map_err(placed)?;
+        let head: Head = json::parse(text).map_err(placed)?;
         if head.format != FORMAT {
             return Err(Flaw::Syntax(format!(
                 "its format is \"{}\" instead of {FORMAT:?}.",
@@ -258,10 +259,10 @@ impl Saved {
             ))
             .into());
         }
-        serde_json::from_slice(text).map_err(placed)
+        json::parse(text).map_err(placed)
     }
 
-    /// The settings, after all checks.
+    /// Returns the settings, after all checks.
     pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
         if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
             return Err(Flaw::Syntax(format!(
@@ -343,9 +344,6 @@ fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
     Flaw::Syntax(error.to_string()).into()
 }
 
-/// The error of serde_json with its line.
-fn placed(error: serde_json::Error) -> PlacedFlaw {
-    let text = error.to_string();
-    let problem = text.split(" at line ").next().unwrap_or(&text);
-    Flaw::Syntax(format!("the settings are not valid: {problem}.")).at(error.line().max(1))
+fn placed(JsonFlaw { sentence, line, .. }: JsonFlaw) -> PlacedFlaw {
+    Flaw::Syntax(format!("the settings are not valid: {sentence}")).at(line)
 }

@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::super::Flaw;
 use super::super::error::PlacedFlaw;
-use super::super::layers::{KindSpec, LayerData, LayerSpec, RasterFile, SavedLayer, TextError, check_values};
+use super::super::layers::{LayerData, SavedLayer, Stored, TextError, check_values};
+use super::super::{Flaw, KeyFault};
 use super::part_names::PartNames;
 use super::settings::{Parts, checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
@@ -73,20 +73,21 @@ impl StoredLayer {
             }
             _ => source.map(|source| source.name.clone()),
         };
-        Self { id: layer.id.0, layer: SavedLayer::of(layer, file), raster }
+        Self { id: layer.id.0, layer: SavedLayer::of(layer, file.map(Into::into)), raster }
     }
 
     pub(super) fn into_layer(self, parts: &mut impl Parts) -> Result<Layer, PlacedFlaw> {
         let Self { id, layer, raster } = self;
-        let name = layer.name.as_deref().unwrap_or(layer.kind.word());
-        let spec = layer.checked_in_project().map_err(|fault| {
-            PlacedFlaw::from(Flaw::Syntax(format!("the layer “{name}” is not valid. {fault}")))
+        let checked = layer.checked(Stored::InProject);
+        checked.map_err(|fault| {
+            let problem = format!("the layer “{}” is not valid. {fault}", layer.shown_name());
+            PlacedFlaw::from(Flaw::Syntax(problem))
         })?;
-        spec.load(LayerId(id), &mut InProject { parts, raster })
+        layer.load(LayerId(id), &mut InProject { parts, raster })
     }
 }
 
-/// The raster that a layer reads, if it reads one.
+/// Returns the raster that a layer reads, if it reads one.
 pub(super) fn raster_of(layer: &Layer) -> Option<&RasterSource> {
     match &layer.kind {
         LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => Some(source),
@@ -103,7 +104,9 @@ struct InProject<'a, P> {
 impl<P: Parts> LayerData for InProject<'_, P> {
     type Error = PlacedFlaw;
 
-    fn raster(&mut self, layer: &LayerSpec, _: &RasterFile) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
+    const STORED: Stored = Stored::InProject;
+
+    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
         let stored = self.raster.as_ref();
         let stored = stored.ok_or_else(|| layer.error("its pixels are not part of the project."))?;
         let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
@@ -113,13 +116,13 @@ impl<P: Parts> LayerData for InProject<'_, P> {
                     Flaw::Io(error) => Flaw::Io(error),
                     flaw => Flaw::Syntax(format!(
                         "the pixels of the layer “{}” cannot be read: {flaw}",
-                        layer.name
+                        layer.shown_name()
                     )),
                 };
                 PlacedFlaw { place, flaw }
             })?;
-        if let KindSpec::Raster { reading, .. } = &layer.kind {
-            check_values(&raster, reading).map_err(|problem| layer.error(problem))?;
+        if let Some(values) = layer.raster_values() {
+            check_values(&raster, values).map_err(|problem| layer.error(problem))?;
         }
         Ok(raster)
     }
@@ -141,6 +144,12 @@ fn not_in_place(file: &Path) -> PlacedFlaw {
     let problem = "a layer names the file";
     Flaw::Syntax(format!("{problem} {}, and a project holds the data of its layers itself.", file.display()))
         .into()
+}
+
+impl From<KeyFault> for PlacedFlaw {
+    fn from(fault: KeyFault) -> Self {
+        Flaw::Syntax(format!("the settings are not valid: {fault}")).into()
+    }
 }
 
 impl From<TextError> for PlacedFlaw {

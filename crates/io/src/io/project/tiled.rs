@@ -24,7 +24,7 @@ pub type ChangedTiles = BTreeMap<TilePlace, Option<Arc<Tile>>>;
 /// Writes all tiles of a raster.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_raster(out: &mut dyn Write, raster: &TiledRaster) -> io::Result<()> {
     raster.tiles().try_for_each(|(place, tile)| write_tile(out, place, Some(tile)))
 }
@@ -32,7 +32,7 @@ pub fn write_raster(out: &mut dyn Write, raster: &TiledRaster) -> io::Result<()>
 /// Writes the tiles that changed.
 ///
 /// # Errors
-/// Errors of `out`.
+/// Fails with the errors of `out`.
 pub fn write_changes(out: &mut dyn Write, tiles: &ChangedTiles) -> io::Result<()> {
     tiles.iter().try_for_each(|(&place, tile)| write_tile(out, place, tile.as_deref()))
 }
@@ -40,7 +40,7 @@ pub fn write_changes(out: &mut dyn Write, tiles: &ChangedTiles) -> io::Result<()
 /// Reads all tiles of a raster whose pixels of depth 0 lie on `grid`.
 ///
 /// # Errors
-/// As [`read_changes`], and when a tile is removed or lies over no tile of the next smaller depth.
+/// Fails as [`read_changes`] does, and when a tile is removed or lies over no tile of the next smaller depth.
 pub fn read_raster(input: &mut Unpacking, grid: PixelGrid, quantity: Quantity) -> Result<TiledRaster, Flaw> {
     let tiles = read_changes(input, quantity)?;
     let present = |(place, tile): (TilePlace, Option<Arc<Tile>>)| tile.map(|tile| (place, tile));
@@ -53,8 +53,8 @@ pub fn read_raster(input: &mut Unpacking, grid: PixelGrid, quantity: Quantity) -
 /// Reads tiles that changed.
 ///
 /// # Errors
-/// When the bytes end too early, a tile is beyond the limits of [`TilePlace::is_valid`] or out of order, or a
-/// value cannot be painted.
+/// Fails when the bytes end too early, a tile is beyond the limits of [`TilePlace::is_valid`] or out of
+/// order, or a value cannot be painted.
 pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<ChangedTiles, Flaw> {
     let mut tiles = ChangedTiles::new();
     while !input.is_at_end() {
@@ -73,8 +73,8 @@ pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<Changed
     Ok(tiles)
 }
 
-/// The raster with the pixels of a project of version 1: tiles of 64 × 64 pixels over `bounds`, which has
-/// `size` = [columns, rows] pixels.
+/// Returns the raster with the pixels of a project of version 1: tiles of 64 × 64 pixels over `bounds`, which
+/// has `size` = [columns, rows] pixels.
 pub fn from_old_tiles(bounds: &Rect, size: [u32; 2], tiles: &Tiles, quantity: Quantity) -> TiledRaster {
     let blank = quantity.blank();
     let mut raster = TiledRaster::new(PixelGrid::filling(bounds, size), blank);
@@ -154,7 +154,7 @@ mod tests {
         Rect::new(dvec2(-3.0, 2.0), dvec2(5.0, 8.0))
     }
 
-    /// A raster with tiles of several depths, on both sides of the grid's origin.
+    /// Returns a raster with tiles of several depths, on both sides of the grid's origin.
     fn painted(quantity: Quantity) -> TiledRaster {
         let medium = match quantity {
             Quantity::Risk => Medium::Risk(1.0),

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::atomic::{Draft, put_in_place};
-use super::super::layers::{SavedLayer, saved_polygon};
+use super::super::layers::SavedLayer;
 use super::super::project::{self, Project};
+use super::super::settings::{SavedKeepOut, SavedSettings};
 use super::super::{Meter, asc, geojson, shapes, threats};
-use super::{SavedKeepOut, SavedRecipe, to_text};
+use super::to_text;
 use meshbrush_core::document::{KeepOut, Settings};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
@@ -43,7 +44,7 @@ enum Content {
     Paint(Box<Project>),
 }
 
-/// What the value ∞ of a raster means.
+/// The meaning of the value ∞ of a raster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum AtInfinity {
     /// The layer asks for nothing, as where there is no value.
@@ -53,8 +54,8 @@ enum AtInfinity {
 }
 
 impl RecipeFiles {
-    /// The recipe of a document, at `path`. Files beside it are named after it and the layers: `coast.toml`
-    /// has `coast-slopes.asc`. Blank paint layers, which ask for nothing, are left out.
+    /// Returns the recipe of a document, at `path`. Files beside it are named after it and the layers:
+    /// `coast.toml` has `coast-slopes.asc`. Blank paint layers, which ask for nothing, are left out.
     pub fn new(project: &Project, path: &Path) -> Self {
         let mut plan = Plan::new(path);
         let Project { settings, paint } = project;
@@ -74,26 +75,30 @@ impl RecipeFiles {
                 (Some(_), Some(number)) => {
                     let layer_there = unique_names(&painted).swap_remove(number);
                     let saved = plan.layer(layer);
-                    layers.push(SavedLayer { file: paint_file.clone(), layer: Some(layer_there), ..saved });
+                    layers.push(SavedLayer {
+                        file: paint_file.clone().map(Into::into),
+                        layer: Some(layer_there),
+                        ..saved
+                    });
                 }
                 (Some(_), None) => {}
             }
         }
         let keep_out = settings.paths.keep_out.iter().map(|region| plan.keep_out(region)).collect();
         let region = region.as_deref().unwrap_or_default();
-        let recipe = SavedRecipe::of_settings(settings, region, layers, keep_out);
+        let recipe = SavedSettings::of(settings, region, layers, keep_out);
         plan.files.push((path.to_owned(), Content::Recipe(to_text(&recipe))));
         Self { files: plan.files, without_background: settings.background.is_some() }
     }
 
-    /// What of the document is in no recipe, as a sentence; none where nothing is left out.
+    /// Returns what of the document is in no recipe, as a sentence; none where nothing is left out.
     pub fn left_out(&self) -> Option<&'static str> {
         self.without_background.then_some(
             "Not saved in the recipe: the background picture. It does not change the mesh; a project keeps it.",
         )
     }
 
-    /// The files, the recipe last.
+    /// Returns the files, the recipe last.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.files.iter().map(|(path, _)| path.as_path())
     }
@@ -101,7 +106,7 @@ impl RecipeFiles {
     /// Writes all files, or none if that fails or is cancelled. Existing files are replaced.
     ///
     /// # Errors
-    /// Errors of the file system, and when the work was cancelled.
+    /// Fails with the errors of the file system, and when the work was cancelled.
     pub fn write(&self, meter: &Meter) -> io::Result<()> {
         let draft = |(path, content): &(PathBuf, Content)| {
             Draft::write(path, meter, |out| content.write(&mut meter.count(out)))
@@ -124,7 +129,7 @@ impl Content {
     }
 }
 
-/// The raster without infinite values, which the format does not have.
+/// Returns the raster without infinite values, which the format does not have.
 fn finite(raster: &Raster, infinity: AtInfinity) -> Raster {
     let value = |&value: &f32| match infinity {
         AtInfinity::Nothing if value == f32::INFINITY => f32::NAN,
@@ -161,7 +166,7 @@ impl Plan {
         name
     }
 
-    /// A layer as the recipe has it, with its data in place or in files.
+    /// Returns a layer as the recipe has it, with its data in place or in files.
     fn layer(&mut self, layer: &Layer) -> SavedLayer {
         let mut saved = SavedLayer::of(layer, None);
         match &layer.kind {
@@ -177,38 +182,40 @@ impl Plan {
             }
             LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
                 saved.threats = None;
-                saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())));
+                saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())).into());
             }
             LayerKind::Distance {
                 to: DistanceTo::Shapes { shapes, .. } | DistanceTo::Corridor { lines: shapes, .. },
                 ..
             } if point_count(shapes.list()) > MOST_IN_PLACE => {
                 saved.shapes = None;
-                saved.file = Some(self.add(&layer.name, GEOJSON, Content::Shapes(shapes.clone())));
+                saved.file = Some(self.add(&layer.name, GEOJSON, Content::Shapes(shapes.clone())).into());
             }
             _ => {}
         }
         if let Some(mask) = &layer.mask {
-            saved.mask_file = self.mask_file(mask, &format!("{} mask", layer.name));
+            saved.mask_file = self.mask_file(mask, &format!("{} mask", layer.name)).map(PathBuf::from);
             saved.mask = saved.mask.filter(|_| saved.mask_file.is_none());
         }
         saved
     }
 
-    /// A keep-out region as the recipe has it, with its polygons in place or in a file.
-    fn keep_out(&mut self, KeepOut { name, mask }: &KeepOut) -> SavedKeepOut {
-        let file = self.mask_file(mask, &format!("{name} keep-out"));
-        let polygons = file.is_none().then(|| mask.polygons().iter().map(saved_polygon).collect());
-        SavedKeepOut { name: Some(name.clone()), polygons, file }
+    /// Returns a keep-out region as the recipe has it, with its polygons in place or in a file.
+    fn keep_out(&mut self, region: &KeepOut) -> SavedKeepOut {
+        let in_place = SavedKeepOut::of(region);
+        match self.mask_file(&region.mask, &format!("{} keep-out", region.name)) {
+            Some(file) => SavedKeepOut { polygons: None, file: Some(file.into()), ..in_place },
+            None => in_place,
+        }
     }
 
-    /// The name of a file for the polygons of a mask, if they are too long for the recipe.
+    /// Returns the name of a file for the polygons of a mask, if they are too long for the recipe.
     fn mask_file(&mut self, mask: &Mask, what: &str) -> Option<String> {
         let is_long = mask.polygons().iter().flatten().flatten().count() > MOST_IN_PLACE;
         is_long.then(|| self.add(what, GEOJSON, Content::Polygons(mask.polygons().to_vec())))
     }
 
-    /// Layers that read the same raster name the same file.
+    /// Returns layers that read the same raster name the same file.
     fn put_grid(
         &mut self,
         saved: &mut SavedLayer,
@@ -228,13 +235,13 @@ impl Plan {
         });
         let raster = source.raster.raster();
         let Rect { min, max } = raster.bounds();
-        saved.file = Some(name);
+        saved.file = Some(name.into());
         saved.bounds =
             (asc::bounds_as_written(raster) != raster.bounds()).then_some([min.x, min.y, max.x, max.y]);
     }
 }
 
-/// A name as a part of a file name: lower-case letters, digits and hyphens.
+/// Returns a name as a part of a file name: lower-case letters, digits and hyphens.
 fn file_word(name: &str) -> String {
     let parts = name.split(|c: char| !c.is_alphanumeric()).filter(|part| !part.is_empty());
     let word = parts.collect::<Vec<_>>().join("-").to_lowercase();
@@ -251,7 +258,7 @@ fn is_painted(layer: &Layer, paint: &PaintLayers) -> bool {
     layer.paints().is_some() && paint.get(layer.id).is_some_and(|raster| !raster.is_blank())
 }
 
-/// A project with the paint alone, on layers of different names.
+/// Returns a project with the paint alone, on layers of different names.
 fn paint_project(settings: &Settings, painted: Vec<Layer>, paint: &PaintLayers) -> Project {
     let names = unique_names(&painted);
     let layers = painted.into_iter().zip(names).map(|(layer, name)| Layer { name, mask: None, ..layer });
@@ -259,7 +266,7 @@ fn paint_project(settings: &Settings, painted: Vec<Layer>, paint: &PaintLayers) 
     Project { settings, paint: paint.clone() }
 }
 
-/// The names of layers, with numbers where they would be alike.
+/// Returns the names of layers, with numbers where they would be alike.
 fn unique_names(layers: &[Layer]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for layer in layers {

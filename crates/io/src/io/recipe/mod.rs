@@ -2,18 +2,13 @@
 //!
 //! `docs/recipe.md` lists the keys. Files are named relative to the folder of the recipe.
 
-mod checked;
-mod description;
 mod export;
-mod load;
-mod of_settings;
+mod files;
+mod notes;
 mod open;
-mod paths;
-mod saved;
-mod text;
 #[cfg(test)]
 mod tests;
-mod wording;
+mod text;
 mod write;
 
 use std::fs::File;
@@ -21,18 +16,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::error::PlacedFlaw;
-pub use super::words::{SavedName, SavedRule, SavedUnit};
-use super::{Flaw, ReadError};
-pub use checked::{OutputSpec, Recipe, checked_gradation};
-pub use description::MeshDescription;
+use super::layers::FindFile;
+use super::settings::SavedSettings;
+use super::{Flaw, KeyFault, ReadError};
 pub use export::RecipeFiles;
-pub use load::{Described, DescriptionError, Loading};
+pub use files::{LoadError, Loaded, Loading};
 pub use open::{OpenedRecipe, open};
-pub use paths::{KeepOutSpec, PathsSpec};
-pub use saved::{
-    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
-    SavedRecipe, SavedTreatment,
-};
 use text::RecipeText;
 pub use write::to_text;
 
@@ -45,8 +34,8 @@ const MOST_BYTES: u64 = 16 << 20;
 /// Reads a recipe, and checks every value that can be checked without reading the files that it names.
 ///
 /// # Errors
-/// When the file cannot be read; with line and column, when it is not valid TOML, has a key or a value that
-/// no recipe has, or names a file that is not there.
+/// Fails when the file cannot be read; with line and column, when it is not valid TOML, has a key or a value
+/// that no recipe has, or names a file that is not there.
 pub fn read(path: &Path) -> Result<Recipe, ReadError> {
     let text = || -> Result<String, PlacedFlaw> {
         let mut bytes = Vec::new();
@@ -69,14 +58,37 @@ pub fn read(path: &Path) -> Result<Recipe, ReadError> {
 /// Reads a recipe from its text. Errors call it `file`; `find` says where the files are that it names.
 ///
 /// # Errors
-/// As [`read`].
-pub fn parse(file: &Path, text: String, find: &super::layers::FindFile) -> Result<Recipe, ReadError> {
+/// Fails as [`read`] does.
+pub fn parse(file: &Path, text: String, find: &FindFile) -> Result<Recipe, ReadError> {
     let text = RecipeText::new(file, text);
-    let saved = text.parse()?;
-    Recipe::checked(text, &saved, find)
+    let mut settings = text.parse()?;
+    let checked = settings.place_files(find).and_then(|()| settings.check());
+    checked.and_then(|()| settings.check_recipe()).map_err(|fault| text.error(&fault))?;
+    settings.place_outputs(file.parent().unwrap_or(Path::new("")));
+    Ok(Recipe { text, settings })
 }
 
-/// The path of an input file, which must be there.
+/// A recipe whose values are checked. No file that it names was read yet.
+#[derive(Clone, Debug)]
+pub struct Recipe {
+    text: RecipeText,
+    /// Its settings. Files are named as from the working folder.
+    pub settings: SavedSettings,
+}
+
+impl Recipe {
+    /// Returns the file as it was named.
+    pub fn file(&self) -> &Path {
+        self.text.file()
+    }
+
+    /// Returns the error for a value of an output that cannot be used.
+    pub fn output_error(&self, output: usize, fault: KeyFault) -> ReadError {
+        self.text.error(&fault.within(output).within("output"))
+    }
+}
+
+/// Returns the path of an input file, which must be there.
 fn found_in(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
     match path.metadata() {

@@ -1,41 +1,58 @@
 use std::path::Path;
 
 use super::super::Meter;
-use super::{DescriptionError, Loading, Recipe, read};
-use meshbrush_core::document::{Document, MAX_COARSE_TRIANGLES};
+use super::super::settings::SavedParts;
+use super::{LoadError, Loaded, Loading, Recipe, read};
+use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::BoundaryTreatment;
-use meshbrush_mesh::mesh::KeptParts;
+use meshbrush_mesh::mesh::{CoarseError, bisection_edge_length};
 
 /// A recipe as a document.
 #[derive(Debug)]
 pub struct OpenedRecipe {
     /// The document, which is called after the recipe and has its mesh.
     pub document: Document,
-    /// What a person should know, a sentence each: layers that ask for nothing, and what the recipe says and
-    /// a document does not hold.
+    /// Notes for a person, a sentence each: layers without any target, and settings of the recipe that a
+    /// document does not have.
     pub notes: Vec<String>,
 }
 
 /// Reads a recipe and the files that it names into a document.
 ///
 /// # Errors
-/// As [`read`]; and when a file cannot be read or used, or no document can have these settings.
-pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, DescriptionError> {
+/// Fails as [`read`] does; and when a file cannot be read or used, or no document can have these settings.
+pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
     let recipe = read(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let described = recipe.mesh.load(&name, &Loading::all(MAX_COARSE_TRIANGLES, meter))?;
-    let mut described = described.with_limits_of_the_grid();
-    described.notes.extend(not_held(&recipe, described.settings.boundary));
-    let document = Document::new(described.settings, Some(described.paint));
-    let unsuited = |error| DescriptionError::Unsuited(format!("{}: {error}", path.display()));
-    Ok(OpenedRecipe { document: document.map_err(unsuited)?, notes: described.notes })
+    let Loaded { settings, paint, mut notes } =
+        recipe.settings.load_files(&name, &Loading::for_document(meter))?;
+    notes.extend(not_held(&recipe, settings.boundary));
+    let document = Document::new(with_limits_of_the_grid(settings)?, Some(paint));
+    let unsuited = |error| LoadError::Unsuited(format!("{}: {error}", path.display()));
+    Ok(OpenedRecipe { document: document.map_err(unsuited)?, notes })
 }
 
-/// What a recipe says that a document does not hold.
+/// Returns the settings with limits that a person can read where the recipe has none: the diameters of the
+/// smallest and the largest triangles of the lattice. The mesh is the same.
+fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseError> {
+    let lattice = settings.lattice()?;
+    let [smallest, largest] =
+        [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));
+    let transfer = &mut settings.transfer;
+    if transfer.h_max == f64::MAX {
+        transfer.h_max = largest.max(transfer.h_min);
+    }
+    if transfer.h_min == f64::MIN_POSITIVE {
+        transfer.h_min = smallest.min(transfer.h_max);
+    }
+    Ok(settings)
+}
+
+/// Returns sentences about the settings of a recipe that a document does not have.
 fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item = String> {
-    let is_fitted = recipe.mesh.region.is_some() && boundary != BoundaryTreatment::Report;
-    let removes_parts = recipe.mesh.parts.is_some_and(|parts| parts != KeptParts::All);
-    let level = recipe.mesh.max_level.map(|level| {
+    let is_fitted = recipe.settings.domain.region.is_some() && boundary != BoundaryTreatment::Report;
+    let removes_parts = recipe.settings.domain.parts.is_some_and(|parts| parts != SavedParts::All);
+    let level = recipe.settings.mesh.max_level.map(|level| {
         format!(
             "The window has no deepest level: max_level = {level} is left out, and the mesh can be finer."
         )
@@ -43,7 +60,7 @@ fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item 
     let parts = (removes_parts && !is_fitted).then(|| {
         "The window keeps all parts of a mesh that is not fitted to polygons: `parts` is left out.".to_owned()
     });
-    let outputs = (!recipe.outputs.is_empty()).then(|| {
+    let outputs = (!recipe.settings.output.is_empty()).then(|| {
         let file = recipe.file().display();
         format!("The window writes no files of [[output]]; `meshbrush mesh {file}` does.")
     });

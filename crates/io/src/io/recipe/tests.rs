@@ -2,8 +2,7 @@ use std::path::{Path, PathBuf};
 
 use super::*;
 use crate::io::Place;
-use meshbrush_core::document::PathCost;
-use meshbrush_core::path::Weights;
+use crate::io::settings::SavedParts;
 
 /// A recipe with every table and every kind of layer.
 const FULL: &str = r#"
@@ -102,7 +101,7 @@ fn parsed(text: &str) -> Result<Recipe, ReadError> {
     parse(Path::new("a/recipe.toml"), text.to_owned(), &find)
 }
 
-/// Place and sentence of an error, with the two lines that point.
+/// Returns the place and sentence of an error, with the two lines that point.
 fn error(text: &str) -> ([usize; 2], String) {
     let error = parsed(text).expect_err(text);
     let Place::Column { line, column } = error.place else { panic!("{text:?} gave {error}") };
@@ -112,27 +111,25 @@ fn error(text: &str) -> ([usize; 2], String) {
 
 #[test]
 fn a_recipe_with_everything_is_read() {
-    let recipe = parsed(FULL).unwrap();
-    assert_eq!(recipe.mesh.region.as_deref(), Some(Path::new("sea.geojson")));
-    assert_eq!((recipe.mesh.spacing, recipe.mesh.max_memory), (Some(0.5), Some(2_000_000_000)));
-    assert_eq!(
-        (recipe.mesh.h_min, recipe.mesh.h_max, recipe.mesh.gradation),
-        (Some(0.01), Some(1.0), Some(0.3))
-    );
-    assert_eq!(recipe.mesh.parts, Some(meshbrush_mesh::mesh::KeptParts::Share(0.01)));
-    let names: Vec<&str> = recipe.mesh.layers.iter().map(|layer| layer.name.as_str()).collect();
+    let settings = parsed(FULL).unwrap().settings;
+    assert_eq!(settings.domain.region.as_deref(), Some(Path::new("sea.geojson")));
+    assert_eq!((settings.mesh.spacing, settings.mesh.max_memory.as_deref()), (Some(0.5), Some("2GB")));
+    let limits = &settings.limits;
+    assert_eq!((limits.h_min, limits.h_max, limits.gradation), (Some(0.01), Some(1.0), Some(0.3)));
+    assert_eq!(settings.domain.parts, Some(SavedParts::Share(0.01)));
+    let names: Vec<&str> = settings.layer.iter().map(|layer| layer.shown_name()).collect();
     assert_eq!(names, ["Open sea", "Raster", "Threats", "Distance", "Band", "Paint"]);
-    assert_eq!(recipe.mesh.marks.as_ref().unwrap().names[0].1, "harbour");
-    let outputs: Vec<_> = recipe.outputs.iter().map(|output| output.path.as_path()).collect();
-    let paths = &recipe.mesh.paths;
-    assert_eq!(paths.routes[0][1], glam::dvec2(24.5, 38.0));
-    assert_eq!((paths.routes.len(), recipe.mesh.pins.len()), (2, 2));
-    assert_eq!(paths.cost, PathCost::Weighted(Weights { length: 2.0, risk: 7.5 }));
-    let regions: Vec<&str> = paths.keep_out.iter().map(|region| region.name.as_str()).collect();
+    assert_eq!(settings.domain.names[0].name, "harbour");
+    let outputs: Vec<_> = settings.output.iter().map(|output| output.file.as_path()).collect();
+    let paths = &settings.paths;
+    assert_eq!(paths.routes[0][1], [24.5, 38.0]);
+    assert_eq!((paths.routes.len(), settings.pins.at.len()), (2, 2));
+    assert_eq!((paths.length_weight, paths.risk_weight), (Some(2.0), Some(7.5)));
+    let regions: Vec<&str> = settings.keep_out.iter().filter_map(|region| region.name.as_deref()).collect();
     assert_eq!(regions, ["Minefield", "closed.geojson"]);
-    assert!(recipe.mesh.files().any(|file| file == Path::new("zones/closed.geojson")));
+    assert!(settings.files().any(|file| file == Path::new("zones/closed.geojson")));
     assert_eq!(outputs, [Path::new("a/sea.vtu"), Path::new("a/sea.png")], "beside the recipe");
-    assert!(parsed("").unwrap().mesh.layers.is_empty());
+    assert!(parsed("").unwrap().settings.layer.is_empty());
 }
 
 #[test]
@@ -366,7 +363,7 @@ fn every_prefix_and_every_changed_byte_gives_a_recipe_or_a_sentence() {
     check(format!("a = {}", "[".repeat(100_000)));
 }
 
-fn saved(text: &str) -> SavedRecipe {
+fn saved(text: &str) -> SavedSettings {
     RecipeText::new(Path::new("recipe.toml"), text.to_owned())
         .parse()
         .unwrap_or_else(|error| panic!("{error}"))

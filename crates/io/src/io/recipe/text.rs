@@ -3,14 +3,14 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::super::error::PlacedFlaw;
-use super::super::layers::{KeyFault, Mark, Step};
-use super::super::{Flaw, Place, ReadError};
-use super::saved::SavedRecipe;
-use super::wording::{Context, sentence};
+use super::super::settings::SavedSettings;
+use super::super::values::TextValue;
+use super::super::{Flaw, KeyFault, Mark, Place, ReadError, Step};
 use meshbrush_core::field::formula::draw_pointer;
 use meshbrush_mesh::text::excerpt;
 
@@ -22,39 +22,37 @@ pub struct RecipeText {
 }
 
 impl RecipeText {
-    /// The text of a file.
+    /// Returns the text of a file.
     pub fn new(file: &Path, text: String) -> Self {
         Self { file: file.to_owned(), text }
     }
 
-    /// The file as it was named.
+    /// Returns the file as it was named.
     pub fn file(&self) -> &Path {
         &self.file
     }
 
-    /// The tables.
+    /// Returns the tables.
     ///
     /// # Errors
-    /// With line and column, when the text is not valid TOML, has a key that no recipe has, or a value of
-    /// another type.
-    pub fn parse(&self) -> Result<SavedRecipe, ReadError> {
-        let tables = DeTable::parse(&self.text).map_err(|error| self.refused(&error, Context::Syntax))?;
-        let recipe = serde::Deserialize::deserialize(toml::Deserializer::from(tables));
-        recipe.map_err(|error| self.refused(&error, Context::Values))
+    /// Fails with line and column, when the text is not valid TOML, has a key that no recipe has, or a value
+    /// of another type.
+    pub fn parse(&self) -> Result<SavedSettings, ReadError> {
+        let tables = DeTable::parse(&self.text).map_err(|error| {
+            let sentence = format!("this is not valid TOML: {}.", excerpt(300, error.message().trim()));
+            self.pointing(error.span().unwrap_or(0..0), &sentence, None)
+        })?;
+        let recipe = SavedSettings::deserialize(&TextValue::of_toml(tables.get_ref()));
+        recipe.map_err(|fault| self.error(&fault))
     }
 
-    /// The error for a value that cannot be used.
+    /// Returns the error for a value that cannot be used.
     pub fn error(&self, fault: &KeyFault) -> ReadError {
         let span = self.span_of(fault).unwrap_or(0..0);
-        self.pointing(span, &fault.sentence, fault.pointer.as_deref())
+        self.pointing(span, &fault.full_sentence(), fault.pointer.as_deref())
     }
 
-    fn refused(&self, error: &toml::de::Error, context: Context) -> ReadError {
-        let span = error.span().unwrap_or(0..0);
-        self.pointing(span, &sentence(error.message(), context), None)
-    }
-
-    /// An error at a place: the sentence, and two lines that point there, or `own_pointer`.
+    /// Returns an error at a place: the sentence, and two lines that point there, or `own_pointer`.
     fn pointing(&self, span: Range<usize>, sentence: &str, own_pointer: Option<&str>) -> ReadError {
         let text = &self.text;
         let start = text.floor_char_boundary(span.start.min(text.len()));
@@ -80,7 +78,7 @@ impl RecipeText {
         PlacedFlaw { place, flaw }.in_file(&self.file)
     }
 
-    /// The place of a value in the text; where the path ends early, that of what encloses it.
+    /// Returns the place of a value in the text; where the path ends early, that of what encloses it.
     fn span_of(&self, fault: &KeyFault) -> Option<Range<usize>> {
         let tables = DeTable::parse(&self.text).ok()?;
         let (mut key, mut value): (Option<Range<usize>>, Range<usize>) = (None, tables.span());
@@ -89,7 +87,7 @@ impl RecipeText {
         for step in &fault.path {
             let next = match step {
                 Step::Key(name) => {
-                    let found = inner.get_ref().as_table().and_then(|table| table.get_key_value(*name));
+                    let found = inner.get_ref().as_table().and_then(|table| table.get_key_value(&**name));
                     found.map(|(found, value)| (Some(found.span()), value))
                 }
                 Step::Index(index) => inner.get_ref().get(*index).map(|value| (None, value)),
@@ -103,9 +101,4 @@ impl RecipeText {
             (Mark::Entry, Some(key)) => key.start..value.end,
         })
     }
-}
-
-/// At most 40 characters of a text of the recipe.
-pub(super) fn quoted(text: &str) -> String {
-    format!("\"{}\"", excerpt(40, text))
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::super::Number;
-use super::saved::SavedRecipe;
+use super::super::settings::SavedSettings;
 
 /// Columns of a list that stays on one line.
 const WIDEST_LIST: usize = 90;
@@ -52,9 +52,9 @@ const ORDER: [&str; 35] = [
     "between",
 ];
 
-/// The text of a recipe.
-pub fn to_text(recipe: &SavedRecipe) -> String {
-    let SavedRecipe { domain, mesh, limits, layer, paths, keep_out, pins, output } = recipe;
+/// Returns the text of a recipe.
+pub fn to_text(recipe: &SavedSettings) -> String {
+    let SavedSettings { domain, mesh, limits, layer, paths, keep_out, pins, output } = recipe;
     let mut text = HEADER.to_owned();
     write_table(&mut text, "[domain]", domain);
     write_table(&mut text, "[mesh]", mesh);
@@ -93,7 +93,7 @@ fn write_entries(text: &mut String, heading: &str, table: &impl Serialize) {
     }
 }
 
-/// The entries that have a value, in the order of keys.
+/// Returns the entries that have a value, in the order of keys.
 fn in_order(table: &Map<String, Value>) -> Vec<(&str, &Value)> {
     let is_nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
     let mut entries: Vec<_> = table.iter().map(|(key, value)| (key.as_str(), value)).collect();
@@ -143,7 +143,7 @@ fn on_one_line(value: &Value) -> String {
     }
 }
 
-/// A basic string of TOML.
+/// Returns a basic string of TOML.
 fn quoted(string: &str) -> String {
     let mut text = String::from("\"");
     for c in string.chars() {

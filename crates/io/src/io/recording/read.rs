@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use super::super::error::{Flaw, Place, PlacedFlaw, ReadError};
+use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
 use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
 use super::{FORMAT, VERSION};
@@ -30,8 +31,8 @@ pub(super) const HEAD_LINES: usize = 2;
 /// Reads a recording.
 ///
 /// # Errors
-/// With the line, when the file is not a recording, was written by a newer program, or has a mistake that
-/// shows without doing the edits.
+/// Fails with the line, when the file is not a recording, was written by a newer program, or has a mistake
+/// that shows without doing the edits.
 pub fn read(path: &Path) -> Result<RecordingFile, ReadError> {
     let bytes = || -> Result<Vec<u8>, PlacedFlaw> {
         let mut bytes = Vec::new();
@@ -49,7 +50,7 @@ pub fn read(path: &Path) -> Result<RecordingFile, ReadError> {
 /// Reads a recording from bytes. Errors call the file `name`.
 ///
 /// # Errors
-/// As [`read`].
+/// Fails as [`read`] does.
 pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<RecordingFile, ReadError> {
     parse(bytes, name).map_err(|flaw| flaw.in_file(name))
 }
@@ -104,15 +105,13 @@ fn check_head(line: &[u8]) -> Result<(), PlacedFlaw> {
 }
 
 fn parsed<T: DeserializeOwned>(line: usize, text: &[u8]) -> Result<T, PlacedFlaw> {
-    serde_json::from_slice(text).map_err(|error| {
-        let said = error.to_string();
-        let problem = said.split(" at line ").next().unwrap_or(&said);
-        let flaw = Flaw::Syntax(format!("the line is not valid: {problem}."));
-        PlacedFlaw { place: Place::Column { line, column: error.column() }, flaw }
+    json::parse(text).map_err(|JsonFlaw { sentence, column, .. }| {
+        let flaw = Flaw::Syntax(format!("the line is not valid: {sentence}"));
+        PlacedFlaw { place: Place::Column { line, column }, flaw }
     })
 }
 
-/// The flaw of a line.
+/// Returns the flaw of a line.
 pub(super) fn at(flaw: PlacedFlaw, line: usize) -> PlacedFlaw {
     PlacedFlaw { place: Place::Line(line), ..flaw }
 }

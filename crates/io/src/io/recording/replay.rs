@@ -7,7 +7,7 @@ use super::write::mesh_of;
 use meshbrush_core::document::Replay;
 use meshbrush_mesh::text::{Grouped, excerpt};
 
-/// What became of a recording that was done again.
+/// The result of repeating a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replayed {
     /// Edits in the file.
@@ -25,7 +25,7 @@ pub struct Difference {
     pub edit: usize,
     /// The name of the edit.
     pub title: String,
-    /// What the file says about the mesh.
+    /// The description of the mesh in the file.
     pub expected: String,
     /// The mesh that was made.
     pub found: String,
@@ -43,12 +43,12 @@ impl std::fmt::Display for Difference {
 }
 
 impl RecordingFile {
-    /// How many edits there are.
+    /// Returns how many edits there are.
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
@@ -57,7 +57,7 @@ impl RecordingFile {
     /// difference. The meter counts edits.
     ///
     /// # Errors
-    /// With the line, when an edit cannot be done; and when the work was cancelled.
+    /// Fails with the line, when an edit cannot be done; and when the work was cancelled.
     pub fn replay(mut self, meter: &Meter) -> Result<Replayed, ReadError> {
         let result = self.replay_lines(meter);
         result.map_err(|flaw| flaw.in_file(&self.path))

@@ -5,6 +5,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::super::error::{Flaw, PlacedFlaw};
+use super::super::layers::{SavedPolygon, saved_polygon};
 use super::super::project::PartNames;
 use super::super::project::Project;
 use super::super::project::embedded::{SettingsValues, paint_of, settings_of, values_of, write_pixels};
@@ -64,7 +65,7 @@ pub enum SavedEdit {
     Redo,
 }
 
-/// What an edit leads to.
+/// The mesh after an edit, or the reason why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SavedMesh {
@@ -94,20 +95,20 @@ impl From<&ReplayedMesh> for SavedMesh {
 pub struct SavedSettings {
     settings: SettingsValues,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    polygons: Option<Vec<Vec<Vec<[f64; 2]>>>>,
+    polygons: Option<Vec<SavedPolygon>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pixels: Option<String>,
 }
 
 impl SavedSettings {
-    /// A whole document.
+    /// Returns a whole document.
     pub fn whole(project: &Project, names: &mut PartNames) -> Self {
         let pixels = pixels_of(project, names);
         let polygons = polygons_of(&project.settings);
         Self { settings: values_of(&project.settings, names), polygons, pixels }
     }
 
-    /// What changed.
+    /// Returns the change from one state of the settings to another.
     pub fn change(before: &Settings, after: &Settings, names: &mut PartNames) -> Self {
         let project = Project { settings: after.clone(), paint: PaintLayers::default() };
         let pixels = pixels_of(&project, names);
@@ -120,10 +121,10 @@ impl SavedSettings {
         Self { settings, polygons, pixels }
     }
 
-    /// The whole document.
+    /// Returns the whole document.
     ///
     /// # Errors
-    /// When a value is missing or out of range, or the pixels are damaged.
+    /// Fails when a value is missing or out of range, or the pixels are damaged.
     pub fn into_project(self, names: &mut PartNames) -> Result<Project, PlacedFlaw> {
         let pixels = decoded(self.pixels.as_deref())?;
         let polygons = self.polygons.map(polygons_from);
@@ -132,10 +133,10 @@ impl SavedSettings {
         Ok(Project { settings, paint })
     }
 
-    /// The settings after the change.
+    /// Returns the settings after the change.
     ///
     /// # Errors
-    /// As [`Self::into_project`].
+    /// Fails as [`Self::into_project`] does.
     pub fn apply(&self, before: &Settings, names: &mut PartNames) -> Result<Settings, PlacedFlaw> {
         let mut values = values_of(before, names);
         for (key, value) in &self.settings {
@@ -151,13 +152,11 @@ impl SavedSettings {
     }
 }
 
-fn polygons_of(settings: &Settings) -> Option<Vec<Vec<Vec<[f64; 2]>>>> {
-    let ring = |ring: &Vec<DVec2>| ring.iter().map(DVec2::to_array).collect();
-    let polygon = |polygon: &Polygon| polygon.iter().map(ring).collect();
-    Some(settings.domain.region()?.polygons().iter().map(polygon).collect())
+fn polygons_of(settings: &Settings) -> Option<Vec<SavedPolygon>> {
+    Some(settings.domain.region()?.polygons().iter().map(saved_polygon).collect())
 }
 
-fn polygons_from(saved: Vec<Vec<Vec<[f64; 2]>>>) -> Vec<Polygon> {
+fn polygons_from(saved: Vec<SavedPolygon>) -> Vec<Polygon> {
     let ring = |ring: Vec<[f64; 2]>| ring.into_iter().map(DVec2::from_array).collect();
     saved.into_iter().map(|polygon| polygon.into_iter().map(ring).collect()).collect()
 }
@@ -218,10 +217,10 @@ impl From<&RecordedStroke> for SavedStroke {
 }
 
 impl SavedStroke {
-    /// The stroke, after all checks.
+    /// Returns the stroke, after all checks.
     ///
     /// # Errors
-    /// When a number is out of range.
+    /// Fails when a number is out of range.
     pub fn checked(&self) -> Result<RecordedStroke, Flaw> {
         let check = |what: &str, value: f64, is_valid: bool| match is_valid {
             true => Ok(value),
@@ -282,7 +281,7 @@ impl From<Medium> for SavedMedium {
 }
 
 impl SavedEdit {
-    /// The edit as it is written. `before` and `after` are the settings before and after it.
+    /// Returns the edit as it is written. `before` and `after` are the settings before and after it.
     pub fn of(edit: &Edit, before: &Settings, names: &mut PartNames) -> Self {
         match edit {
             Edit::Stroke(stroke) => Self::Stroke((&**stroke).into()),
@@ -294,10 +293,10 @@ impl SavedEdit {
         }
     }
 
-    /// The edit of a document with the settings `before`.
+    /// Returns the edit of a document with the settings `before`.
     ///
     /// # Errors
-    /// When a value is missing or out of range.
+    /// Fails when a value is missing or out of range.
     pub fn checked(&self, before: &Settings, names: &mut PartNames) -> Result<Edit, PlacedFlaw> {
         Ok(match self {
             Self::Stroke(stroke) => Edit::Stroke(stroke.checked()?.into()),

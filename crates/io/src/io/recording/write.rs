@@ -11,7 +11,8 @@ use meshbrush_core::document::{Recording, Replay, ReplayedMesh};
 /// Does the edits of a recording again, and writes each with the mesh after it. The meter counts edits.
 ///
 /// # Errors
-/// Errors of `out`, when the work was cancelled, or when the document had no mesh at the start.
+/// Fails with the errors of `out`, when the work was cancelled, or when the document had no mesh at the
+/// start.
 pub fn write(out: &mut dyn Write, recording: &Recording, meter: &Meter) -> io::Result<()> {
     meter.expect(recording.edits().len() as u64 + 1);
     let names = &mut PartNames::default();
@@ -34,7 +35,7 @@ pub fn write(out: &mut dyn Write, recording: &Recording, meter: &Meter) -> io::R
 /// Makes the mesh after an edit.
 ///
 /// # Errors
-/// When the work was cancelled.
+/// Fails when the work was cancelled.
 pub(super) fn mesh_of(replay: &mut Replay, meter: &Meter) -> io::Result<ReplayedMesh> {
     loop {
         meter.check()?;

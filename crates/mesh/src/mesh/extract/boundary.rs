@@ -5,17 +5,17 @@ use super::Extract;
 use crate::mesh::kernel::NodeId;
 
 impl Extract<'_> {
-    /// The boundary as closed loops that contain each boundary edge once. A loop is a list of nodes; each
-    /// edge runs from a node to the next, the last one back to the first, with the domain on its left. Where
-    /// the boundary touches itself in a node, a loop stays at the same piece of the outside.
+    /// Returns the boundary as closed loops that contain each boundary edge once. A loop is a list of nodes;
+    /// each edge runs from a node to the next, the last one back to the first, with the domain on its left.
+    /// Where the boundary touches itself in a node, a loop stays at the same piece of the outside.
     pub fn boundary_loops(&self) -> Vec<Vec<usize>> {
         let starts: Vec<usize> = self.boundary_edges().map(|edge| edge.ends[0]).collect();
         let nodes = |edges: Vec<usize>| edges.into_iter().map(|edge| starts[edge]).collect();
         self.boundary_edge_loops().into_iter().map(nodes).collect()
     }
 
-    /// As [`Self::boundary_loops`], with the numbers of the edges in [`Self::boundary_edges`] instead of
-    /// their first nodes.
+    /// Returns the loops of [`Self::boundary_loops`] with the numbers of the edges in
+    /// [`Self::boundary_edges`] in place of their first nodes.
     pub fn boundary_edge_loops(&self) -> Vec<Vec<usize>> {
         let edges: Vec<[usize; 2]> = self.boundary_edges().map(|edge| edge.ends).collect();
         let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
@@ -45,8 +45,8 @@ impl Extract<'_> {
     }
 }
 
-/// The angle of the outside at the middle one of three nodes: on the right of the path from the first to the
-/// last.
+/// Returns the angle of the outside at the middle one of three nodes: on the right of the path from the first
+/// to the last.
 fn outer_angle(mesh: &Extract, nodes: [usize; 3]) -> f64 {
     let [from, at, to] = nodes.map(|node| mesh.node(NodeId::from_index(node)).as_dvec2());
     let (back, onward) = (from - at, to - at);

@@ -6,16 +6,17 @@ use super::MeshPatch;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::kernel::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
-/// What others get of a mesh, in files and elsewhere: nodes and triangles that count from zero without a gap.
+/// The part of a mesh that is exported: the triangles of the domain and their nodes, numbered from zero
+/// without gaps.
 ///
-/// Ids in it are places in its own arrays. Where the whole mesh is given away they are those of the mesh, and
-/// nothing is copied.
+/// Its ids are indices into its own arrays. If the extract is the whole mesh, they are the ids of the mesh,
+/// and nothing is copied.
 #[derive(Clone, Debug)]
 pub struct Extract<'a> {
     pub(super) lattice: Lattice,
     pub(super) nodes: Cow<'a, [LatticePoint]>,
     pub(super) triangles: Cow<'a, [Triangle]>,
-    /// Where some triangles were left out: the place of each triangle of the mesh.
+    /// The index of each triangle of the mesh in the extract; `None` if no triangle was left out.
     pub(super) places: Option<Vec<Neighbour>>,
     pub(super) is_patched: bool,
 }
@@ -67,7 +68,8 @@ pub struct BoundaryEdge {
 }
 
 impl Mesh {
-    /// The part of the mesh that belongs to the domain, in the mesh's order, with the nodes that it uses.
+    /// Returns the part of the mesh that belongs to the domain, in the mesh's order, with the nodes that it
+    /// uses.
     pub fn extract(&self) -> Extract<'_> {
         if self.outside_count() > 0 {
             return self.extract_with(&MeshPatch::default());
@@ -78,42 +80,42 @@ impl Mesh {
 }
 
 impl Extract<'_> {
-    /// The grid and lattice that the mesh was refined from.
+    /// Returns the grid and lattice that the mesh was refined from.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// All nodes in lattice coordinates.
+    /// Returns all nodes in lattice coordinates.
     pub fn nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }
 
-    /// All triangles.
+    /// Returns all triangles.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
-    /// The extract with arrays of its own.
+    /// Returns the extract with arrays of its own.
     pub fn into_owned(self) -> Extract<'static> {
         let (nodes, triangles) = (self.nodes.into_owned(), self.triangles.into_owned());
         Extract { nodes: Cow::Owned(nodes), triangles: Cow::Owned(triangles), ..self }
     }
 
-    /// The place in [`Self::triangles`] of a triangle of the mesh; `None` for one that lies outside the
-    /// domain, or was changed by a [`MeshPatch`](super::MeshPatch).
+    /// Returns the index in [`Self::triangles`] of a triangle of the mesh; `None` for a triangle outside the
+    /// domain, or one that a [`MeshPatch`](super::MeshPatch) changed.
     ///
     /// # Panics
-    /// When the id is not of the mesh.
+    /// Panics when the id is not of the mesh.
     pub fn place_of(&self, id: TriangleId) -> Option<TriangleId> {
         self.places.as_ref().map_or(Some(id), |places| places[id.index()].triangle())
     }
 
-    /// Whether a [`MeshPatch`](super::MeshPatch) changed nodes and triangles.
+    /// Returns whether a [`MeshPatch`](super::MeshPatch) changed nodes and triangles.
     pub fn is_patched(&self) -> bool {
         self.is_patched
     }
 
-    /// Area of the triangles, in square world units, computed from the coordinates of the nodes.
+    /// Returns the area of the triangles, in square world units, computed from the coordinates of the nodes.
     pub fn area(&self) -> f64 {
         let doubled = self.triangles.iter().map(|triangle| {
             let [a, b, c] = triangle.edge_nodes().map(|(from, _)| self.node(from).as_dvec2());
@@ -122,30 +124,30 @@ impl Extract<'_> {
         0.5 * doubled.sum::<f64>() * self.lattice.step().x * self.lattice.step().y
     }
 
-    /// Lattice coordinates of a node.
+    /// Returns the lattice coordinates of a node.
     ///
     /// # Panics
-    /// When there is no such node.
+    /// Panics when there is no such node.
     #[inline]
     pub fn node(&self, id: NodeId) -> LatticePoint {
         self.nodes[id.index()]
     }
 
-    /// World coordinates of a node.
+    /// Returns the world coordinates of a node.
     ///
     /// # Panics
-    /// When there is no such node.
+    /// Panics when there is no such node.
     #[inline]
     pub fn world(&self, id: NodeId) -> DVec2 {
         self.lattice.world_from_lattice(self.node(id))
     }
 
-    /// Coordinates of all nodes in world units.
+    /// Returns the coordinates of all nodes in world units.
     pub fn world_nodes(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone + '_ {
         self.nodes.iter().map(|&node| self.lattice.world_from_lattice(node))
     }
 
-    /// How many triangles there are at each level, from level 0 to the deepest. Counted when asked.
+    /// Counts the triangles at each level, from level 0 to the deepest.
     pub fn level_counts(&self) -> Vec<usize> {
         let mut counts = Vec::new();
         for triangle in self.triangles.iter() {
@@ -158,28 +160,28 @@ impl Extract<'_> {
         counts
     }
 
-    /// All triangles in plain numbers, in the order of [`Self::triangles`].
+    /// Returns all triangles in plain numbers, in the order of [`Self::triangles`].
     pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + Clone + '_ {
         self.triangles.iter().map(Cell::of)
     }
 
-    /// A triangle of [`Self::triangles`] in plain numbers.
+    /// Returns a triangle of [`Self::triangles`] in plain numbers.
     ///
     /// # Panics
-    /// When there is no such triangle.
+    /// Panics when there is no such triangle.
     pub fn cell(&self, id: TriangleId) -> Cell {
         Cell::of(&self.triangles[id.index()])
     }
 
-    /// Every edge once, in the order of the triangles.
+    /// Returns every edge once, in the order of the triangles.
     pub fn edges(&self) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
         (0..self.triangles.len()).flat_map(|index| self.first_edges_of(TriangleId::from_index(index)))
     }
 
-    /// The edges of a triangle that are not those of a triangle before it.
+    /// Returns the edges of a triangle that no triangle with a lower index has.
     ///
     /// # Panics
-    /// When there is no such triangle.
+    /// Panics when there is no such triangle.
     pub fn first_edges_of(&self, id: TriangleId) -> impl Iterator<Item = MeshEdge> + Clone + '_ {
         let triangle = &self.triangles[id.index()];
         let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
@@ -190,7 +192,7 @@ impl Extract<'_> {
         })
     }
 
-    /// All edges at which the domain ends, in the order of their triangles.
+    /// Returns all edges at which the domain ends, in the order of their triangles.
     pub fn boundary_edges(&self) -> impl Iterator<Item = BoundaryEdge> + Clone + '_ {
         self.triangles.iter().enumerate().flat_map(|(index, triangle)| {
             let edges = triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours);
@@ -202,7 +204,7 @@ impl Extract<'_> {
         })
     }
 
-    /// The smallest and the largest angle of all triangles, in degrees; [180, 0] without triangles.
+    /// Returns the smallest and the largest angle of all triangles, in degrees; [180, 0] without triangles.
     pub fn angle_range(&self) -> [f64; 2] {
         // By their cosines: one arc cosine for each end.
         let mut cosines = [-1.0_f64, 1.0];
@@ -217,7 +219,7 @@ impl Extract<'_> {
         cosines.map(|cosine| libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees())
     }
 
-    /// For each node whether a boundary edge ends there.
+    /// Returns for each node whether a boundary edge ends there.
     pub fn on_boundary(&self) -> Vec<bool> {
         let mut on_boundary = vec![false; self.nodes.len()];
         for node in self.boundary_edges().flat_map(|edge| edge.ends) {

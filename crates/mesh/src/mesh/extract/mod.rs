@@ -1,4 +1,4 @@
-//! What leaves the program: nodes and triangles of the domain, numbered without gaps.
+//! The exported mesh: nodes and triangles of the domain, numbered without gaps.
 
 #[expect(clippy::module_inception, reason = "the part is named for its main type")]
 mod extract;

@@ -11,7 +11,7 @@ use super::Extract;
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Kind, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces};
 
-/// What is changed in a mesh before it leaves the program. All ids are those of the mesh's own arrays
+/// The changes of a mesh before it is exported. All ids are indices into the mesh's own arrays
 /// ([`Mesh::raw_nodes`], [`Mesh::raw_triangles`]); added nodes follow the mesh's.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshPatch {
@@ -22,7 +22,7 @@ pub struct MeshPatch {
     /// Changed triangles in ascending order, each with its part of `pieces`; an empty part for one that is
     /// gone. All others are as in the mesh.
     pub changed: Vec<(TriangleId, Range<usize>)>,
-    /// What takes the place of the changed triangles.
+    /// The triangles that replace the changed ones.
     pub pieces: Vec<PatchTriangle>,
 }
 
@@ -36,12 +36,12 @@ pub struct PatchTriangle {
 }
 
 impl MeshPatch {
-    /// Whether nothing is changed.
+    /// Returns whether nothing is changed.
     pub fn is_empty(&self) -> bool {
         self.moved.is_empty() && self.added.is_empty() && self.changed.is_empty()
     }
 
-    /// Whether no triangle is left of a mesh with the patch.
+    /// Returns whether no triangle is left of a mesh with the patch.
     pub fn leaves_nothing_of(&self, mesh: &Mesh) -> bool {
         let replaced = self.changed.iter().filter(|(id, _)| mesh.is_in_domain(*id)).count();
         self.pieces.is_empty() && replaced == mesh.triangle_count()
@@ -49,7 +49,7 @@ impl MeshPatch {
 }
 
 impl PatchTriangle {
-    /// The triangle without neighbours.
+    /// Returns the triangle without neighbours.
     fn triangle(&self) -> Triangle {
         let [a, b, c] = self.corners;
         // So that the first edge joins a to b.
@@ -64,11 +64,11 @@ impl PatchTriangle {
 }
 
 impl Mesh {
-    /// The part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at the
-    /// place of the triangles that they replace. All threads work on it.
+    /// Returns the part of the mesh that belongs to the domain, with the changes of a patch. Pieces are at
+    /// the place of the triangles that they replace. All threads work on it.
     ///
     /// # Panics
-    /// When the patch is of another mesh.
+    /// Panics when the patch is of another mesh.
     pub fn extract_with(&self, patch: &MeshPatch) -> Extract<'_> {
         if patch.is_empty() && self.outside_count() == 0 {
             return self.extract();
@@ -99,18 +99,18 @@ struct Chunk<'a> {
     first: usize,
     triangles: &'a [Triangle],
     changed: &'a [(TriangleId, Range<usize>)],
-    /// Triangles of the extract before those of the chunk.
+    /// Number of triangles of the extract before the triangles of the chunk.
     before: usize,
     /// Triangles of the extract that take their place.
     count: usize,
 }
 
-/// What becomes of a triangle.
+/// The form of a triangle in the extract.
 enum Fate<'a> {
     Kept(&'a Triangle),
-    /// It is replaced by these pieces.
+    /// These pieces replace the triangle.
     Changed(Range<usize>),
-    /// It is not in the domain.
+    /// The triangle is not in the domain.
     LeftOut,
 }
 
@@ -125,7 +125,7 @@ impl Fate<'_> {
 }
 
 impl<'a> Chunk<'a> {
-    /// What becomes of each triangle.
+    /// Returns the form of each triangle of the mesh in the extract.
     fn fates(&self) -> impl Iterator<Item = Fate<'a>> {
         let mut changed = self.changed.iter().peekable();
         let numbered = (self.first..).zip(self.triangles);
@@ -137,7 +137,7 @@ impl<'a> Chunk<'a> {
     }
 }
 
-/// The whole mesh in chunks.
+/// Returns the whole mesh in chunks.
 fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<Chunk<'a>> {
     let mut chunks = Vec::new();
     let chunk = |(n, triangles): (usize, &'a [Triangle])| {
@@ -157,7 +157,7 @@ fn chunks<'a>(mesh: &'a Mesh, patch: &'a MeshPatch) -> Vec<Chunk<'a>> {
     chunks
 }
 
-/// For each triangle of the mesh its number in the extract, if it is in the domain and unchanged.
+/// Returns for each triangle of the mesh its number in the extract, if it is in the domain and unchanged.
 fn places(mesh: &Mesh, chunks: &[Chunk]) -> Vec<Neighbour> {
     let mut places = vec![Neighbour::BOUNDARY; mesh.triangles.len()];
     places.par_chunks_mut(CHUNK).zip(chunks).for_each(|(places, chunk)| {
@@ -172,7 +172,8 @@ fn places(mesh: &Mesh, chunks: &[Chunk]) -> Vec<Neighbour> {
     places
 }
 
-/// Triangles with their neighbours by their numbers in the extract, and nodes by their ids in the mesh.
+/// Returns the triangles with their neighbours by their numbers in the extract, and nodes by their ids in the
+/// mesh.
 fn assemble(mesh: &Mesh, patch: &MeshPatch, chunks: &[Chunk], places: &[Neighbour]) -> Vec<Triangle> {
     let mut is_changed = vec![false; mesh.triangles.len()];
     patch.changed.iter().for_each(|(id, _)| is_changed[id.index()] = true);
@@ -228,7 +229,7 @@ impl Assembly {
 
 /// Makes neighbours of triangles that have an edge in common, in opposite directions.
 fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
-    // Edges of which one triangle is known.
+    // Edges with one known triangle.
     let mut open: HashMap<(NodeId, NodeId), (usize, usize)> = HashMap::new();
     for (index, j) in edges {
         let (from, to) = triangles[index].edge_nodes()[j];
@@ -244,7 +245,8 @@ fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>)
     }
 }
 
-/// The nodes that the triangles use, in the order of their ids, and for each id its number among them.
+/// Returns the nodes that the triangles use, in the order of their ids, and for each id its number among
+/// them.
 fn used_nodes(mesh: &Mesh, patch: &MeshPatch, triangles: &[Triangle]) -> (Vec<LatticePoint>, Vec<NodeId>) {
     let mut points: Vec<LatticePoint> = mesh.nodes.iter().chain(&patch.added).copied().collect();
     patch.moved.iter().for_each(|&(id, point)| points[id.index()] = point);

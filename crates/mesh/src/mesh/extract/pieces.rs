@@ -7,7 +7,7 @@ use super::{Extract, MeshPatch};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
-/// What is drawn in place of some triangles of a mesh: the pieces of a [`MeshPatch`].
+/// The triangles that are drawn in place of some triangles of a mesh: the pieces of a [`MeshPatch`].
 ///
 /// ```text
 ///   mesh        o---o---o        pieces    nodes and triangles of their own; the triangles of the mesh
@@ -22,9 +22,9 @@ use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId
 #[derive(Clone, Debug, Default)]
 pub struct PatchPieces {
     nodes: Vec<LatticePoint>,
-    /// A neighbour says whether the domain ends there, and nothing else.
+    /// A neighbour only tells whether the edge is on the boundary of the domain.
     triangles: Vec<Triangle>,
-    /// In ascending order, with their parts of `triangles`.
+    /// The replaced triangles in ascending order, with their ranges in `triangles`.
     replaced: Vec<(TriangleId, Range<usize>)>,
     is_retired: Vec<bool>,
     provisional: HashMap<TriangleId, Range<usize>>,
@@ -33,7 +33,7 @@ pub struct PatchPieces {
 }
 
 impl PatchPieces {
-    /// The pieces of a patch; `extract` must be [`Mesh::extract_with`] of it.
+    /// Returns the pieces of a patch; `extract` must be [`Mesh::extract_with`] of it.
     pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &Extract) -> Self {
         let moved = patch.moved.iter().map(|&(id, point)| (id, [mesh.node(id), point])).collect();
         let mut pieces = Self { is_retired: vec![false; patch.changed.len()], moved, ..Self::default() };
@@ -68,17 +68,17 @@ impl PatchPieces {
         self.triangles.push(piece);
     }
 
-    /// The nodes of the pieces.
+    /// Returns the nodes of the pieces.
     pub fn nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }
 
-    /// The pieces. Retired ones are marked as outside.
+    /// Returns the pieces. Retired ones are marked as outside.
     pub fn triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
-    /// The triangles of the mesh that are not drawn.
+    /// Returns the triangles of the mesh that are not drawn.
     pub fn replaced(&self) -> impl Iterator<Item = TriangleId> {
         self.replacements().map(|(id, _)| id)
     }
@@ -91,8 +91,8 @@ impl PatchPieces {
         active.chain(self.provisional.iter().map(|(id, pieces)| (*id, pieces.clone())))
     }
 
-    /// The part of [`Self::triangles`] that is drawn in place of a triangle of the mesh; `None` where the
-    /// triangle itself is drawn.
+    /// Returns the part of [`Self::triangles`] that is drawn in place of a triangle of the mesh; `None` where
+    /// the triangle itself is drawn.
     pub fn replacement(&self, id: TriangleId) -> Option<Range<usize>> {
         if let Some(pieces) = self.provisional.get(&id) {
             return Some(pieces.clone());
@@ -101,8 +101,8 @@ impl PatchPieces {
         (!self.is_retired[index]).then(|| self.replaced[index].1.clone())
     }
 
-    /// Retires the pieces in place of entries that changed, and of those that the mesh no longer has, and
-    /// appends provisional ones. Returns the entries whose [`Self::replacement`] changed, each with a part of
+    /// Retires the pieces in place of entries that changed or no longer exist, and appends provisional
+    /// pieces. Returns the entries whose [`Self::replacement`] changed, each with a part of
     /// [`Self::triangles`] that changed.
     pub fn retire(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<(TriangleId, Range<usize>)> {
         let mut touched = Vec::new();
@@ -167,7 +167,8 @@ impl PatchPieces {
         touched.push((id, index..index + 1));
     }
 
-    /// Where a node of the mesh is drawn: where the patch has it, if it is still the node that was moved.
+    /// Returns where a node of the mesh is drawn: where the patch has it, if it is still the node that was
+    /// moved.
     fn shown_at(&self, mesh: &Mesh, node: NodeId) -> LatticePoint {
         let home = mesh.node(node);
         match self.moved.binary_search_by_key(&node, |(id, _)| *id) {

@@ -33,7 +33,7 @@ pub struct MeshStatistics {
 }
 
 impl Extract<'_> {
-    /// The figures of all triangles; `None` without triangles.
+    /// Returns the figures of all triangles; `None` without triangles.
     pub fn statistics(&self) -> Option<MeshStatistics> {
         let mut extremes = Extremes::default();
         for triangle in self.triangles() {
@@ -58,12 +58,12 @@ impl Extract<'_> {
         })
     }
 
-    /// World coordinates of the ends of each edge of a triangle.
+    /// Returns the world coordinates of the ends of each edge of a triangle.
     fn edge_ends(&self, triangle: &Triangle) -> [[DVec2; 2]; 3] {
         triangle.edge_nodes().map(|(from, to)| [self.world(from), self.world(to)])
     }
 
-    /// The longest edge of a triangle, in world units.
+    /// Returns the longest edge of a triangle, in world units.
     fn diameter_of(&self, triangle: &Triangle) -> f64 {
         self.edge_ends(triangle).map(|[from, to]| from.distance(to)).into_iter().fold(0.0, f64::max)
     }
@@ -147,7 +147,7 @@ mod tests {
         let corner = DVec2::ZERO;
         let contains = |corners: [DVec2; 3]| corners.contains(&corner);
         let rule = |element: &crate::mesh::Element| {
-            Ok(element.triangle.level() < 8 && contains(element.world_corners()))
+            element.triangle.level() < 8 && contains(element.world_corners())
         };
         mesh.refine(&Limits::default(), rule).unwrap();
         let statistics = mesh.extract().statistics().unwrap();

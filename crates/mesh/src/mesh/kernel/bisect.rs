@@ -22,7 +22,7 @@ use std::hint::select_unpredictable;
 
 use super::{Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
-/// The vertices of the kept and of the new child (Algorithm 1), as ids or as points.
+/// Returns the vertices of the kept and of the new child (Algorithm 1), as ids or as points.
 #[inline(always)]
 pub(super) fn children_vertices<V: Copy>([a, b, c]: [V; 3], midpoint: V, odd: bool) -> [[V; 3]; 2] {
     let by_level = |odd_level, even_level| select_unpredictable(odd, odd_level, even_level);
@@ -30,7 +30,7 @@ pub(super) fn children_vertices<V: Copy>([a, b, c]: [V; 3], midpoint: V, odd: bo
     [[a, by_level(midpoint, b), third], [b, second, third]]
 }
 
-/// What the two children of one parent see across the two halves of the cut edge.
+/// The neighbours of the two children of one parent across the two halves of the cut edge.
 #[derive(Clone, Copy)]
 struct Facing {
     kept: Neighbour,

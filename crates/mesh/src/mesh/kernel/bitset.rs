@@ -16,11 +16,11 @@ pub(in crate::mesh) struct Bitset {
     last_word: usize,
 }
 
-/// With four layers the topmost has one word for 2²⁴ places, and is gone through word by word.
+/// Number of layers. With four, the topmost layer has one word for 2²⁴ bits, and is searched word by word.
 const LAYERS: usize = 4;
 
 impl Bitset {
-    /// How many places are in the set.
+    /// Returns how many places are in the set.
     pub(in crate::mesh) fn count(&self) -> usize {
         self.count
     }
@@ -103,7 +103,7 @@ impl Bitset {
         }
     }
 
-    /// The last place of the set.
+    /// Returns the last place of the set.
     #[inline]
     pub(in crate::mesh) fn last(&mut self) -> Option<usize> {
         if self.count == 0 {
@@ -151,7 +151,7 @@ impl Bitset {
         ranges
     }
 
-    /// Memory taken, in bytes.
+    /// Returns the memory taken, in bytes.
     pub(in crate::mesh) fn bytes(&self) -> usize {
         self.layers.iter().map(|layer| 8 * layer.capacity()).sum()
     }

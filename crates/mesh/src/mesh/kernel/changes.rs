@@ -8,9 +8,9 @@ use super::{Bitset, Mesh, NodeId, TriangleId};
 /// among them; an array may also have become shorter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
-    /// Of [`Mesh::nodes`](crate::mesh::Mesh::nodes).
+    /// Changed ranges of [`Mesh::nodes`](crate::mesh::Mesh::nodes).
     pub nodes: Vec<Range<usize>>,
-    /// Of [`Mesh::triangles`](crate::mesh::Mesh::triangles).
+    /// Changed ranges of [`Mesh::triangles`](crate::mesh::Mesh::triangles).
     pub triangles: Vec<Range<usize>>,
 }
 
@@ -69,7 +69,7 @@ impl ChangeLog {
         self.steps
     }
 
-    /// What changed since this was last asked, `None` if nothing did.
+    /// Returns the changes since the last call, or `None` if there are none.
     pub(super) fn take(&mut self) -> Option<Changes> {
         let (nodes, triangles) = (self.nodes.take_ranges(), self.triangles.take_ranges());
         let taken = std::mem::replace(&mut self.steps_taken, self.steps);

@@ -10,30 +10,30 @@ use std::ops::Range;
 use super::{Diameters, Element, Mesh, Neighbour, TriangleId};
 
 impl Mesh {
-    /// How many triangles belong to the domain.
+    /// Returns how many triangles belong to the domain.
     pub fn triangle_count(&self) -> usize {
         self.raw_triangle_count() - self.outside_count()
     }
 
-    /// How many triangles lie outside the domain.
+    /// Returns how many triangles lie outside the domain.
     pub fn outside_count(&self) -> usize {
         self.counts.outside().map(|n| n as usize).sum()
     }
 
-    /// Whether a triangle belongs to the domain.
+    /// Returns whether a triangle belongs to the domain.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     #[inline]
     pub fn is_in_domain(&self, id: TriangleId) -> bool {
         !self.triangle(id).is_outside()
     }
 
-    /// The neighbours of a triangle in the domain, anticlockwise, the one across the bisection edge first. A
-    /// triangle outside the domain counts as boundary.
+    /// Returns the neighbours of a triangle in the domain, anticlockwise, the one across the bisection edge
+    /// first. A triangle outside the domain counts as boundary.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     pub fn neighbours(&self, id: TriangleId) -> [Neighbour; 3] {
         self.triangle(id).raw_neighbours.map(|across| match across.triangle() {
             Some(other) if self.is_in_domain(other) => across,
@@ -41,7 +41,7 @@ impl Mesh {
         })
     }
 
-    /// Area of the triangles that belong to the domain, in square world units.
+    /// Returns the area of the triangles that belong to the domain, in square world units.
     ///
     /// Exact also where cells are not quite square.
     pub fn area(&self) -> f64 {
@@ -55,7 +55,7 @@ impl Mesh {
     pub fn classify(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
         let diameters = Diameters::of(self);
         for index in ids {
-            let outside = is_outside(&self.element(TriangleId::from_index(index), &diameters));
+            let outside = is_outside(&self.element_with(TriangleId::from_index(index), &diameters));
             let triangle = &mut self.triangles[index];
             let before = triangle.kind();
             triangle.set_outside(outside);

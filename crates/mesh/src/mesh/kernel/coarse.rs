@@ -79,14 +79,14 @@ impl CoarseIndex {
 }
 
 impl Mesh {
-    /// The coarse triangulation of a domain (Algorithm 7 without its padding, with Appendix A).
+    /// Returns the coarse triangulation of a domain (Algorithm 7 without its padding, with Appendix A).
     ///
     /// The cells of `lattice` are the coarse cells. A coarse triangle is kept when `contains` is true at its
     /// three nodes, given in world coordinates. Nodes that no kept triangle uses are left out; the report
     /// keeps them.
     ///
     /// # Errors
-    /// When the grid has more triangles than `limits` allow, or when none of them lies in the domain.
+    /// Fails when the grid has more triangles than `limits` allow, or when none of them lies in the domain.
     pub fn coarse_grid(
         lattice: &Lattice,
         contains: impl Fn(DVec2) -> bool,
@@ -102,7 +102,7 @@ impl Mesh {
         if mesh.triangles.is_empty() { Err(CoarseError::EmptyDomain { spacing }) } else { Ok(mesh) }
     }
 
-    /// How many coarse triangles the mesh was refined from. Their entries are the first of the array.
+    /// Returns how many coarse triangles the mesh was refined from. Their entries are the first of the array.
     pub fn coarse_triangles(&self) -> usize {
         self.coarse.kept()
     }
@@ -146,7 +146,7 @@ impl<'a> CoarseGrid<'a> {
         Mesh { lattice: *self.lattice, nodes, triangles, triangle_at, counts, coarse }
     }
 
-    /// The index map ℳ_t, and the numbers of the coarse triangles that stay (Algorithm 17).
+    /// Returns the index map ℳ_t, and the numbers of the coarse triangles that stay (Algorithm 17).
     fn filter_triangles(&self, inside: &[bool]) -> (CoarseIndex, Vec<usize>) {
         let kept: Vec<usize> = (0..self.triangle_count())
             .filter(|&number| self.vertices(number).iter().all(|&n| inside[n]))
@@ -161,7 +161,7 @@ impl<'a> CoarseGrid<'a> {
         (CoarseIndex { ids: Some(ids), kept: kept.len() }, kept)
     }
 
-    /// The nodes that some kept triangle uses, and ℳ_x from grid number to id (Algorithm 16, without
+    /// Returns the nodes that some kept triangle uses, and ℳ_x from grid number to id (Algorithm 16, without
     /// orphans).
     fn filter_nodes(&self, kept: &[usize]) -> (Vec<LatticePoint>, Vec<NodeId>) {
         let mut used = vec![false; self.node_count()];
@@ -193,7 +193,7 @@ impl<'a> CoarseGrid<'a> {
         2 * self.columns * self.rows
     }
 
-    /// Lattice coordinates of a grid node (Algorithm 4).
+    /// Returns the lattice coordinates of a grid node (Algorithm 4).
     fn node(&self, number: usize) -> LatticePoint {
         let per_row = self.columns + 1;
         let steps = self.lattice.cell_steps();
@@ -220,7 +220,7 @@ impl<'a> CoarseGrid<'a> {
         }
     }
 
-    /// Coarse numbers across the three edges, the bisection edge first, anticlockwise (Algorithm 6).
+    /// Returns coarse numbers across the three edges, the bisection edge first, anticlockwise (Algorithm 6).
     fn neighbours(&self, number: usize) -> [Option<usize>; 3] {
         let (column, row) = self.cell(number);
         let strip = 2 * self.columns;

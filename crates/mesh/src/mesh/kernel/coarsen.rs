@@ -17,10 +17,10 @@
 //!
 //! Call the half of a square cell that a diagonal cuts off a *half*, and the quarter that two diagonals cut
 //! out a *quarter*. Let s = δ / 2ʲ. A triangle of level 2j is a half of a cell of side s with corners at
-//! multiples of s, and one of level 2j + 1 is a quarter of such a cell, its newest vertex the centre. For so
-//! it is with the coarse triangles (j = 0); bisecting a half gives two quarters of the same cell; and
-//! bisecting a quarter, at the side of its cell, gives two triangles with legs of s/2 along the axes: halves
-//! of cells of side s/2.
+//! multiples of s, and one of level 2j + 1 is a quarter of such a cell, its newest vertex the centre. The
+//! proof is by induction. The coarse triangles (j = 0) are halves. Bisecting a half gives two quarters of the
+//! same cell. Bisecting a quarter, at the side of its cell, gives two triangles with legs of s/2 along the
+//! axes, which are halves of cells of side s/2.
 //!
 //! The corners of such a half are an old corner of the large cell, the middle of the large cell's side, and
 //! its centre. Measured in s/2 they have none, one and two odd coordinates: call that number their *rank*.
@@ -32,12 +32,12 @@
 //! | 2j + 1 ≥ 3 | δ / 2ʲ                | (0, 1, m) or (1, 2, m) | the one of rank 1        | rank 0                    |
 //! | 2j + 2 ≥ 4 | δ / 2ʲ, as its parent | (end, m, apex)         | the third                | the end of the lower rank |
 //!
-//! The last entry: the parent's vertices are those of the line above, so its cut edge, from first to second,
-//! runs from the lower rank to the higher; and the kept child has the parent's first vertex. The diagonals
-//! thus join the corners whose sum of coordinates is even. In the cells of the coarse grid it is the falling
-//! one, the antidiagonal: at level 1 the parent's apex lies diagonally below or above m with both coordinates
-//! on the same side, and all triangles run anticlockwise, so that of the two children at level 2 the kept one
-//! does, and the new one, a mirror image, does not.
+//! The last entry of the table holds because the parent's vertices are listed in the line above: its cut
+//! edge, from first to second vertex, runs from the lower rank to the higher, and the kept child has the
+//! parent's first vertex. The diagonals thus join the corners whose sum of coordinates is even. In the cells
+//! of the coarse grid it is the falling one, the antidiagonal: at level 1 the parent's apex lies diagonally
+//! below or above m with both coordinates on the same side, and all triangles run anticlockwise, so that of
+//! the two children at level 2 the kept one does, and the new one, a mirror image, does not.
 //!
 //! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was
 //! coarsened has the same triangles as one that never was, up to their numbers.
@@ -54,13 +54,13 @@ pub(in crate::mesh) struct Siblings {
 }
 
 impl Siblings {
-    /// The entry that the parent takes: the lower one. A coarse triangle's entry is lower than all that were
-    /// appended, so that it stays with a descendant of that coarse triangle.
+    /// Returns the entry that the parent takes: the lower one. A coarse triangle's entry is lower than all
+    /// that were appended, so that it stays with a descendant of that coarse triangle.
     fn place(&self) -> TriangleId {
         self.kept.min(self.new)
     }
 
-    /// The entry that becomes free.
+    /// Returns the entry that becomes free.
     fn freed(&self) -> TriangleId {
         self.kept.max(self.new)
     }
@@ -85,17 +85,17 @@ impl Star {
         std::iter::once(self.one).chain(self.other)
     }
 
-    /// The triangles around the centre.
+    /// Returns the triangles around the centre.
     pub(in crate::mesh) fn children(&self) -> impl Iterator<Item = TriangleId> {
         self.sides().flat_map(|side| [side.kept, side.new])
     }
 
-    /// The entries that the parents take.
+    /// Returns the entries that the parents take.
     pub(in crate::mesh) fn places(&self) -> impl Iterator<Item = TriangleId> {
         self.sides().map(|side| side.place())
     }
 
-    /// The entries that become free, the highest first.
+    /// Returns the entries that become free, the highest first.
     pub(in crate::mesh) fn freed(&self) -> impl Iterator<Item = TriangleId> + use<> {
         let (one, other) = (self.one.freed(), self.other.map(|side| side.freed()));
         let higher = other.map_or(one, |other| one.max(other));
@@ -103,8 +103,9 @@ impl Star {
     }
 }
 
-/// Whether `end`, an end of a triangle's bisection edge, is the apex of the parent, by the table at the head
-/// of this file. The triangle has the vertices `end`, `newest` and the other end; its `level` is not 0.
+/// Returns whether `end`, an end of a triangle's bisection edge, is the apex of the parent, by the table at
+/// the head of this file. The triangle has the vertices `end`, `newest` and the other end; its `level` is not
+/// 0.
 #[inline]
 pub(super) fn is_parents_apex(
     end: LatticePoint,
@@ -120,8 +121,8 @@ pub(super) fn is_parents_apex(
     }
 }
 
-/// How many coordinates of a node are odd, in units of the cells of which the triangles of an odd `level` are
-/// quarters.
+/// Returns how many coordinates of a node are odd, in units of the cells of which the triangles of an odd
+/// `level` are quarters.
 #[inline]
 fn rank(node: LatticePoint, level: u32, lattice: &Lattice) -> u32 {
     let cell = lattice.halvings() - level / 2;
@@ -129,8 +130,8 @@ fn rank(node: LatticePoint, level: u32, lattice: &Lattice) -> u32 {
 }
 
 impl Mesh {
-    /// The star around the newest vertex of `id`, if it is one: `None` for a coarse triangle, and where a
-    /// triangle around that node was bisected.
+    /// Returns the star around the newest vertex of `id`, if it is one: `None` for a coarse triangle, and
+    /// where a triangle around that node was bisected.
     #[inline]
     pub(in crate::mesh) fn star_of(&self, id: TriangleId) -> Option<Star> {
         let centre = self.triangle(id).newest_vertex()?;
@@ -145,8 +146,8 @@ impl Mesh {
         Some(Star { centre, one, other: Some(other) })
     }
 
-    /// A triangle with its sibling, and what lies across its half of the cut edge; `None` where the sibling
-    /// was bisected.
+    /// Returns a triangle with its sibling, and what lies across its half of the cut edge; `None` where the
+    /// sibling was bisected.
     #[inline]
     fn siblings(&self, id: TriangleId) -> Option<(Siblings, Neighbour)> {
         let triangle = self.triangle(id);
@@ -167,7 +168,7 @@ impl Mesh {
         Some((siblings, triangle.raw_neighbours[facing]))
     }
 
-    /// Place of the parent's apex among the vertices of a triangle that is not coarse.
+    /// Returns the place of the parent's apex among the vertices of a triangle that is not coarse.
     #[inline]
     fn parents_apex(&self, id: TriangleId) -> usize {
         let triangle = self.triangle(id);
@@ -179,7 +180,7 @@ impl Mesh {
         usize::from(!is_parents_apex(self.node(first), self.node(newest), level, &self.lattice))
     }
 
-    /// Whether `id` is the kept child, and not its sibling.
+    /// Returns whether `id` is the kept child, and not its sibling.
     #[inline]
     fn is_kept(&self, id: TriangleId, sibling: TriangleId) -> bool {
         match self.triangle(id).level() {
@@ -193,7 +194,7 @@ impl Mesh {
         }
     }
 
-    /// The parents of a star, to be put back by [`Self::merge`].
+    /// Returns the parents of a star, to be put back by [`Self::merge`].
     #[inline]
     pub(in crate::mesh) fn parents(&self, star: &Star) -> [Option<Triangle>; 2] {
         let across = |side: Siblings| Neighbour::from(side.place());
@@ -201,7 +202,7 @@ impl Mesh {
         [Some(one), star.other.map(|other| self.parent(other, across(star.one)))]
     }
 
-    /// The parent of two siblings: the rule at the head of `bisect`, backwards.
+    /// Returns the parent of two siblings: the rule at the head of `bisect`, backwards.
     #[inline]
     fn parent(&self, Siblings { kept, new }: Siblings, across: Neighbour) -> Triangle {
         let (kept, new) = (self.triangle(kept), self.triangle(new));
@@ -301,7 +302,7 @@ mod tests {
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
 
-    /// A rectangle with a corner and a node cut out, so that diagonals and sides are on the boundary.
+    /// Returns a rectangle with a corner and a node cut out, so that diagonals and sides are on the boundary.
     fn coarse() -> Mesh {
         let removed = [DVec2::ZERO, dvec2(0.75, 0.5)];
         let bounds = Rect::new(DVec2::ZERO, dvec2(1.25, 1.0));
@@ -313,7 +314,7 @@ mod tests {
         .unwrap()
     }
 
-    /// The last of the chain of triangles that must be bisected before `id`, or `id` itself.
+    /// Returns the last of the chain of triangles that must be bisected before `id`, or `id` itself.
     fn first_to_bisect(mesh: &Mesh, mut id: TriangleId) -> TriangleId {
         loop {
             match mesh.triangle(id).raw_neighbours[0].triangle() {
@@ -330,8 +331,8 @@ mod tests {
         }
     }
 
-    /// The triangle to bisect next: near a place of its own for each seed, so that all levels are met, or
-    /// anywhere.
+    /// Returns the triangle to bisect next: near a place of its own for each seed, so that all levels are
+    /// met, or anywhere.
     fn any_triangle(mesh: &Mesh, random: &mut fastrand::Rng, seed: usize) -> TriangleId {
         let focus = TriangleId::from_index(seed % mesh.coarse_triangles());
         let anywhere = TriangleId::from_index(random.usize(..mesh.triangles.len()));

@@ -20,7 +20,7 @@ pub struct MeshCopy {
 const ENTRIES_PER_UNIT: usize = 8;
 
 impl MeshCopy {
-    /// A copy of `source`, still empty but for the index of coarse triangles.
+    /// Creates a copy of `source`, still empty but for the index of coarse triangles.
     pub fn new(source: &Mesh) -> Self {
         let mut copy = Mesh {
             lattice: source.lattice,
@@ -50,15 +50,15 @@ impl MeshCopy {
         if whole { Progress::Done } else { Progress::More }
     }
 
-    /// How many triangles are copied so far.
+    /// Returns how many triangles are copied so far.
     pub fn triangles(&self) -> usize {
         self.copy.triangles.len()
     }
 
-    /// The copy.
+    /// Returns the copy.
     ///
     /// # Panics
-    /// When it is not whole: its counts would not be those of its triangles.
+    /// Panics when it is not whole: its counts would not be those of its triangles.
     pub fn finish(self) -> Mesh {
         let counted: usize = self.copy.counts.0.iter().map(|&n| n as usize).sum();
         assert_eq!(counted, self.copy.triangles.len(), "a copy is finished once `advance` returns `Done`");
@@ -83,7 +83,7 @@ mod tests {
     fn a_copy_grows_by_slices_and_is_equal_once_whole() {
         let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000).unwrap();
         let mut mesh = Mesh::coarse_grid(&lattice, |node| node.x + node.y > 0.3, &Limits::default()).unwrap();
-        mesh.refine(&Limits::default(), |element| Ok(element.diameter() > 0.01)).unwrap();
+        mesh.refine(&Limits::default(), |element| element.diameter() > 0.01).unwrap();
         let mut copying = MeshCopy::new(&mesh);
         let (mut copied, mut slices) = (0, 0);
         while copying.advance(&mesh, 50) == Progress::More {

@@ -1,4 +1,4 @@
-//! What a refinement rule is asked about, and what a slice of work returns.
+//! The argument of a refinement rule, and the result of a slice of work.
 
 use glam::DVec2;
 
@@ -9,7 +9,7 @@ use crate::geometry::{Lattice, LatticePoint, Rect};
 pub struct Element<'a> {
     /// The entry of the triangle array.
     pub triangle: &'a Triangle,
-    /// Its vertices in lattice coordinates, in its order.
+    /// The vertices of the triangle in lattice coordinates, in its order.
     pub corners: [LatticePoint; 3],
     /// The grid and lattice of the mesh.
     pub lattice: &'a Lattice,
@@ -27,19 +27,20 @@ impl Diameters {
 }
 
 impl Element<'_> {
-    /// Length of the bisection edge in world units (Eq. 1): what a rule compares with the target diameter.
+    /// Returns the length of the bisection edge in world units (Eq. 1): what a rule compares with the target
+    /// diameter.
     #[inline]
     pub fn diameter(&self) -> f64 {
         self.diameter
     }
 
-    /// The vertices in world coordinates, in the triangle's order.
+    /// Returns the vertices in world coordinates, in the triangle's order.
     #[inline]
     pub fn world_corners(&self) -> [DVec2; 3] {
         self.corners.map(|c| self.lattice.world_from_lattice(c))
     }
 
-    /// The smallest rectangle around it, in world units.
+    /// Returns the smallest rectangle around it, in world units.
     pub fn world_rectangle(&self) -> Rect {
         let [a, b, c] = self.world_corners();
         Rect::new(a.min(b).min(c), a.max(b).max(c))
@@ -47,18 +48,29 @@ impl Element<'_> {
 }
 
 impl Mesh {
+    /// Returns the triangle with the given id, as a refinement rule sees it.
+    ///
+    /// # Panics
+    /// Panics when the id is not of this mesh.
+    pub fn element(&self, id: TriangleId) -> Element<'_> {
+        let triangle = self.triangle(id);
+        let corners = triangle.vertices.map(|v| self.node(v));
+        Element { triangle, corners, lattice: &self.lattice, diameter: self.diameter(triangle.level()) }
+    }
+
+    /// Returns the result of [`Self::element`], from a table of the diameters of all levels.
     #[inline]
-    pub(in crate::mesh) fn element(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
+    pub(in crate::mesh) fn element_with(&self, id: TriangleId, diameters: &Diameters) -> Element<'_> {
         self.element_of(self.triangle(id), diameters)
     }
 
-    /// The elements of all entries of the array, those outside a fitted domain included.
+    /// Returns the elements of all entries of the array, those outside a fitted domain included.
     pub fn raw_elements(&self) -> impl Iterator<Item = Element<'_>> {
         let diameters = Diameters::of(self);
         self.triangles.iter().map(move |triangle| self.element_of(triangle, &diameters))
     }
 
-    /// The element of a triangle that need not be in the array.
+    /// Returns the element of a triangle that need not be in the array.
     #[inline]
     pub(in crate::mesh) fn element_of<'a>(
         &'a self,
@@ -78,7 +90,7 @@ impl Mesh {
 /// Whether a sliced piece of work is finished.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// Nothing is left to do.
+    /// All work is done.
     Done,
     /// The allowance was used up; call again.
     More,

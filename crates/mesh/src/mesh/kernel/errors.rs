@@ -1,5 +1,6 @@
 //! Why refinement and updates stop.
 
+use std::convert::Infallible;
 use std::error::Error;
 use std::fmt;
 
@@ -33,10 +34,13 @@ impl fmt::Display for InvalidTarget {
 impl Error for InvalidTarget {}
 
 /// Why refinement stopped before every triangle was satisfied. The mesh conforms nevertheless.
+///
+/// `E` is the error of the rule: any type ([`Answer`](crate::mesh::Answer)), or [`Infallible`] where the rule
+/// always knows an answer. The rules of this library have [`InvalidTarget`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum RefineError {
-    /// The rule met a bad target.
-    InvalidTarget(InvalidTarget),
+pub enum RefineError<E = InvalidTarget> {
+    /// The rule could not answer.
+    Rule(E),
     /// The next call would pass the triangle budget.
     TooManyTriangles {
         /// [`Limits::max_triangles`](crate::mesh::Limits::max_triangles).
@@ -60,15 +64,18 @@ pub enum RefineError {
         at: DVec2,
         /// The smallest diameter that the lattice allows, in world units.
         smallest: f64,
-        /// Its level.
+        /// The level of the triangle.
         level: u32,
     },
 }
 
-impl fmt::Display for RefineError {
+/// A [`RefineError`] that is none of the rule.
+pub(in crate::mesh) type LimitError = RefineError<Infallible>;
+
+impl<E: fmt::Display> fmt::Display for RefineError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::InvalidTarget(error) => error.fmt(f),
+            Self::Rule(error) => error.fmt(f),
             Self::TooManyTriangles { limit } => {
                 write!(f, "The mesh needs more than {} triangles, which is the limit.", Grouped(*limit))
             }
@@ -95,30 +102,50 @@ impl fmt::Display for RefineError {
     }
 }
 
-impl Error for RefineError {
+impl<E: Error> Error for RefineError<E> {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
-            Self::InvalidTarget(error) => error.source(),
+            Self::Rule(error) => error.source(),
             _ => None,
         }
     }
 }
 
-impl From<InvalidTarget> for RefineError {
-    fn from(error: InvalidTarget) -> Self {
-        Self::InvalidTarget(error)
+impl<E> From<E> for RefineError<E> {
+    fn from(error: E) -> Self {
+        Self::Rule(error)
     }
 }
 
-impl RefineError {
-    /// A triangle with a vertex at `at` is at the deepest level of the lattice and exceeds its target.
-    pub(in crate::mesh) fn too_fine(lattice: &Lattice, at: LatticePoint) -> Self {
+impl LimitError {
+    /// Returns the same for a rule with any error.
+    #[cold]
+    pub(in crate::mesh) fn with_rule<E>(self) -> RefineError<E> {
+        self.map_rule(|never| match never {})
+    }
+}
+
+impl<E> RefineError<E> {
+    /// Returns the same with another error of the rule.
+    pub fn map_rule<F>(self, map: impl FnOnce(E) -> F) -> RefineError<F> {
+        match self {
+            Self::Rule(error) => RefineError::Rule(map(error)),
+            Self::TooManyTriangles { limit } => RefineError::TooManyTriangles { limit },
+            Self::TooMuchMemory { limit, memory } => RefineError::TooMuchMemory { limit, memory },
+            Self::OutOfMemory { bytes } => RefineError::OutOfMemory { bytes },
+            Self::TooFine { at, smallest, level } => RefineError::TooFine { at, smallest, level },
+        }
+    }
+
+    /// Returns the error for a triangle with a vertex at `at` that exceeds its target at the deepest level of
+    /// the lattice.
+    pub fn too_fine(lattice: &Lattice, at: LatticePoint) -> Self {
         let level = lattice.deepest_level();
         let smallest = bisection_edge_length(lattice.spacing(), level);
         Self::TooFine { at: lattice.world_from_lattice(at), smallest, level }
     }
 
-    /// Whether the mesh would be too large for its limits or for the memory of the system.
+    /// Returns whether the mesh would be too large for its limits or for the memory of the system.
     pub fn is_over_budget(&self) -> bool {
         matches!(self, Self::TooManyTriangles { .. } | Self::TooMuchMemory { .. } | Self::OutOfMemory { .. })
     }

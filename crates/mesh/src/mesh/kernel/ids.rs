@@ -10,17 +10,17 @@ use super::MOST_TRIANGLES;
 pub struct NodeId(pub(in crate::mesh) u32);
 
 impl NodeId {
-    /// The id of the node at `index` of the node array.
+    /// Returns the id of the node at `index` of the node array.
     ///
     /// # Panics
-    /// When the index is above [`MOST_TRIANGLES`]: there are no such ids.
+    /// Panics when the index is above [`MOST_TRIANGLES`]: there are no such ids.
     #[inline]
     pub const fn from_index(index: usize) -> Self {
         assert!(index <= MOST_TRIANGLES, "the index of a node is larger than any mesh");
         Self(index as u32)
     }
 
-    /// Place in the node array.
+    /// Returns the place in the node array.
     #[inline]
     pub const fn index(self) -> usize {
         self.0 as usize
@@ -39,40 +39,40 @@ impl NodeId {
 pub struct TriangleId(pub(in crate::mesh) u32);
 
 impl TriangleId {
-    /// The id of the triangle at `index` of the triangle array.
+    /// Returns the id of the triangle at `index` of the triangle array.
     ///
     /// # Panics
-    /// When the index is above [`MOST_TRIANGLES`]: there are no such ids.
+    /// Panics when the index is above [`MOST_TRIANGLES`]: there are no such ids.
     #[inline]
     pub const fn from_index(index: usize) -> Self {
         assert!(index <= MOST_TRIANGLES, "the index of a triangle is larger than any mesh");
         Self(index as u32)
     }
 
-    /// Place in the triangle array.
+    /// Returns the place in the triangle array.
     #[inline]
     pub const fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What lies across an edge: a triangle, or the boundary of the domain (β of the report).
+/// The neighbour across an edge: a triangle, or the boundary of the domain (β of the report).
 #[repr(transparent)]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 pub struct Neighbour(u32);
 
 impl Neighbour {
-    /// Nothing lies across the edge.
+    /// The boundary of the domain: no triangle is across the edge.
     pub const BOUNDARY: Self = Self(u32::MAX);
 
-    /// The triangle across the edge, or `None` at the boundary.
+    /// Returns the triangle across the edge, or `None` at the boundary.
     #[inline]
     pub const fn triangle(self) -> Option<TriangleId> {
         if self.0 == Self::BOUNDARY.0 { None } else { Some(TriangleId(self.0)) }
     }
 
-    /// The entry so many places behind; only of triangles.
+    /// Returns the entry so many places behind; only of triangles.
     #[inline]
     pub(super) const fn behind(self, places: u32) -> Self {
         Self(self.0.wrapping_add(places))

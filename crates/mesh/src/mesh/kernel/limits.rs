@@ -1,11 +1,11 @@
 //! Memory as a limit: translated into a count of triangles, so that refinement has one number to look at.
 
-use super::RefineError;
+use super::LimitError;
 
 /// The most triangles of any mesh, under any limits: higher ids serve as marks.
 pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 
-/// What a mesh may cost.
+/// Limits of the size of a mesh.
 ///
 /// Once the arrays pass 2 MiB, a mesh reserves address space for [`Self::most_triangles`] in one step: about
 /// 2 GB with the default limits. Memory is used only as it is touched. On Windows, which charges for
@@ -33,14 +33,14 @@ impl Limits {
         self.max_level.unwrap_or(u32::MAX)
     }
 
-    /// What to say where [`Self::most_triangles`] would be passed.
-    pub(super) fn passed(&self) -> RefineError {
+    /// Returns the error for a mesh that would exceed [`Self::most_triangles`].
+    pub(super) fn passed(&self) -> LimitError {
         let limit = self.most_triangles();
         match self.max_memory {
             Some(memory) if memory.triangles() < self.max_triangles.min(MOST_TRIANGLES) => {
-                RefineError::TooMuchMemory { limit, memory }
+                LimitError::TooMuchMemory { limit, memory }
             }
-            _ => RefineError::TooManyTriangles { limit },
+            _ => LimitError::TooManyTriangles { limit },
         }
     }
 }
@@ -57,7 +57,7 @@ impl Default for Limits {
 pub struct MemoryLimit {
     /// Most memory, in bytes.
     pub bytes: usize,
-    /// What a triangle takes with its share of all else, in bytes.
+    /// Memory of a triangle with its share of all other arrays, in bytes.
     pub per_triangle: usize,
 }
 
@@ -81,17 +81,18 @@ impl MemoryLimit {
     /// that is shown.
     pub const TWO_MESHES: usize = 2 * IN_THE_MESH + WHILE_MADE + WHILE_UPDATED;
 
-    /// For a mesh that is made once.
+    /// Returns the limit for a mesh that is made once, with `bytes` of memory.
     pub fn for_one_mesh(bytes: usize) -> Self {
         Self { bytes, per_triangle: Self::ONE_MESH }
     }
 
-    /// For a mesh that is updated in place, or made again beside the one that is shown.
+    /// Returns the limit for a mesh that is updated in place, or made again beside the shown one, with
+    /// `bytes` of memory.
     pub fn for_two_meshes(bytes: usize) -> Self {
         Self { bytes, per_triangle: Self::TWO_MESHES }
     }
 
-    /// How many triangles there is room for.
+    /// Returns how many triangles there is room for.
     pub fn triangles(&self) -> usize {
         self.bytes / self.per_triangle.max(1)
     }

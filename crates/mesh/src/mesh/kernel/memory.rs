@@ -1,28 +1,28 @@
-//! Room for large arrays: reserved once, taken as it is touched, in large pages. What happens when the system
-//! has no more memory.
+//! Memory of large arrays, and the behaviour when the system has no more memory. Room for an array is
+//! reserved once; the system provides the pages, large ones if possible, when they are first written.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::io::Write;
 use std::mem::MaybeUninit;
 
-use super::{Mesh, RefineError};
+use super::{LimitError, Mesh};
 
 /// A large page, in bytes. Arrays that fit one grow by doubling, in memory that the allocator has at hand.
 const PAGE: usize = 2 << 20;
 
 impl Mesh {
     /// Makes room for at least `more` further triangles and as many nodes, and never for more than `most`
-    /// triangles unless `more` asks for it. Returns how many triangles there can be before this must be
+    /// triangles unless `more` requires it. Returns the number of triangles that fit before this must be
     /// called again.
     ///
     /// # Errors
-    /// When the system has no more memory.
+    /// Fails when the system has no more memory.
     ///
     /// A large mesh reserves all it may ever need in one step: untouched memory costs nothing, and the arrays
     /// never move again. With large pages this takes a third off the time to build two million triangles.
     #[cold]
-    pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> Result<usize, RefineError> {
+    pub(in crate::mesh) fn make_room(&mut self, more: usize, most: usize) -> Result<usize, LimitError> {
         try_make_room(&mut self.triangles, more, most)?;
         // A bisection makes one node, and one or two triangles.
         try_make_room(&mut self.nodes, more, most)?;
@@ -41,8 +41,8 @@ impl Mesh {
         self.triangle_at.shrink_to(2 * self.triangle_at.len());
     }
 
-    /// Memory that nodes and triangles take, in bytes: 38 for each triangle, more where the mesh was larger a
-    /// while ago. What is reserved and was never touched does not count.
+    /// Returns the memory that nodes and triangles take, in bytes: 38 for each triangle, more where the mesh
+    /// was larger a while ago. What is reserved and was never touched does not count.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.triangles) + size_of_val(&*self.nodes) + size_of_val(&*self.triangle_at)
     }
@@ -58,12 +58,12 @@ pub(in crate::mesh) fn make_room<T>(array: &mut Vec<T>, more: usize, most: usize
 /// Makes room for `more` further entries, and where the array is large at once for `most` in all.
 ///
 /// # Errors
-/// When the system has no more memory.
+/// Fails when the system has no more memory.
 pub(in crate::mesh) fn try_make_room<T>(
     array: &mut Vec<T>,
     more: usize,
     most: usize,
-) -> Result<(), RefineError> {
+) -> Result<(), LimitError> {
     if array.capacity() - array.len() >= more {
         return Ok(());
     }
@@ -81,7 +81,7 @@ pub(in crate::mesh) fn try_make_room<T>(
         }
     }
     let bytes = size * (array.len() + more);
-    may_fail(|| array.try_reserve(more)).map_err(|_| RefineError::OutOfMemory { bytes })
+    may_fail(|| array.try_reserve(more)).map_err(|_| LimitError::OutOfMemory { bytes })
 }
 
 thread_local! {
@@ -126,7 +126,8 @@ unsafe impl GlobalAlloc for ProgramAllocator {
     }
 }
 
-/// What the system gave, unless that is nothing and nobody handles it.
+/// Returns the memory that the system gave. If it is null and no caller handles that, this ends the program
+/// with a message.
 #[inline]
 fn given(place: *mut u8, bytes: usize) -> *mut u8 {
     if place.is_null() && !MAY_FAIL.get() {
@@ -176,7 +177,7 @@ impl<T: Copy> Piece<'_, T> {
     /// Fills the next places.
     ///
     /// # Panics
-    /// When the piece has less room.
+    /// Panics when the piece has less room.
     pub(in crate::mesh) fn extend(&mut self, values: impl ExactSizeIterator<Item = T>) {
         let count = values.len();
         let places = &mut self.slots[self.filled..self.filled + count];
@@ -190,7 +191,7 @@ impl<T: Copy> Piece<'_, T> {
 /// threads: memory that was not touched before is then mapped by all of them.
 ///
 /// # Panics
-/// When a piece is not full in the end.
+/// Panics when a piece is not full in the end.
 pub(in crate::mesh) fn append_pieces<T: Copy>(
     array: &mut Vec<T>,
     lengths: impl Iterator<Item = usize> + Clone,

@@ -1,5 +1,6 @@
 //! Making and changing a mesh: coarse grid, bisection, refinement, update in place, coarsening.
 
+mod answer;
 mod bisect;
 mod bitset;
 mod blocks;
@@ -26,11 +27,13 @@ use glam::DVec2;
 
 use crate::geometry::{LATTICE_BITS, Lattice, LatticePoint};
 
+pub use answer::Answer;
 pub use blocks::{BlockRefiner, LevelsWithin, RuleAnswers, SharedRule};
 pub use changes::Changes;
 pub use coarse::CoarseError;
 pub use copy::MeshCopy;
 pub use element::{Element, Progress};
+pub(in crate::mesh) use errors::LimitError;
 pub use errors::{InvalidTarget, RefineError};
 pub use ids::{Neighbour, NodeId, TriangleId};
 pub use limits::{Limits, MOST_TRIANGLES, MemoryLimit};
@@ -83,12 +86,12 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The grid and lattice that the mesh was refined from.
+    /// Returns the grid and lattice that the mesh was refined from.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The triangles of the domain (𝒯), in the order of their ids.
+    /// Returns the triangles of the domain (𝒯), in the order of their ids.
     ///
     /// Triangles outside a fitted domain are left out; [`Self::raw_triangles`] has them.
     pub fn triangles(&self) -> impl Iterator<Item = (TriangleId, &Triangle)> + Clone {
@@ -97,7 +100,7 @@ impl Mesh {
             .map(|(index, triangle)| (TriangleId::from_index(index), triangle))
     }
 
-    /// The nodes of the domain (𝒩) in lattice coordinates, in the order of their ids.
+    /// Returns the nodes of the domain (𝒩) in lattice coordinates, in the order of their ids.
     ///
     /// Nodes that only triangles outside a fitted domain have are left out; [`Self::raw_nodes`] has them.
     /// Where there are triangles outside, this goes through all triangles first.
@@ -108,7 +111,7 @@ impl Mesh {
             .map(|(index, &node)| (NodeId::from_index(index), node))
     }
 
-    /// For each entry of [`Self::raw_nodes`] whether a triangle of the domain has it.
+    /// Returns for each entry of [`Self::raw_nodes`] whether a triangle of the domain has it.
     pub(in crate::mesh) fn used_nodes(&self) -> Vec<bool> {
         let mut used = vec![false; self.nodes.len()];
         for vertex in self.triangles().flat_map(|(_, triangle)| triangle.vertices) {
@@ -117,74 +120,74 @@ impl Mesh {
         used
     }
 
-    /// The array of nodes in lattice coordinates, those of the coarse grid first. It includes nodes that only
-    /// triangles outside a fitted domain have.
+    /// Returns the array of nodes in lattice coordinates, those of the coarse grid first. It includes nodes
+    /// that only triangles outside a fitted domain have.
     pub fn raw_nodes(&self) -> &[LatticePoint] {
         &self.nodes
     }
 
-    /// The array of triangles, those outside a fitted domain included ([`Triangle::is_outside`]).
+    /// Returns the array of triangles, those outside a fitted domain included ([`Triangle::is_outside`]).
     pub fn raw_triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
-    /// How many entries [`Self::raw_triangles`] has: what memory and limits count.
+    /// Returns how many entries [`Self::raw_triangles`] has: what memory and limits count.
     pub fn raw_triangle_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The triangle with the given id.
+    /// Returns the triangle with the given id.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     #[inline]
     pub fn triangle(&self, id: TriangleId) -> &Triangle {
         &self.triangles[id.index()]
     }
 
-    /// Lattice coordinates of a node.
+    /// Returns the lattice coordinates of a node.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     #[inline]
     pub fn node(&self, id: NodeId) -> LatticePoint {
         self.nodes[id.index()]
     }
 
-    /// One of the triangles around a node, which may lie outside the domain.
+    /// Returns one of the triangles around a node, which may lie outside the domain.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     #[inline]
     pub(in crate::mesh) fn raw_triangle_at(&self, id: NodeId) -> TriangleId {
         self.triangle_at[id.index()]
     }
 
-    /// World coordinates of a node.
+    /// Returns the world coordinates of a node.
     #[inline]
     pub fn world(&self, id: NodeId) -> DVec2 {
         self.lattice.world_from_lattice(self.node(id))
     }
 
-    /// The vertices of a triangle in lattice coordinates, in the triangle's order.
+    /// Returns the vertices of a triangle in lattice coordinates, in the triangle's order.
     #[inline]
     pub fn corners(&self, id: TriangleId) -> [LatticePoint; 3] {
         self.triangle(id).vertices.map(|v| self.node(v))
     }
 
-    /// The vertices of a triangle in world coordinates, in the triangle's order.
+    /// Returns the vertices of a triangle in world coordinates, in the triangle's order.
     pub fn world_corners(&self, id: TriangleId) -> [DVec2; 3] {
         self.triangle(id).vertices.map(|v| self.world(v))
     }
 
-    /// How many triangles of the domain there are at each level, from level 0 to the deepest.
+    /// Returns how many triangles of the domain there are at each level, from level 0 to the deepest.
     pub fn level_counts(&self) -> Vec<usize> {
         let inside = &self.counts.0[..DEEPEST_LEVEL + 1];
         let deepest = inside.iter().rposition(|&n| n > 0);
         inside[..deepest.map_or(0, |level| level + 1)].iter().map(|&n| n as usize).collect()
     }
 
-    /// Length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
+    /// Returns the length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
     pub fn diameter(&self, level: u32) -> f64 {
         bisection_edge_length(self.lattice.spacing(), level)
     }
@@ -195,22 +198,21 @@ impl Mesh {
 pub(in crate::mesh) struct KindCounts(pub(in crate::mesh) [u32; Kind::COUNT]);
 
 impl KindCounts {
-    /// Of a mesh of this many coarse triangles.
+    /// Returns the counts of a mesh of this many coarse triangles.
     fn coarse(triangles: usize) -> Self {
         let mut counts = [0; Kind::COUNT];
         counts[0] = triangles as u32;
         Self(counts)
     }
 
-    /// A parent of this kind has given way to its children.
+    /// Counts the bisection of a parent of this kind.
     #[inline]
     fn bisected(&mut self, parent: Kind) {
         self.0[parent.index()] -= 1;
         self.0[parent.finer().index()] += 2;
     }
 
-    /// The opposite of [`Self::bisected`]: a parent of this kind replaces its children, which may be of any
-    /// class.
+    /// Counts the merger of children, which may be of any class, into a parent of this kind.
     #[inline]
     fn merged(&mut self, children: [Kind; 2], parent: Kind) {
         for child in children {
@@ -219,22 +221,22 @@ impl KindCounts {
         self.0[parent.index()] += 1;
     }
 
-    /// Triangles outside the domain, by level.
+    /// Returns the triangles outside the domain, by level.
     fn outside(&self) -> impl Iterator<Item = u32> {
         self.0[Kind::COUNT / 2..].iter().copied()
     }
 
-    /// A triangle of this kind is there, too.
+    /// Counts one more triangle of this kind.
     fn add(&mut self, kind: Kind) {
         self.0[kind.index()] += 1;
     }
 
-    /// So many triangles of this kind are there, too.
+    /// Counts `count` more triangles of this kind.
     fn add_many(&mut self, kind: Kind, count: u32) {
         self.0[kind.index()] += count;
     }
 
-    /// A triangle has changed its class.
+    /// Counts a triangle that changed its class.
     fn moved(&mut self, from: Kind, to: Kind) {
         self.0[from.index()] -= 1;
         self.0[to.index()] += 1;
@@ -242,7 +244,7 @@ impl KindCounts {
 }
 
 impl Default for KindCounts {
-    /// Of no triangles.
+    /// Returns the counts of a mesh without triangles.
     fn default() -> Self {
         Self([0; Kind::COUNT])
     }
@@ -271,7 +273,7 @@ impl Clone for Mesh {
     }
 }
 
-/// Length ℓ_b of the bisection edge of a triangle at `level` (Eq. 1).
+/// Returns the length ℓ_b of the bisection edge of a triangle at `level` (Eq. 1).
 ///
 /// `spacing` is the side δ of a coarse cell; both lengths are in world units. Each level divides by √2; at
 /// odd levels the result is `spacing` times a power of two, and exactly that.
@@ -287,7 +289,7 @@ pub fn bisection_edge_length(spacing: f64, level: u32) -> f64 {
     if level.is_multiple_of(2) { SQRT_2 * halved } else { halved }
 }
 
-/// The smallest level whose bisection edge is no longer than `target` (ℓ_b⁻¹ of the report).
+/// Returns the smallest level whose bisection edge is no longer than `target` (ℓ_b⁻¹ of the report).
 ///
 /// Both lengths are in world units. Zero for targets above √2 · `spacing`, where the report's formula turns
 /// negative; `None` where no level up to 63 is fine enough, or `target` is NaN.

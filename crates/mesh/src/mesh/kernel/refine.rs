@@ -16,7 +16,9 @@
 //! as exceed their target [BDD2004].
 
 use super::memory::try_make_room;
-use super::{Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, TriangleId};
+use super::{
+    Answer, Diameters, Element, LimitError, Limits, Mesh, NodeId, Progress, RefineError, TriangleId,
+};
 
 /// Refinement of a mesh in slices (Algorithm 12).
 ///
@@ -37,7 +39,7 @@ pub struct Refiner {
 }
 
 impl Refiner {
-    /// Work that visits every triangle of `mesh` and all their descendants.
+    /// Creates the work that visits every triangle of `mesh` and all their descendants.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
         let mut refiner = Self { limits, work: WorkList::default(), chain: Vec::new(), capped: 0 };
         refiner.restart(mesh);
@@ -52,7 +54,7 @@ impl Refiner {
         self.restart_with(mesh, self.limits);
     }
 
-    /// As [`Self::restart`], within other limits.
+    /// Starts again as [`Self::restart`] does, with other limits.
     pub(super) fn restart_with(&mut self, mesh: &Mesh, limits: Limits) {
         self.limits = limits;
         self.work.restart(mesh.triangles.len());
@@ -65,13 +67,13 @@ impl Refiner {
     /// target. It must depend on the element alone.
     ///
     /// # Errors
-    /// When the rule meets a bad target, or a limit is reached.
-    pub fn advance(
+    /// Fails when the rule fails, or a limit is reached.
+    pub fn advance<A: Answer>(
         &mut self,
         mesh: &mut Mesh,
-        mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+        mut exceeds: impl FnMut(&Element) -> A,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, RefineError<A::Error>> {
         let deepest = mesh.lattice.deepest_level();
         let cap = self.limits.level_cap();
         let diameters = Diameters::of(mesh);
@@ -80,7 +82,7 @@ impl Refiner {
         // Ends: each turn is done with a triangle or takes it one level down, and levels are bounded.
         for _ in 0..visits {
             let Some(id) = self.work.current() else { return Ok(Progress::Done) };
-            if !exceeds(&mesh.element(id, &diameters))? {
+            if !exceeds(&mesh.element_with(id, &diameters)).into_result()? {
                 self.work.next();
                 continue;
             }
@@ -96,7 +98,7 @@ impl Refiner {
             }
             let most_new = Mesh::most_new_triangles(level);
             if mesh.triangles.len() + most_new > room {
-                room = self.room_for(mesh, id, most_new)?;
+                room = self.room_for(mesh, id, most_new).map_err(LimitError::with_rule)?;
             }
             mesh.refine_triangle_with(id, &mut self.chain, |_, parent| self.work.bisected(parent));
         }
@@ -106,14 +108,14 @@ impl Refiner {
     /// Makes room for the next call of RefineTriangle, which appends at most `most_new` triangles; returns
     /// how many triangles the mesh can have before this must be asked again.
     #[cold]
-    fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, RefineError> {
+    fn room_for(&mut self, mesh: &mut Mesh, id: TriangleId, most_new: usize) -> Result<usize, LimitError> {
         let room = mesh.room_for(id, most_new, &self.limits)?;
         let limit = self.limits.most_triangles();
         try_make_room(&mut self.work.after, most_new, limit)?;
         Ok(room.min(self.work.after.capacity()))
     }
 
-    /// How many triangles asked for more than [`Limits::max_level`] allows.
+    /// Returns how many triangles asked for more than [`Limits::max_level`] allows.
     pub fn capped(&self) -> usize {
         self.capped
     }
@@ -157,7 +159,7 @@ impl WorkList {
         self.current = self.head;
     }
 
-    /// The triangle to ask about.
+    /// Returns the triangle to ask about.
     #[inline]
     fn current(&self) -> Option<TriangleId> {
         (self.current != Self::END).then_some(TriangleId(self.current))
@@ -197,12 +199,12 @@ impl Mesh {
     /// coarser than their target.
     ///
     /// # Errors
-    /// As [`Refiner::advance`].
-    pub fn refine(
+    /// Fails as [`Refiner::advance`] does.
+    pub fn refine<A: Answer>(
         &mut self,
         limits: &Limits,
-        exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
-    ) -> Result<usize, RefineError> {
+        exceeds: impl FnMut(&Element) -> A,
+    ) -> Result<usize, RefineError<A::Error>> {
         let mut refiner = Refiner::new(self, *limits);
         refiner.advance(self, exceeds, usize::MAX)?;
         Ok(refiner.capped())
@@ -214,16 +216,35 @@ impl Mesh {
     /// New triangles and nodes are appended; the entry `id` becomes one of the two children.
     ///
     /// # Panics
-    /// When the id is not of this mesh, or the triangle is at the deepest level of the lattice.
+    /// Panics when the id is not of this mesh, or the triangle is at the deepest level of the lattice.
     #[doc(alias = "completion")]
     pub fn refine_triangle(&mut self, id: TriangleId) {
         assert!(self.triangle(id).level() < self.lattice.deepest_level(), "nodes would leave the lattice");
         self.refine_triangle_with(id, &mut Vec::new(), |_, _| {});
     }
 
-    /// As [`Self::refine_triangle`], with a stack to reuse; calls `bisected` with every entry that it
-    /// bisects, in the order of the new entries. Each entry of the chain is one level above the one before,
-    /// so it ends at a coarse triangle at the latest.
+    /// Bisects a triangle together with the one across its bisection edge (Algorithm 8), or alone where that
+    /// edge is on the boundary (Algorithm 19), and returns the new node.
+    ///
+    /// Returns `None`, and leaves the mesh as it is, where the triangle across is coarser: that one must be
+    /// bisected before, as [`Self::refine_triangle`] does.
+    ///
+    /// # Panics
+    /// Panics when the id is not of this mesh, or the triangle is at the deepest level of the lattice.
+    pub fn bisect_compatible(&mut self, id: TriangleId) -> Option<NodeId> {
+        let level = self.triangle(id).level();
+        assert!(level < self.lattice.deepest_level(), "nodes would leave the lattice");
+        match self.triangle(id).raw_neighbours[0].triangle() {
+            None => self.bisect_at_boundary(id),
+            Some(across) if self.triangle(across).level() == level => self.bisect_pair(id, across),
+            Some(_) => return None,
+        }
+        Some(NodeId::from_index(self.nodes.len() - 1))
+    }
+
+    /// Does the work of [`Self::refine_triangle`] with a stack to reuse. Calls `bisected` with every entry
+    /// that it bisects, in the order of the new entries. Each entry of the chain is one level above the one
+    /// before, so it ends at a coarse triangle at the latest.
     #[inline]
     pub(super) fn refine_triangle_with(
         &mut self,
@@ -262,14 +283,14 @@ impl Mesh {
     /// how many triangles there can be before this must be asked again.
     ///
     /// # Errors
-    /// When the call would pass the triangle budget, or the system has no more memory.
+    /// Fails when the call would pass the triangle budget, or the system has no more memory.
     #[cold]
     pub(super) fn room_for(
         &mut self,
         id: TriangleId,
         most_new: usize,
         limits: &Limits,
-    ) -> Result<usize, RefineError> {
+    ) -> Result<usize, LimitError> {
         let (count, limit) = (self.triangles.len(), limits.most_triangles());
         // Close to the limit the call is counted exactly.
         if count + most_new > limit && count + self.closure_size(id) > limit {
@@ -278,14 +299,14 @@ impl Mesh {
         Ok(self.make_room(most_new, limit)?.min(limit))
     }
 
-    /// The most triangles that [`Self::refine_triangle`] appends for one of this level: the closure bisects
-    /// at most one pair at each level down to it.
+    /// Returns the most triangles that [`Self::refine_triangle`] appends for one of this level: the closure
+    /// bisects at most one pair at each level down to it.
     #[inline]
     pub(super) fn most_new_triangles(level: u32) -> usize {
         2 * (level as usize + 1)
     }
 
-    /// How many triangles [`Self::refine_triangle`] would append.
+    /// Returns how many triangles [`Self::refine_triangle`] would append.
     fn closure_size(&self, id: TriangleId) -> usize {
         let (mut current, mut size) = (id, 0);
         // Ends: as in `refine_triangle_with`.

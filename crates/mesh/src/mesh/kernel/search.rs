@@ -5,10 +5,11 @@ use crate::geometry::{LatticePoint, LatticeRect};
 
 /// A search for the triangles that touch a rectangle.
 ///
-/// In one coarse triangle they can be reached from each other across edges: what it has in common with the
-/// rectangle is convex, and on the straight way between two points of it one goes from triangle to triangle
-/// across an edge, or around a node that lies in the rectangle too. So one triangle for each coarse triangle
-/// that the rectangle touches is enough to start from, holes or not.
+/// Within one coarse triangle, all of them can be reached from any of them across edges. The common part of
+/// the coarse triangle and the rectangle is convex, so it contains the segment between any two of its points.
+/// This segment passes from triangle to triangle across edges, or through nodes in the rectangle, around
+/// which all triangles touch it. So the search starts from one triangle in each coarse triangle that the
+/// rectangle touches, also if the domain has holes.
 #[derive(Clone, Debug)]
 pub(in crate::mesh) struct Search {
     area: LatticeRect,
@@ -34,7 +35,7 @@ impl Search {
         Self { area, columns, rows, next: 0, found: Vec::new() }
     }
 
-    /// A triangle found that the search has not gone on from, if there is one.
+    /// Returns a triangle found that the search has not gone on from, if there is one.
     pub(in crate::mesh) fn found(&self) -> Option<TriangleId> {
         self.found.last().copied()
     }
@@ -63,7 +64,7 @@ impl Search {
         true
     }
 
-    /// The next cell that the area touches, by column and row, and whether it is the upper half.
+    /// Returns the next cell that the area touches, by column and row, and whether it is the upper half.
     fn next_half_cell(&mut self) -> Option<([u32; 2], bool)> {
         let ([c0, c1], [r0, r1]) = (self.columns, self.rows);
         if c0 > c1 {
@@ -76,8 +77,8 @@ impl Search {
         (row <= r1).then_some(([c0 + (cell % across) as u32, row], upper))
     }
 
-    /// A triangle in the given half of a cell that touches the area, unless the half does not or is not in
-    /// the domain.
+    /// Returns a triangle in the given half of a cell that touches the area, unless the half does not or is
+    /// not in the domain.
     fn start(&self, mesh: &Mesh, [column, row]: [u32; 2], upper: bool) -> Option<TriangleId> {
         let number = 2 * (row as usize * mesh.lattice().cells()[0] as usize + column as usize);
         let entry = mesh.coarse.get(number + usize::from(upper))?;

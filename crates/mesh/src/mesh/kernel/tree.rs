@@ -24,48 +24,49 @@ pub struct TreeTriangle {
 }
 
 impl TreeTriangle {
-    /// A triangle of a mesh.
+    /// Returns a triangle of a mesh.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     pub fn of(mesh: &Mesh, id: TriangleId) -> Self {
         let triangle = mesh.triangle(id);
         let ends = triangle.bisection_edge().map(|end| mesh.node(end));
         Self { apex: mesh.node(triangle.apex()), ends, level: triangle.level() }
     }
 
-    /// The corners: the apex, where the right angle is, and the ends of the bisection edge.
+    /// Returns the corners: the apex, where the right angle is, and the ends of the bisection edge.
     #[inline]
     pub fn corners(&self) -> [LatticePoint; 3] {
         [self.apex, self.ends[0], self.ends[1]]
     }
 
-    /// How many bisections made this triangle from a coarse one, L(t).
+    /// Returns how many bisections made this triangle from a coarse one, L(t).
     #[inline]
     pub fn level(&self) -> u32 {
         self.level
     }
 
-    /// Where the right angle is: the newest node of the triangle, if it is not coarse.
+    /// Returns the corner with the right angle: the newest node of the triangle, if it is not coarse.
     #[inline]
     pub fn apex(&self) -> LatticePoint {
         self.apex
     }
 
-    /// The node that a bisection of this triangle makes. Its level must not be the deepest of the lattice.
+    /// Returns the node that a bisection of this triangle makes. Its level must not be the deepest of the
+    /// lattice.
     #[inline]
     pub fn midpoint(&self) -> LatticePoint {
         self.ends[0].midpoint(self.ends[1])
     }
 
-    /// The two halves. The level must not be the deepest of the lattice.
+    /// Returns the two halves. The level must not be the deepest of the lattice.
     #[inline]
     pub fn children(&self) -> [Self; 2] {
         let apex = self.midpoint();
         self.ends.map(|end| Self { apex, ends: [end, self.apex], level: self.level + 1 })
     }
 
-    /// The triangle that this one is half of; `None` of a coarse triangle.
+    /// Returns the triangle that this one is half of; `None` of a coarse triangle.
     pub fn parent(&self, lattice: &Lattice) -> Option<Self> {
         let level = self.level.checked_sub(1)?;
         let ([first, second], middle) = (self.ends, self.apex);
@@ -76,13 +77,13 @@ impl TreeTriangle {
         Some(Self { apex, ends: [end, far], level })
     }
 
-    /// The other half of the parent; `None` of a coarse triangle.
+    /// Returns the other half of the parent; `None` of a coarse triangle.
     pub fn sibling(&self, lattice: &Lattice) -> Option<Self> {
         let children = self.parent(lattice)?.children();
         children.into_iter().find(|child| !child.is_same(self))
     }
 
-    /// The triangles that this one is part of, from the coarse one to its parent.
+    /// Returns the triangles that this one is part of, from the coarse one to its parent.
     pub fn ancestors(&self, lattice: &Lattice) -> Vec<Self> {
         let mut ancestors: Vec<_> =
             std::iter::successors(self.parent(lattice), |triangle| triangle.parent(lattice)).collect();
@@ -90,7 +91,7 @@ impl TreeTriangle {
         ancestors
     }
 
-    /// The mirror image across the bisection edge, `None` where the domain ends there.
+    /// Returns the mirror image across the bisection edge, `None` where the domain ends there.
     pub fn across(&self, mesh: &Mesh) -> Option<Self> {
         let [p, q] = self.ends;
         let mirrored = |p: u32, q: u32, apex: u32| (p + q).checked_sub(apex);
@@ -99,14 +100,14 @@ impl TreeTriangle {
         image.coarse_entry(mesh).map(|_| image)
     }
 
-    /// Whether both are the same triangle. The ends may be in another order.
+    /// Returns whether both are the same triangle. The ends may be in another order.
     #[inline]
     pub fn is_same(&self, other: &Self) -> bool {
         let [p, q] = other.ends;
         self.apex == other.apex && (self.ends == [p, q] || self.ends == [q, p])
     }
 
-    /// Number of the coarse triangle that this lies in, and its entry; `None` beyond the domain.
+    /// Returns the number of the coarse triangle that this lies in, and its entry; `None` beyond the domain.
     pub(in crate::mesh) fn coarse_entry(&self, mesh: &Mesh) -> Option<(usize, TriangleId)> {
         let steps = 4 * u64::from(mesh.lattice().cell_steps());
         // A point strictly inside, in quarters of a lattice step.

@@ -58,25 +58,25 @@ impl Kind {
         self.0 >= Self::OUTSIDE
     }
 
-    /// The kind of the children.
+    /// Returns the kind of the children.
     #[inline]
     pub(in crate::mesh) const fn finer(self) -> Self {
         Self(self.0 + 1)
     }
 
-    /// The kind of descendants so many levels down.
+    /// Returns the kind of descendants so many levels down.
     #[inline]
     pub(in crate::mesh) const fn finer_by(self, levels: u32) -> Self {
         Self(self.0 + levels)
     }
 
-    /// The kind of the parent.
+    /// Returns the kind of the parent.
     #[inline]
     pub(in crate::mesh) const fn coarser(self) -> Self {
         Self(self.0 - 1)
     }
 
-    /// Place in a table of all kinds.
+    /// Returns the place in a table of all kinds.
     #[inline]
     pub(in crate::mesh) const fn index(self) -> usize {
         self.0 as usize
@@ -93,7 +93,7 @@ pub enum Orientation {
 }
 
 impl Orientation {
-    /// The opposite orientation.
+    /// Returns the opposite orientation.
     #[inline]
     pub const fn reversed(self) -> Self {
         match self {
@@ -114,7 +114,7 @@ impl Triangle {
         Self { vertices, raw_neighbours: neighbours, orientation: orientation as u32, kind }
     }
 
-    /// The same triangle in another mesh.
+    /// Returns this triangle with the vertices and neighbours that it has in another mesh.
     #[inline]
     pub(in crate::mesh) fn renumbered(
         &self,
@@ -125,7 +125,7 @@ impl Triangle {
         Self { vertices, raw_neighbours: neighbours, kind, ..*self }
     }
 
-    /// How many bisections made this triangle from a coarse one, L(t).
+    /// Returns how many bisections made this triangle from a coarse one, L(t).
     #[doc(alias = "generation")]
     #[doc(alias = "depth")]
     #[inline]
@@ -133,7 +133,7 @@ impl Triangle {
         self.kind.level()
     }
 
-    /// Whether the triangle is there only to hold up its neighbours, and lies outside the domain
+    /// Returns whether the triangle is there only to hold up its neighbours, and lies outside the domain
     /// ([`Mesh::classify`](crate::mesh::Mesh::classify)).
     #[inline]
     pub const fn is_outside(&self) -> bool {
@@ -156,7 +156,7 @@ impl Triangle {
         if self.orientation == 0 { Orientation::Clockwise } else { Orientation::Anticlockwise }
     }
 
-    /// Place of the second end of the bisection edge among the vertices; the first end is at 0.
+    /// Returns the place of the second end of the bisection edge among the vertices; the first end is at 0.
     ///
     /// This is k of the report, counted from zero: 2 at even levels, 1 at odd levels.
     #[inline]
@@ -164,7 +164,7 @@ impl Triangle {
         2 - (self.kind.0 & 1) as usize
     }
 
-    /// The ends of the bisection edge, the longest one.
+    /// Returns the ends of the bisection edge, the longest one.
     #[doc(alias = "refinement edge")]
     #[doc(alias = "hypotenuse")]
     #[inline]
@@ -172,13 +172,13 @@ impl Triangle {
         [self.vertices[0], self.vertices[self.bisection_end()]]
     }
 
-    /// The vertex opposite the bisection edge, where the right angle is.
+    /// Returns the vertex opposite the bisection edge, where the right angle is.
     #[inline]
     pub const fn apex(&self) -> NodeId {
         self.vertices[3 - self.bisection_end()]
     }
 
-    /// The vertex that came into being with this triangle; `None` for a coarse triangle.
+    /// Returns the vertex that came into being with this triangle; `None` for a coarse triangle.
     ///
     /// It is the apex: bisection puts the midpoint opposite the children's bisection edges.
     #[doc(alias = "peak")]
@@ -187,9 +187,9 @@ impl Triangle {
         if self.level() == 0 { None } else { Some(self.apex()) }
     }
 
-    /// The edges as pairs of places among the vertices, each (from, to), anticlockwise around the triangle
-    /// and beginning with the bisection edge: edge j is shared with neighbour j (ℰ of the report, from right
-    /// to left).
+    /// Returns the edges as pairs of places among the vertices, each (from, to), anticlockwise around the
+    /// triangle and beginning with the bisection edge: edge j is shared with neighbour j (ℰ of the report,
+    /// from right to left).
     #[inline]
     pub const fn edges(&self) -> [(usize, usize); 3] {
         match (self.bisection_end(), self.orientation()) {
@@ -200,8 +200,8 @@ impl Triangle {
         }
     }
 
-    /// For each vertex whether no triangle at all, inside or outside the domain, lies across the opposite
-    /// edge.
+    /// Returns for each vertex whether no triangle at all, inside or outside the domain, lies across the
+    /// opposite edge.
     #[inline]
     pub fn raw_boundary_opposite(&self) -> [bool; 3] {
         let mut boundary = [false; 3];
@@ -219,7 +219,7 @@ impl Triangle {
         [(v[a.0], v[a.1]), (v[b.0], v[b.1]), (v[c.0], v[c.1])]
     }
 
-    /// Whether k and O *match*: k = 1 with O = 0, or k = 2 with O = 1. The one bit that every case of
+    /// Returns whether k and O *match*: k = 1 with O = 0, or k = 2 with O = 1. The one bit that every case of
     /// Algorithms 8, 9, 19 and 21 to 25 depends on.
     #[inline]
     pub(in crate::mesh) const fn matched(&self) -> bool {

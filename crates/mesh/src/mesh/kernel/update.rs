@@ -1,4 +1,4 @@
-//! The mesh after the rule has changed in some places: refined and coarsened there, and nowhere else.
+//! Updates the mesh after the rule has changed in some places: refines and coarsens it only there.
 //!
 //! ```text
 //!   changed rectangle                            bitsets over the array of triangles
@@ -12,8 +12,8 @@
 //! # What is done
 //!
 //! Three kinds of work, always in this order: *search* for the triangles that touch a changed rectangle;
-//! *refine* those that exceed their target, until none does; *coarsen*: let nodes go that nothing needs any
-//! more, until there is none.
+//! *refine* those that exceed their target, until none does; *coarsen*: remove nodes that are no longer
+//! needed, until there is none.
 //!
 //! # Why it ends at the mesh made from scratch
 //!
@@ -21,32 +21,32 @@
 //! refinements that satisfy it have a smallest one, M*, which every other refines. The work keeps two
 //! promises at all times:
 //!
-//! 1. A triangle that exceeds its target is marked as *exceeding*. (One that is marked may have ceased to.)
-//! 2. A node that could go has a triangle around it that is marked as *loose*. A node can go when it is the
-//!    newest vertex of all triangles around it (four, or two at the boundary) and neither parent exceeds its
-//!    target.
+//! 1. A triangle that exceeds its target is marked as *exceeding*. (Some marked triangles may not.)
+//! 2. A node that can be removed has a triangle around it that is marked as *loose*. A node can be removed if
+//!    it is the newest vertex of all triangles around it (four, or two at the boundary) and neither parent
+//!    exceeds its target.
 //!
 //! A change of the rule within a rectangle keeps them once it is searched: every triangle that touches the
-//! rectangle is asked, and marked as loose, as a parent that touches it has a child that does. Where the rule
-//! only asks for more, no node becomes free, and no triangle is marked as loose; where it only asks for less,
-//! no triangle begins to exceed its target, and none is asked. Bisection keeps them: the children take over
-//! the mark of their parent, and where it had none they are satisfied by monotony. Coarsening keeps them: a
-//! node can become free only when a triangle around it is put back, and those are marked as loose.
+//! rectangle is tested, and marked as loose, since a parent that touches it has a child that does. Where
+//! targets only become smaller, no triangle is marked as loose; where they only become larger, none is
+//! tested. Bisection keeps them: the children take over the mark of their parent, and if it had none they are
+//! satisfied by monotony. Coarsening keeps them: only a restored triangle can make a node around it
+//! removable, and restored triangles are marked as loose.
 //!
-//! Once no mark is left, all triangles are satisfied and no node can go, and this is M*. For were it finer,
-//! take a triangle of the deepest level among those that lie strictly inside a triangle of M*. No triangle
-//! around its newest vertex was bisected, or there would be a deeper one; and the parents lie in triangles of
-//! M*, so they are satisfied. That node could go.
+//! Once no mark is left, all triangles are satisfied and no node can be removed. Then the mesh is M*. Suppose
+//! it were finer. Take a triangle of the deepest level among those strictly inside a triangle of M*. No
+//! triangle around its newest vertex was bisected, or there would be a deeper one; and the parents are inside
+//! triangles of M*, so they are satisfied. So that node could be removed.
 //!
 //! # Why it ends, and how soon
 //!
-//! A triangle that exceeds its target is bisected in every mesh that satisfies the rule, and what
-//! compatibility demands besides is too: nodes that are created belong to M*. Once all triangles are
-//! satisfied, nodes that go do not. So as long as the rule stays the same, each node is created or removed
-//! once at most, and only those in which the meshes before and after differ. Beyond that there is one
-//! question for each triangle that touches a rectangle, and a few for each that changes. The search starts in
-//! the coarse triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the
-//! rest of the mesh.
+//! A triangle that exceeds its target is bisected in every mesh that satisfies the rule, and so are the
+//! triangles that compatibility requires: created nodes belong to M*. Once all triangles are satisfied,
+//! removed nodes do not. So as long as the rule stays the same, each node is created or removed at most once,
+//! and only nodes in which the meshes before and after differ. Beyond that, the rule is called once for each
+//! triangle that touches a rectangle, and a few times for each that changes. The search starts in the coarse
+//! triangles that the rectangle touches and goes from neighbour to neighbour. Nothing looks at the rest of
+//! the mesh.
 //!
 //! Where the triangle budget is met while nodes could go, these go first, until none can. By the same
 //! argument the mesh is then nowhere finer than M*, and what is bisected from there on belongs to M*: the
@@ -66,7 +66,7 @@ use glam::DVec2;
 use super::changes::ChangeLog;
 use super::coarsen::Star;
 use super::{
-    Bitset, Changes, Diameters, Element, InvalidTarget, Limits, Mesh, Progress, RefineError, Search,
+    Answer, Bitset, Changes, Diameters, Element, LimitError, Limits, Mesh, Progress, RefineError, Search,
     Triangle, TriangleId,
 };
 use crate::geometry::{LatticePoint, LatticeRect};
@@ -91,16 +91,16 @@ use crate::geometry::{LatticePoint, LatticeRect};
 /// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 /// let square = |x| mesh.lattice().rect_around(&Rect::around(glam::dvec2(x, 0.4), 0.05)).unwrap();
 /// let (before, after) = (square(0.3), square(0.6));
-/// mesh.refine(&Limits::default(), |element| Ok(exceeds(element, &before)))?;
+/// mesh.refine(&Limits::default(), |element| exceeds(element, &before))?;
 ///
 /// let mut updater = Updater::new(Limits::default());
 /// updater.add(before);
 /// updater.add(after);
-/// while updater.advance(&mut mesh, |element| Ok(exceeds(element, &after)), 100)? == Progress::More {
+/// while updater.advance(&mut mesh, |element| exceeds(element, &after), 100)? == Progress::More {
 ///     assert!(mesh.violations().is_empty()); // it could be drawn
 /// }
 /// # let mut scratch = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
-/// # scratch.refine(&Limits::default(), |element| Ok(exceeds(element, &after)))?;
+/// # scratch.refine(&Limits::default(), |element| exceeds(element, &after))?;
 /// assert_eq!(mesh.fingerprint(), scratch.fingerprint());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -124,7 +124,7 @@ pub struct Updater {
 }
 
 impl Updater {
-    /// No work yet. An updater belongs to one mesh, and every change of that mesh must be its own.
+    /// Creates an updater without work, for one mesh that nothing else changes.
     pub fn new(limits: Limits) -> Self {
         Self {
             limits,
@@ -139,7 +139,7 @@ impl Updater {
         }
     }
 
-    /// From now on keeps to other limits on size. Work that a budget has stopped may go on.
+    /// Sets other limits on the size of the mesh. Work that a budget has stopped may continue.
     pub fn set_limits(&mut self, limits: Limits) {
         debug_assert!(limits.max_level == self.limits.max_level, "the level cap is part of the rule");
         self.limits = limits;
@@ -152,24 +152,25 @@ impl Updater {
         self.add_change(area, TargetChange::Any);
     }
 
-    /// As [`Self::add`], for a change in one direction: that takes about half the questions.
+    /// Adds a changed rectangle in which target diameters changed in one direction only. This calls the rule
+    /// about half as often as [`Self::add`].
     pub fn add_change(&mut self, area: LatticeRect, change: TargetChange) {
         self.add_area(ChangedArea { rect: area, change, falloff: None });
     }
 
-    /// As [`Self::add_change`], where it is known which triangles cannot be affected because of their size.
+    /// Adds a changed area, with the sizes of triangles that the change cannot affect.
     pub fn add_area(&mut self, area: ChangedArea) {
         self.areas.push(Area { area, reports_all: false });
     }
 
-    /// As [`Self::add`], where besides something has changed that is derived from each triangle alone: all
-    /// that touch the rectangle count as changed ([`Self::take_changes`]).
+    /// Adds a changed rectangle as [`Self::add`] does, and reports all triangles that touch it as changed
+    /// ([`Self::take_changes`]), because data derived from each triangle alone changed as well.
     pub fn add_and_report(&mut self, area: LatticeRect) {
         let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
         self.areas.push(Area { area, reports_all: true });
     }
 
-    /// Whether nothing is left to do.
+    /// Returns whether nothing is left to do.
     pub fn is_done(&self) -> bool {
         self.areas.is_empty()
             && self.search.is_none()
@@ -177,8 +178,8 @@ impl Updater {
             && self.loose.count() == 0
     }
 
-    /// Gives up what is left to do. The mesh is conforming, but where work was left it may be coarser or
-    /// finer than it ought to be, until it is made from scratch.
+    /// Drops the remaining work. The mesh is conforming, but may be coarser or finer than it should be where
+    /// work remained, until it is made from scratch.
     pub fn cancel(&mut self) {
         self.areas.clear();
         self.search = None;
@@ -187,17 +188,17 @@ impl Updater {
         }
     }
 
-    /// Which entries of the mesh changed since this was last asked, `None` if none did.
+    /// Returns the entries of the mesh that changed since the last call, or `None` if none did.
     pub fn take_changes(&mut self) -> Option<Changes> {
         self.log.take()
     }
 
-    /// How often the mesh was changed so far. When this grows, the picture is out of date.
+    /// Returns how often the mesh was changed so far. When this grows, the picture is out of date.
     pub fn steps(&self) -> u64 {
         self.log.steps()
     }
 
-    /// Memory taken, in bytes: a fraction of a byte for each triangle.
+    /// Returns the memory taken, in bytes: a fraction of a byte for each triangle.
     pub fn bytes(&self) -> usize {
         let marks = [&self.reached, &self.exceeding, &self.loose, &self.log.triangles, &self.log.nodes];
         marks.map(Bitset::bytes).iter().sum()
@@ -207,23 +208,23 @@ impl Updater {
     /// most.
     ///
     /// `exceeds` returns whether an element's diameter exceeds its target. It must depend on the element
-    /// alone, be monotone, and answer as before outside the rectangles that were added. A parent that could
-    /// be put back is no entry of the array; what it says about its nodes and neighbours is what it would say
-    /// then.
+    /// alone, be monotone, and answer as before outside the rectangles that were added. A parent that
+    /// coarsening could restore is not an entry of the array; `exceeds` gets it with the nodes and neighbours
+    /// that it would have.
     ///
     /// # Errors
-    /// When the rule meets a bad target, or a limit is reached. The mesh is conforming and the work is kept:
-    /// after a change of the rule that is added it may go on.
-    pub fn advance(
+    /// Fails when the rule fails, or a limit is reached. The mesh is conforming and the work is kept: after a
+    /// change of the rule that is added it may go on.
+    pub fn advance<A: Answer>(
         &mut self,
         mesh: &mut Mesh,
-        mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
+        mut exceeds: impl FnMut(&Element) -> A,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, RefineError<A::Error>> {
         let diameters = Diameters::of(mesh);
         let cap = self.limits.level_cap();
-        let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
-            Ok(element.triangle.level() < cap && exceeds(element)?)
+        let mut exceeds = |element: &Element| -> Result<bool, A::Error> {
+            Ok(element.triangle.level() < cap && exceeds(element).into_result()?)
         };
         // The count of triangles up to which neither memory nor the limits need a look.
         let mut room = 0;
@@ -234,7 +235,7 @@ impl Updater {
                 self.search_on(mesh, &diameters, &mut exceeds)?;
             } else if let Some(id) = self.exceeding.last() {
                 let id = TriangleId::from_index(id);
-                if !exceeds(&mesh.element(id, &diameters))? {
+                if !exceeds(&mesh.element_with(id, &diameters))? {
                     self.exceeding.remove(id.index());
                     continue;
                 }
@@ -242,7 +243,7 @@ impl Updater {
                     Err(error) if error.is_over_budget() && self.loose.count() > 0 => {
                         self.loosen(mesh, &diameters, &mut exceeds)?;
                     }
-                    other => other?,
+                    done => done.map_err(LimitError::with_rule)?,
                 }
             } else if self.loose.count() > 0 {
                 self.loosen(mesh, &diameters, &mut exceeds)?;
@@ -262,12 +263,12 @@ impl Updater {
 
     /// One step of the search: a triangle or half a coarse cell.
     #[inline]
-    fn search_on(
+    fn search_on<E>(
         &mut self,
         mesh: &Mesh,
         diameters: &Diameters,
-        exceeds: &mut impl FnMut(&Element) -> Result<bool, InvalidTarget>,
-    ) -> Result<(), InvalidTarget> {
+        exceeds: &mut impl FnMut(&Element) -> Result<bool, E>,
+    ) -> Result<(), E> {
         let Some((search, area)) = &mut self.search else {
             if let Some(area) = self.areas.pop() {
                 self.search = Some((Search::new(mesh, area.area.rect), area));
@@ -277,7 +278,7 @@ impl Updater {
         let Area { area, reports_all } = area;
         if let Some(id) = search.found() {
             let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
-            if asks && exceeds(&mesh.element(id, diameters))? {
+            if asks && exceeds(&mesh.element_with(id, diameters))? {
                 self.exceeding.insert(id.index());
             }
             if loosens {
@@ -297,7 +298,7 @@ impl Updater {
 
     /// Bisects a triangle and what must be bisected with it.
     #[inline]
-    fn refine(&mut self, mesh: &mut Mesh, id: TriangleId, room: &mut usize) -> Result<(), RefineError> {
+    fn refine(&mut self, mesh: &mut Mesh, id: TriangleId, room: &mut usize) -> Result<(), LimitError> {
         let level = mesh.triangle(id).level();
         if level >= mesh.lattice().deepest_level() {
             return Err(RefineError::too_fine(mesh.lattice(), mesh.node(mesh.triangle(id).vertices[0])));
@@ -331,12 +332,12 @@ impl Updater {
     }
 
     /// Takes one loose mark, and lets the newest vertex of that triangle go if it can.
-    fn loosen(
+    fn loosen<E>(
         &mut self,
         mesh: &mut Mesh,
         diameters: &Diameters,
-        exceeds: &mut impl FnMut(&Element) -> Result<bool, InvalidTarget>,
-    ) -> Result<(), InvalidTarget> {
+        exceeds: &mut impl FnMut(&Element) -> Result<bool, E>,
+    ) -> Result<(), E> {
         let Some(last) = self.loose.last() else { return Ok(()) };
         let Some(star) = mesh.star_of(TriangleId::from_index(last)) else {
             self.loose.remove(last);
@@ -381,7 +382,7 @@ pub enum TargetChange {
     Finer,
     /// None becomes smaller: no triangle that satisfied its target ceases to.
     Coarser,
-    /// In any way.
+    /// Any change.
     Any,
 }
 
@@ -398,9 +399,9 @@ struct Area {
 pub struct ChangedArea {
     /// Triangles that touch it can get another answer.
     pub rect: LatticeRect,
-    /// What happened to the target diameters.
+    /// The change of the target diameters.
     pub change: TargetChange,
-    /// How small the target diameters can be that changed; `None` where it is not known.
+    /// A lower bound of the target diameters that changed; `None` if it is unknown.
     pub falloff: Option<Falloff>,
 }
 
@@ -408,16 +409,17 @@ pub struct ChangedArea {
 /// other than before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Falloff {
-    /// Where the change has its cause.
+    /// The rectangle that contains the cause of the change.
     pub core: LatticeRect,
     /// The least diameter there, in world units.
     pub least: f64,
-    /// How much it grows by unit of length.
+    /// The growth of this diameter per unit of length.
     pub slope: f64,
 }
 
 impl ChangedArea {
-    /// Whether a triangle can have begun to exceed its target, and whether its parent can have ceased to.
+    /// Returns whether a triangle can have begun to exceed its target, and whether its parent can have ceased
+    /// to.
     #[inline]
     pub fn concerns(&self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
         let least = self.falloff.map_or(0.0, |falloff| falloff.least_at(mesh, corners));
@@ -431,7 +433,7 @@ impl ChangedArea {
 }
 
 impl Falloff {
-    /// The least diameter in a triangle, in world units.
+    /// Returns the least diameter in a triangle, in world units.
     #[inline]
     fn least_at(&self, mesh: &Mesh, [a, b, c]: [LatticePoint; 3]) -> f64 {
         let Self { core, least, slope } = self;

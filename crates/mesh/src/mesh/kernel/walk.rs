@@ -8,15 +8,16 @@ use crate::geometry::{Side, side_of_edge};
 /// How a walk ended.
 #[derive(Clone, Copy)]
 pub(in crate::mesh) enum WalkEnd {
-    /// In a triangle that contains the point, strictly right of none of its edges; the sides are per edge.
+    /// The walk ended in a triangle that contains the point, with the side of each edge on which the point
+    /// is; it is strictly right of none.
     Found(TriangleId, [Side; 3]),
-    /// At an edge of the boundary, with the point strictly beyond.
+    /// The walk ended at an edge of the boundary, with the point strictly beyond it.
     Blocked,
 }
 
 impl Mesh {
-    /// Steps from triangle to triangle towards `p` in lattice coordinates, across the first edge that has it
-    /// strictly beyond.
+    /// Returns the steps from triangle to triangle towards `p` in lattice coordinates, across the first edge
+    /// that has it strictly beyond.
     ///
     /// With exact tests such a walk in a Delaunay triangulation comes strictly nearer (in power distance) at
     /// every step, so it visits no triangle twice. All angles are at most 90°, so every mesh of this method
@@ -58,18 +59,18 @@ impl Mesh {
         }
     }
 
-    /// The triangles of the domain around `node`, at most eight.
+    /// Returns the triangles of the domain around `node`, at most eight.
     ///
     /// Where only a corner joins two parts of the coarse grid, those of one part.
     ///
     /// # Panics
-    /// When the id is not of this mesh.
+    /// Panics when the id is not of this mesh.
     pub fn triangles_around(&self, node: NodeId) -> impl Iterator<Item = TriangleId> + '_ {
         self.raw_triangles_around(node, self.raw_triangle_at(node)).filter(|&id| self.is_in_domain(id))
     }
 
-    /// The triangles around `node` that can be reached from `start` (one of them) across edges, `start`
-    /// first, those outside the domain included.
+    /// Returns the triangles around `node` that can be reached from `start` (one of them) across edges,
+    /// `start` first, those outside the domain included.
     ///
     /// At most eight. Where only a corner joins two parts of the domain, the other part is not reached.
     #[inline]
@@ -94,7 +95,7 @@ impl Mesh {
         .take(8)
     }
 
-    /// The next triangle around `node`, `None` at the boundary.
+    /// Returns the next triangle around `node`, `None` at the boundary.
     #[inline]
     fn turn(&self, node: NodeId, id: TriangleId, clockwise: bool) -> Option<TriangleId> {
         let triangle = self.triangle(id);

@@ -11,37 +11,37 @@ pub struct Adjacency {
 }
 
 impl Adjacency {
-    /// The nodes adjacent to `node`, at most eight, in no particular order.
+    /// Returns the nodes adjacent to `node`, at most eight, in no particular order.
     ///
     /// # Panics
-    /// When the id is not of the mesh that the rows were made from.
+    /// Panics when the id is not of the mesh that the rows were made from.
     pub fn of(&self, node: NodeId) -> &[NodeId] {
         let (start, end) = (self.row_starts[node.index()], self.row_starts[node.index() + 1]);
         &self.neighbours[start as usize..end as usize]
     }
 
-    /// Number of rows, one for each entry of [`Mesh::raw_nodes`].
+    /// Returns the number of rows, one for each entry of [`Mesh::raw_nodes`].
     pub fn len(&self) -> usize {
         self.row_starts.len() - 1
     }
 
-    /// Whether there is no row. Never true for the rows of a mesh.
+    /// Returns whether there is no row. Never true for the rows of a mesh.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Number of edges of the domain.
+    /// Returns the number of edges of the domain.
     pub fn edge_count(&self) -> usize {
         self.neighbours.len() / 2
     }
 }
 
 impl Mesh {
-    /// Every edge of the domain once, as a pair of nodes.
+    /// Returns every edge of the domain once, as a pair of nodes.
     pub fn edges(&self) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
         self.triangles().flat_map(move |(id, triangle)| {
             let own = move |j: &usize| {
-                // The triangle with the lower index has the edge, unless that one lies outside.
+                // The triangle with the lower index has the edge, unless it is outside the domain.
                 let across = triangle.raw_neighbours[*j].triangle();
                 across.is_none_or(|across| id < across || !self.is_in_domain(across))
             };
@@ -50,8 +50,8 @@ impl Mesh {
         })
     }
 
-    /// The adjacency rows (Algorithm 13), one for each entry of [`Mesh::raw_nodes`], in time proportional to
-    /// the mesh. The rows of nodes that only triangles outside the domain have are empty.
+    /// Returns the adjacency rows (Algorithm 13), one for each entry of [`Mesh::raw_nodes`], in time
+    /// proportional to the mesh. The rows of nodes that only triangles outside the domain have are empty.
     pub fn adjacency(&self) -> Adjacency {
         let mut row_starts = vec![0u32; self.nodes.len() + 1];
         for (a, b) in self.edges() {

@@ -1,8 +1,8 @@
-//! Why a triangle is in a mesh: the rule asked for it, or compatibility did.
+//! Finds out why a triangle is in a mesh: because of the rule, or because of compatibility.
 //!
 //! A triangle t came into being when its parent p was bisected, together with the triangle across p's
 //! bisection edge. One of these two exceeds its target, or some triangle farther away does, and
-//! RefineTriangle (Algorithm 2) came past p on its way to coarser triangles:
+//! RefineTriangle (Algorithm 2) reached p through a chain of coarser and coarser triangles:
 //!
 //! ```text
 //!    t0 ──▶ t1 ──▶ t2 ──▶ p        t0 exceeds its target; across the bisection edge of each lies the next,
@@ -10,10 +10,10 @@
 //! ```
 //!
 //! To find t0, follow what depends on the node m that the bisection of p made: a half of one of the two
-//! parents can be bisected only if m is there. In a mesh that is the smallest one for its rule each node is
-//! there for a reason, so every such step leads on, and one level down. Then RefineTriangle is run from
-//! the coarse grid for t0 and the triangles that t0 is part of, on a set of nodes: this gives the chain, and
-//! proves it. Both take time that grows with the number of levels, not with the mesh.
+//! parents can be bisected only if m is there. In the smallest mesh for a rule, each node is needed by the
+//! rule or by another node, so every such step leads to a triangle one level deeper. Then RefineTriangle is
+//! run from the coarse grid for t0 and the triangles that t0 is part of, on a set of nodes: this gives the
+//! chain, and proves it. Both take time that grows with the number of levels, not with the mesh.
 
 use std::collections::HashSet;
 
@@ -24,26 +24,26 @@ use crate::mesh::kernel::{Mesh, TreeTriangle};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Cause {
-    /// It is a triangle of the coarse grid.
+    /// The triangle belongs to the coarse grid.
     Coarse,
-    /// Its parent exceeds its target.
+    /// The triangle's parent exceeds its target.
     OwnRule {
         /// The parent.
         parent: TreeTriangle,
     },
-    /// Its parent was bisected to keep the mesh compatible.
+    /// The triangle's parent was bisected to keep the mesh compatible.
     Compatibility {
-        /// From the triangle that exceeds its target to the parent. Each triangle lies across the bisection
-        /// edge of the one before: coarser by one level and bisected before it, or, at the last step
-        /// only, of the same level and bisected together with it.
+        /// The triangles from the one that exceeds its target to the parent. Each triangle is across the
+        /// bisection edge of the previous one: coarser by one level and bisected before it, or, at the last
+        /// step only, of the same level and bisected together with it.
         chain: Vec<TreeTriangle>,
     },
-    /// Nothing that exceeds its target needs it: the mesh is not up to date with the rule.
+    /// No triangle that exceeds its target needs the triangle: the mesh is not up to date with the rule.
     Unneeded,
 }
 
 impl Cause {
-    /// The triangle whose violation of the rule is the cause.
+    /// Returns the triangle whose violation of the rule is the cause.
     pub fn required_by(&self) -> Option<&TreeTriangle> {
         match self {
             Self::OwnRule { parent } => Some(parent),
@@ -58,7 +58,7 @@ impl Cause {
 const MOST_NODES: usize = 100_000;
 
 impl Mesh {
-    /// Why a triangle of the bisection tree is in the mesh, or was before it was bisected.
+    /// Returns why a triangle of the bisection tree is in the mesh, or was before it was bisected.
     ///
     /// `exceeds` is the rule that the mesh is up to date with: whether a triangle exceeds its target. Where
     /// it is monotone, as the area rule is, the answer is exact: refining the coarse grid for
@@ -73,7 +73,7 @@ impl Mesh {
         chain.map_or(Cause::Unneeded, |chain| Cause::Compatibility { chain })
     }
 
-    /// A triangle that exceeds its target and needs the bisection of `parent`.
+    /// Returns a triangle that exceeds its target and needs the bisection of `parent`.
     fn exceeding_near(
         &self,
         parent: &TreeTriangle,
@@ -98,7 +98,7 @@ impl Mesh {
         doubtful
     }
 
-    /// The way from a triangle that exceeds its target, or one that it is part of, to `end`.
+    /// Returns the chain from a triangle that exceeds its target, or from one of its ancestors, to `end`.
     fn chain_to(&self, end: &TreeTriangle, start: &TreeTriangle) -> Option<Vec<TreeTriangle>> {
         let wanted = end.midpoint();
         let mut nodes = HashSet::new();

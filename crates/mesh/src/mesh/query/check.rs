@@ -6,7 +6,7 @@ use std::fmt;
 
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{
-    DEEPEST_LEVEL, Diameters, Element, InvalidTarget, Kind, Mesh, NodeId, Orientation, TriangleId,
+    Answer, DEEPEST_LEVEL, Diameters, Element, Kind, Mesh, NodeId, Orientation, TriangleId,
 };
 
 /// A broken invariant of [`Mesh`], in the order of the list there.
@@ -26,8 +26,8 @@ pub enum Violation {
         /// Place of the edge, the bisection edge first.
         edge: usize,
     },
-    /// Invariant 4: two triangles have the edge, and one says that it is on the boundary; or more than two
-    /// have it.
+    /// Invariant 4: two triangles have the edge, but one has the boundary as its neighbour there; or more
+    /// than two triangles have the edge.
     UnmatchedEdge(NodeId, NodeId),
     /// Invariant 4: a node in the middle of a boundary edge.
     HangingNode {
@@ -59,9 +59,9 @@ pub enum Violation {
         level: u32,
         /// Whether those outside the domain are meant, or those inside.
         outside: bool,
-        /// As the mesh has it.
+        /// The number that the mesh stores.
         noted: usize,
-        /// As it is.
+        /// The number that was counted.
         counted: usize,
     },
 }
@@ -112,7 +112,7 @@ impl fmt::Display for Violation {
 impl Error for Violation {}
 
 impl Mesh {
-    /// Every broken invariant; empty for every mesh that this library makes.
+    /// Returns every broken invariant; empty for every mesh that this library makes.
     pub fn violations(&self) -> Vec<Violation> {
         let mut found = Vec::new();
         let ids = || (0..self.triangles.len()).map(TriangleId::from_index);
@@ -132,18 +132,18 @@ impl Mesh {
         found
     }
 
-    /// The triangles whose diameter exceeds their target (the negation of Eq. 14).
+    /// Returns the triangles whose diameter exceeds their target (the negation of Eq. 14).
     ///
     /// # Errors
-    /// When the rule meets a bad target.
-    pub fn unsatisfied(
+    /// Fails when the rule fails.
+    pub fn unsatisfied<A: Answer>(
         &self,
-        mut exceeds: impl FnMut(&Element) -> Result<bool, InvalidTarget>,
-    ) -> Result<Vec<TriangleId>, InvalidTarget> {
+        mut exceeds: impl FnMut(&Element) -> A,
+    ) -> Result<Vec<TriangleId>, A::Error> {
         let mut found = Vec::new();
         let diameters = Diameters::of(self);
         for id in (0..self.triangles.len()).map(TriangleId::from_index) {
-            if exceeds(&self.element(id, &diameters))? {
+            if exceeds(&self.element_with(id, &diameters)).into_result()? {
                 found.push(id);
             }
         }
@@ -314,7 +314,7 @@ mod tests {
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, Neighbour, Triangle};
 
-    /// The unit square in 2 × 2 cells, refined around the first triangle.
+    /// Returns the unit square in 2 × 2 cells, refined around the first triangle.
     fn valid_mesh() -> Mesh {
         let mut mesh = Mesh::coarse_grid(
             &Lattice::covering(Rect::UNIT, 0.5, 1_000_000).unwrap(),
@@ -335,7 +335,7 @@ mod tests {
         assert!(violations.iter().any(expected), "{violations:#?}");
     }
 
-    /// A triangle that has a neighbour across its bisection edge, and that neighbour.
+    /// Returns a triangle that has a neighbour across its bisection edge, and that neighbour.
     fn pair(mesh: &Mesh) -> (TriangleId, TriangleId) {
         let ids = (0..mesh.triangles.len()).map(TriangleId::from_index);
         let across = |id| mesh.triangle(id).raw_neighbours[0].triangle();

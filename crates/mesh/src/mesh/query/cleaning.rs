@@ -1,7 +1,8 @@
-//! Removes parts and pinches: what a solver cannot use.
+//! Removes parts and pinches, which solvers cannot use.
 //!
-//! A *pinch* is a node where triangles of the domain meet only in that node. It makes the boundary touch
-//! itself, and encloses "holes" that are open to the outside.
+//! A *pinch*, or non-manifold vertex, is a node around which the triangles of the domain form several fans
+//! that meet only in that node. The boundary touches itself there and encloses "holes" that are open to the
+//! outside.
 //!
 //! ```text
 //!   o-------o                       o-------o        around m, the triangles form two fans; the smaller
@@ -12,9 +13,9 @@
 //!         o-------o
 //! ```
 //!
-//! The mesh itself stays as it is: what is removed is noted in a [`MeshPatch`]. Which triangles are removed
-//! follows from the places of the triangles, and not from their numbers: two meshes with the same triangles
-//! lose the same ones.
+//! The mesh itself does not change: a [`MeshPatch`] notes the removed triangles. The choice of these
+//! triangles depends on the positions of the triangles and not on their numbers: two meshes with the same
+//! triangles lose the same ones.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::HashMap;
@@ -43,7 +44,7 @@ pub enum KeptParts {
     All,
     /// The one with the largest area.
     Largest,
-    /// Those with at least this share of the area of the mesh, 0 to 1.
+    /// All parts with at least this share of the area of the mesh, 0 to 1.
     Share(f64),
 }
 
@@ -54,17 +55,17 @@ impl Cleaning {
     pub const FOR_SOLVERS: Self = Self { parts: KeptParts::Largest, keeps_pinches: false };
 }
 
-/// What [`MeshPatch::clean`] removed.
+/// The parts and pinches that [`MeshPatch::clean`] removed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Removed {
     /// The parts, the largest first.
     pub parts: Vec<RemovedPart>,
-    /// Nodes that were pinches.
+    /// Number of pinches that were resolved.
     pub pinches: usize,
-    /// Triangles, of parts and at pinches.
+    /// Number of removed triangles, of parts and at pinches.
     pub triangles: usize,
-    /// Their area, in square world units.
+    /// The area of these triangles, in square world units.
     pub area: f64,
 }
 
@@ -74,9 +75,9 @@ pub struct Removed {
 pub struct RemovedPart {
     /// The centroid of one of its triangles, in world units.
     pub place: DVec2,
-    /// Its triangles.
+    /// Number of triangles of the part.
     pub triangles: usize,
-    /// Its area, in square world units.
+    /// The area of the part, in square world units.
     pub area: f64,
 }
 
@@ -84,11 +85,11 @@ impl MeshPatch {
     /// Removes parts and pinches of the mesh with this patch: their triangles become changed ones without
     /// pieces.
     ///
-    /// To remove a pinch can separate a part, and the other way round, so both are repeated until nothing
-    /// changes. Time and memory grow with the mesh.
+    /// Removing a pinch can separate a part, and removing a part can make a pinch, so both are repeated until
+    /// nothing changes. Time and memory grow with the mesh.
     ///
     /// # Panics
-    /// When the patch is of another mesh.
+    /// Panics when the patch is of another mesh.
     pub fn clean(&mut self, mesh: &Mesh, cleaning: &Cleaning) -> Removed {
         if *cleaning == Cleaning::NONE {
             return Removed::default();
@@ -124,7 +125,7 @@ impl MeshPatch {
 }
 
 impl Extract<'_> {
-    /// The nodes in which triangles meet without sharing an edge, in their order.
+    /// Returns the nodes in which triangles meet without sharing an edge, in their order.
     pub fn pinches(&self) -> Vec<NodeId> {
         Cleaner::new(self).pinches()
     }
@@ -198,13 +199,13 @@ impl<'a> Cleaner<'a> {
         }
     }
 
-    /// A doubled area on the lattice in square world units.
+    /// Returns a doubled area on the lattice in square world units.
     fn area(&self, doubled: u128) -> f64 {
         let step = self.extract.lattice().step();
         0.5 * doubled as f64 * step.x * step.y
     }
 
-    /// The triangles across the edges of one.
+    /// Returns the triangles across the edges of one.
     fn neighbours(&self, index: usize) -> [Option<usize>; 3] {
         let across = self.extract.triangles()[index].raw_neighbours;
         across.map(|n| n.triangle().map(TriangleId::index).filter(|&other| !self.is_removed[other]))
@@ -224,7 +225,7 @@ impl<'a> Cleaner<'a> {
         pinched.map(|(node, _)| NodeId::from_index(node)).collect()
     }
 
-    /// The triangles that are not removed.
+    /// Returns the triangles that are not removed.
     fn left(&self) -> impl Iterator<Item = usize> {
         (0..self.is_removed.len()).filter(|&index| !self.is_removed[index])
     }
@@ -246,8 +247,8 @@ impl<'a> Cleaner<'a> {
         fans.into_iter().for_each(|index| self.is_removed[index] = true);
     }
 
-    /// The triangles `around` a node, except for the fan that stays: the one of the largest part, then the
-    /// one with the widest angle, then the one at the lowest place.
+    /// Returns the triangles `around` a node, except for the fan that stays: the one of the largest part,
+    /// then the one with the widest angle, then the one at the lowest place.
     fn smaller_fans(&self, node: NodeId, around: &[usize], parts: &Parts) -> Vec<usize> {
         let mut fans = self.fans(around);
         fans.sort_by_key(|fan| {
@@ -259,7 +260,7 @@ impl<'a> Cleaner<'a> {
         fans.into_iter().skip(1).flatten().collect()
     }
 
-    /// The triangles around a node in groups that are joined by edges.
+    /// Returns the triangles around a node in groups that are joined by edges.
     fn fans(&self, around: &[usize]) -> Vec<Vec<usize>> {
         let mut groups = Forest::new(around.len());
         for (n, &index) in around.iter().enumerate() {
@@ -277,7 +278,7 @@ impl<'a> Cleaner<'a> {
     }
 }
 
-/// The largest area first, then the lowest place.
+/// Returns the largest area first, then the lowest place.
 fn by_area_and_place(a: &RemovedPart, b: &RemovedPart) -> Ordering {
     let place = |part: &RemovedPart| [part.place.y, part.place.x];
     b.area.total_cmp(&a.area).then(place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))

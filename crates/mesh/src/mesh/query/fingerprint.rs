@@ -14,7 +14,7 @@ impl std::fmt::Display for Fingerprint {
     }
 }
 
-/// The fingerprint of a set of triangles given by their corners in lattice coordinates, in any order.
+/// Returns the fingerprint of a set of triangles given by their corners in lattice coordinates, in any order.
 pub fn fingerprint_of(triangles: impl IntoIterator<Item = [LatticePoint; 3]>) -> Fingerprint {
     // A sum does not depend on the order of its terms.
     let sum = triangles.into_iter().fold(0u128, |sum, corners| sum.wrapping_add(hash_of_triangle(corners)));
@@ -32,7 +32,7 @@ fn hash_of_triangle(mut corners: [LatticePoint; 3]) -> u128 {
     u128::from(high) << 64 | u128::from(low)
 }
 
-/// The finaliser of SplitMix64: every bit of the input moves every bit of the output.
+/// Returns the finaliser of SplitMix64: every bit of the input moves every bit of the output.
 const fn scrambled(mut z: u64) -> u64 {
     z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -41,7 +41,7 @@ const fn scrambled(mut z: u64) -> u64 {
 }
 
 impl Mesh {
-    /// The hash of the set of triangles of the domain, in lattice coordinates.
+    /// Returns the hash of the set of triangles of the domain, in lattice coordinates.
     pub fn fingerprint(&self) -> Fingerprint {
         fingerprint_of(self.triangles().map(|(id, _)| self.corners(id)))
     }

@@ -1,11 +1,11 @@
-//! What an update would do to a mesh, counted without doing it.
+//! Counts the changes that an update would make to a mesh, without making them.
 //!
-//! A bisection makes one node, and a node names its bisection: the triangles that share the edge of which it
-//! is the middle, one or two. So a mesh is its coarse grid and a set of nodes, and an update is the nodes
-//! that come and those that go. The work is that of [`Updater`](crate::mesh::Updater), in the same order and
-//! for the same reasons; but where that one changes entries, this one notes nodes. Triangles that are not in
-//! the array are known by their corners alone: parent, children and the mirror image across the bisection
-//! edge follow from the lattice, as the head of `coarsen.rs` shows.
+//! A bisection makes one node, and the node identifies the bisection: it is the middle of the edge that the
+//! one or two bisected triangles share. So a coarse grid and a set of nodes determine a mesh, and an update
+//! adds some nodes and removes others. The work is the same as in [`Updater`](crate::mesh::Updater), in the
+//! same order; but the updater changes entries, and the forecast notes nodes. Triangles that are not in the
+//! array are known by their corners alone: parent, children and the mirror image across the bisection edge
+//! follow from the lattice, as the head of `coarsen.rs` shows.
 //!
 //! ```text
 //!          o                 m comes: both triangles are bisected, so one node gained is two triangles gained
@@ -16,6 +16,7 @@
 //! ```
 
 use std::collections::HashMap;
+use std::convert::Infallible;
 
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
@@ -25,9 +26,9 @@ use crate::mesh::kernel::{
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.
 ///
-/// The mesh must be up to date: the one made from scratch by the rule as it was. It must not change until the
-/// count is done. Time and memory go with the triangles that touch the changed rectangle and those that would
-/// come and go.
+/// The mesh must be up to date with the former rule, and it must not change until the count is done. Time and
+/// memory are proportional to the number of triangles that touch the changed rectangle or would be added or
+/// removed.
 ///
 /// ```
 /// use meshbrush_mesh::geometry::{Lattice, Rect};
@@ -41,7 +42,7 @@ use crate::mesh::kernel::{
 /// assert_eq!(forecast.advance(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
 ///
 /// let before = mesh.raw_triangle_count() as i64;
-/// mesh.refine(&Limits::default(), |element| Ok(exceeds(element.corners, element.triangle.level())))?;
+/// mesh.refine(&Limits::default(), |element| exceeds(element.corners, element.triangle.level()))?;
 /// assert_eq!(before + forecast.change(), mesh.raw_triangle_count() as i64);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -54,20 +55,20 @@ pub struct Forecast {
     reached: Bitset,
     /// Triangles that may exceed their target.
     asked: Vec<TreeTriangle>,
-    /// Entries whose newest vertex may be free to go, for when all triangles are satisfied.
+    /// Entries whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
     loose: Vec<TriangleId>,
-    /// The same, of triangles that would be put back.
+    /// Triangles that coarsening would restore and whose newest vertex can perhaps be removed.
     put_back: Vec<TreeTriangle>,
     chain: Vec<TreeTriangle>,
     fates: HashMap<LatticePoint, Fate>,
-    /// For each coarse triangle, by number, where the last walk in it ended: the next begins there.
+    /// For each coarse triangle, by number, the end of the last walk in it, where the next walk begins.
     near: HashMap<usize, TriangleId>,
     added: usize,
     removed: usize,
     change: i64,
 }
 
-/// What becomes of a node.
+/// The change of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
     Comes,
@@ -76,14 +77,14 @@ enum Fate {
     Stays,
 }
 
-/// How many triangles of the domain come when one is bisected, or go below zero.
+/// Returns how many triangles of the domain come when one is bisected, or go below zero.
 fn gain(triangle: &TreeTriangle, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
     let counts = |triangle: &TreeTriangle| i64::from(is_in_domain(triangle.corners(), triangle.level()));
     triangle.children().iter().map(counts).sum::<i64>() - counts(triangle)
 }
 
 impl Forecast {
-    /// Nothing counted yet. `area` holds all places where the rule has changed.
+    /// Creates a forecast without counts. `area` contains all points where the rule has changed.
     pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
         Self {
             max_level: limits.level_cap(),
@@ -102,36 +103,36 @@ impl Forecast {
         }
     }
 
-    /// Triangles that would come, as far as counted.
+    /// Returns the triangles that would come, as far as counted.
     pub fn added(&self) -> usize {
         self.added
     }
 
-    /// Triangles that would go, as far as counted. Zero until all that come are counted.
+    /// Returns the triangles that would go, as far as counted. Zero until all that come are counted.
     pub fn removed(&self) -> usize {
         self.removed
     }
 
-    /// How many triangles more there would be in the domain, or fewer below zero, as far as counted.
+    /// Returns how many triangles more there would be in the domain, or fewer below zero, as far as counted.
     pub fn change(&self) -> i64 {
         self.change
     }
 
     /// Counts until done or until `visits` triangles were looked at.
     ///
-    /// `exceeds` is the rule as it would be, asked by corners and level. It must be monotone, and answer as
-    /// before outside the area. `is_in_domain` returns whether a triangle, by corners and level, lies in the
-    /// domain.
+    /// `exceeds` is the new rule, by corners and level. It must be monotone, and equal to the former rule
+    /// outside the area. `is_in_domain` returns whether a triangle, by corners and level, lies in the domain.
     ///
     /// # Errors
-    /// When a target is finer than the lattice. The triangle budget is not looked at: the caller compares.
+    /// Fails when a target is finer than the lattice. The triangle budget is not checked; that is up to the
+    /// caller.
     pub fn advance(
         &mut self,
         mesh: &Mesh,
         exceeds: impl Fn([LatticePoint; 3], u32) -> bool,
         is_in_domain: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, RefineError<Infallible>> {
         let gain = |triangle: &TreeTriangle| gain(triangle, &is_in_domain);
         let max_level = self.max_level;
         let exceeds = |triangle: &TreeTriangle| {
@@ -232,7 +233,7 @@ impl Forecast {
         triangle.level() < mesh.lattice().deepest_level() && self.is_node(mesh, triangle.midpoint(), triangle)
     }
 
-    /// Whether a point of a triangle, which may lie on its rim, is a node as far as counted.
+    /// Returns whether a point of a triangle, which may lie on its rim, is a node as far as counted.
     fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
         match self.fates.get(&point) {
             Some(Fate::Comes | Fate::Stays) => true,

@@ -4,8 +4,8 @@ use crate::geometry::LatticePoint;
 
 /// Barycentric coordinates ζ₁ ζ₂ ζ₃ of `point` in the triangle with the given corners (Section 7).
 ///
-/// All in lattice coordinates; ζ is in the order of the corners and sums to one. Each lies in \[0, 1\] when
-/// the point lies in the triangle.
+/// All points are in lattice coordinates. The result is in the order of the corners and sums to one; each
+/// coordinate is in \[0, 1\] if the point is in the triangle.
 ///
 /// ```
 /// # use meshbrush_mesh::geometry::LatticePoint;
@@ -24,8 +24,8 @@ pub fn barycentric(corners: [LatticePoint; 3], point: DVec2) -> [f64; 3] {
     [1.0 - zeta_b - zeta_c, zeta_b, zeta_c]
 }
 
-/// The value at a point with barycentric coordinates `zeta`, from the `values` at the three vertices (Section
-/// 7). A vertex with ζ = 0 does not count, even if its value is infinite.
+/// Returns the value at a point with barycentric coordinates `zeta`, from the `values` at the three vertices
+/// (Section 7). A vertex with ζ = 0 does not count, even if its value is infinite.
 ///
 /// ```
 /// assert_eq!(meshbrush_mesh::mesh::interpolate([0.5, 0.5, 0.0], [1.0, 2.0, 7.0]), 1.5);

@@ -7,9 +7,10 @@ use glam::DVec2;
 use crate::geometry::{Side, exact_sum_sign};
 use crate::mesh::kernel::{Mesh, NodeId, TriangleId, WalkEnd};
 
-/// Where a point lies in a mesh.
+/// The location of a point in a mesh.
 ///
-/// A point on an edge or a vertex belongs to several triangles; the one with the lowest index is given.
+/// A point on an edge or a vertex belongs to several triangles; the location has the one with the lowest
+/// index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     /// Strictly inside a triangle.
@@ -17,14 +18,14 @@ pub enum Location {
         /// That triangle.
         triangle: TriangleId,
     },
-    /// On an edge, and not at its ends.
+    /// The point is on an edge, but not at its ends.
     OnEdge {
         /// The triangle with the lowest index among the one or two that share the edge.
         triangle: TriangleId,
         /// Which edge of it: 0 is the bisection edge, then anticlockwise.
         edge: usize,
     },
-    /// On a node.
+    /// The point is a node.
     OnVertex {
         /// The triangle with the lowest index among those around the node.
         triangle: TriangleId,
@@ -40,7 +41,7 @@ pub enum Location {
 }
 
 impl Location {
-    /// The triangle found, if any.
+    /// Returns the triangle found, if any.
     pub fn triangle(&self) -> Option<TriangleId> {
         match *self {
             Self::Inside { triangle } | Self::OnEdge { triangle, .. } | Self::OnVertex { triangle, .. } => {
@@ -71,7 +72,7 @@ impl Mesh {
             .unwrap_or(Location::OutsideDomain)
     }
 
-    /// Lattice coordinates of a point in world coordinates, or why no triangle can contain it.
+    /// Returns the lattice coordinates of a point in world coordinates, or why no triangle can contain it.
     fn point_on_lattice(&self, point: DVec2) -> Result<DVec2, Location> {
         let p = self.lattice.lattice_from_world(point);
         if p.is_nan() {
@@ -97,12 +98,12 @@ impl Mesh {
         }
     }
 
-    /// The triangles through which [`Self::locate`] finds a point in world coordinates, from the triangle of
-    /// the bucket to the answer (Algorithm 15). Consecutive triangles are neighbours. Empty where no triangle
-    /// of the domain contains the point.
+    /// Returns the triangles through which [`Self::locate`] finds a point in world coordinates, from the
+    /// triangle of the bucket to the answer (Algorithm 15). Consecutive triangles are neighbours. Empty where
+    /// no triangle of the domain contains the point.
     ///
-    /// Where the point lies on an edge or a vertex, the walk ends in any triangle around it; the last
-    /// triangles then lead to the one that is given as the answer.
+    /// If the point is on an edge or a vertex, the walk ends in any triangle around it; the last triangles
+    /// then lead to the one in the answer.
     pub fn walk_path(&self, point: DVec2) -> Vec<TriangleId> {
         let Ok(p) = self.point_on_lattice(point) else { return Vec::new() };
         let starts = self.coarse_numbers_round(p).filter_map(|number| self.coarse.get(number));
@@ -123,7 +124,7 @@ impl Mesh {
         path
     }
 
-    /// The triangles around `node` from `from` to `to`, without the first.
+    /// Returns the triangles around `node` from `from` to `to`, without the first.
     fn turns_between(&self, node: NodeId, from: TriangleId, to: TriangleId) -> Vec<TriangleId> {
         let (mut turns, mut last) = (Vec::new(), from);
         for id in self.raw_triangles_around(node, from).skip(1) {
@@ -140,8 +141,8 @@ impl Mesh {
         turns
     }
 
-    /// The mean number of steps from triangle to triangle in which [`Self::locate`] finds a point of the
-    /// domain, over about `count` points that are spread evenly. Zero where none is in the domain.
+    /// Returns the mean number of steps from triangle to triangle in which [`Self::locate`] finds a point of
+    /// the domain, over about `count` points that are spread evenly. Zero where none is in the domain.
     pub fn mean_walk_steps(&self, count: usize) -> f64 {
         let bounds = self.lattice.bounds();
         let mut shares = DVec2::splat(0.5);
@@ -156,14 +157,14 @@ impl Mesh {
         if found > 0 { steps as f64 / found as f64 } else { 0.0 }
     }
 
-    /// The most steps that Algorithm 15 takes: 2 to the power of the deepest level.
+    /// Returns the most steps that Algorithm 15 takes: 2 to the power of the deepest level.
     pub fn walk_bound(&self) -> f64 {
         let deepest = self.level_counts().len().saturating_sub(1);
         (0..deepest).fold(1.0, |bound, _| 2.0 * bound)
     }
 
-    /// Coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to six around
-    /// a coarse node.
+    /// Returns the coarse triangles that contain a point in lattice coordinates (Algorithm 14): one, or up to
+    /// six around a coarse node.
     fn coarse_numbers_round(&self, p: DVec2) -> impl Iterator<Item = usize> {
         let [columns, rows] = self.lattice.cells();
         let steps = f64::from(self.lattice.cell_steps());
@@ -181,8 +182,8 @@ impl Mesh {
         })
     }
 
-    /// Where a point lies that was found in triangle `id` on the given sides of its edges; ties go to the
-    /// lowest index of the domain.
+    /// Returns the location of a point that was found in triangle `id`, on the given sides of its edges. On
+    /// an edge or vertex it has the triangle around it with the lowest index in the domain.
     pub(super) fn lowest_round(&self, id: TriangleId, sides: [Side; 3]) -> Location {
         let triangle = self.triangle(id);
         let on = sides.map(|side| side == Side::On);
@@ -210,15 +211,15 @@ impl Mesh {
         }
     }
 
-    /// Place of the edge of `id` that it shares with `across`.
+    /// Returns the place of the edge of `id` that it shares with `across`.
     pub(super) fn edge_towards(&self, id: TriangleId, across: TriangleId) -> usize {
         let found = self.triangle(id).raw_neighbours.iter().position(|n| n.triangle() == Some(across));
         found.expect("neighbours are symmetric (invariant 3)")
     }
 }
 
-/// Cells of a row of `count` whose closure contains `x`, measured in cells: one, or two where `x` is a whole
-/// number.
+/// Returns cells of a row of `count` whose closure contains `x`, measured in cells: one, or two where `x` is
+/// a whole number.
 fn closed_cells(x: f64, count: u32) -> std::ops::RangeInclusive<u32> {
     let cell = x.floor();
     let last = (cell as u32).min(count - 1);

@@ -20,13 +20,13 @@ pub(super) struct Part {
 
 /// The parts of an extract without some of its triangles.
 pub(super) struct Parts {
-    /// For each triangle the place of its part in `parts`; of no meaning where it is left out.
+    /// For each triangle, the index of its part in `parts`; without meaning for a triangle that is left out.
     numbers: Vec<u32>,
     parts: Vec<Part>,
 }
 
 impl Parts {
-    /// The parts of the triangles that are not `removed`.
+    /// Returns the parts of the triangles that are not `removed`.
     pub fn new(extract: &Extract, removed: &[bool]) -> Self {
         const UNKNOWN: u32 = u32::MAX;
         let count = extract.triangles().len();
@@ -56,20 +56,20 @@ impl Parts {
         Self { numbers, parts }
     }
 
-    /// The part of a triangle that is not left out.
+    /// Returns the part of a triangle that is not left out.
     pub fn of(&self, id: TriangleId) -> &Part {
         &self.parts[self.numbers[id.index()] as usize]
     }
 
-    /// All parts, in no order.
+    /// Returns all parts, in no order.
     pub fn iter(&self) -> impl Iterator<Item = &Part> {
         self.parts.iter()
     }
 }
 
 impl Extract<'_> {
-    /// For each triangle the number of its part, from 0 for the part with the largest area. A part is joined
-    /// by edges; of equal ones the one at the lowest place comes first.
+    /// Returns for each triangle the number of its part, from 0 for the part with the largest area. A part is
+    /// joined by edges; of equal ones the one at the lowest place comes first.
     pub fn part_numbers(&self) -> Vec<u32> {
         let Parts { numbers, parts } = Parts::new(self, &vec![false; self.triangles().len()]);
         let mut order: Vec<usize> = (0..parts.len()).collect();
@@ -79,7 +79,7 @@ impl Extract<'_> {
         numbers.iter().map(|&number| ranks[number as usize]).collect()
     }
 
-    /// The number of triangles of each part, in the order of [`Self::part_numbers`].
+    /// Returns the number of triangles of each part, in the order of [`Self::part_numbers`].
     pub fn part_sizes(&self) -> Vec<usize> {
         let Parts { mut parts, .. } = Parts::new(self, &vec![false; self.triangles().len()]);
         parts.sort_unstable_by_key(|&part| Reverse(part));
@@ -87,13 +87,13 @@ impl Extract<'_> {
     }
 }
 
-/// Three times the centroid in lattice coordinates, y first: no two triangles of a mesh share it.
+/// Returns three times the centroid in lattice coordinates, y first: no two triangles of a mesh share it.
 pub(super) fn place_key(extract: &Extract, id: TriangleId) -> [u64; 2] {
     let corners = corners(extract, id);
     [corners.iter().map(|p| u64::from(p.y)).sum(), corners.iter().map(|p| u64::from(p.x)).sum()]
 }
 
-/// Twice the area of a triangle, in squares of the lattice.
+/// Returns twice the area of a triangle, in squares of the lattice.
 fn doubled_area(extract: &Extract, id: TriangleId) -> u128 {
     let [a, b, c] = corners(extract, id).map(|p| [i128::from(p.x), i128::from(p.y)]);
     ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).unsigned_abs()

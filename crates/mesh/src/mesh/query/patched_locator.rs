@@ -22,7 +22,7 @@ pub struct PatchedLocator {
 }
 
 impl PatchedLocator {
-    /// A locator for `extract`, which must be [`Mesh::extract_with`] of the patch.
+    /// Creates a locator for `extract`, which must be [`Mesh::extract_with`] of the patch.
     pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &Extract) -> Self {
         let mut at_change = vec![false; mesh.nodes.len()];
         for (id, _) in &patch.changed {
@@ -55,9 +55,9 @@ impl PatchedLocator {
         }
     }
 
-    /// Finds the triangle of the extract that contains a point in world coordinates, given where the mesh
-    /// finds it. Ids in the answer are those of the extract; of several triangles it is the one with the
-    /// lowest. `extract` must be the one that the locator was made for.
+    /// Finds the triangle of the extract that contains a point in world coordinates. `in_mesh` is the point's
+    /// location in the mesh. Ids in the answer are ids of the extract; of several triangles, it has the one
+    /// with the lowest id. `extract` must be the one that the locator was made for.
     pub fn locate(&self, extract: &Extract, point: DVec2, in_mesh: Location) -> Location {
         if matches!(in_mesh, Location::OutsideBounds | Location::Invalid) {
             return in_mesh;
@@ -81,14 +81,14 @@ impl PatchedLocator {
     }
 }
 
-/// On which sides of its edges a triangle has a point; `None` if the point lies outside.
+/// Returns the sides of a triangle's edges on which a point is; `None` if the point is outside the triangle.
 fn sides(extract: &Extract, number: TriangleId, p: DVec2) -> Option<[Side; 3]> {
     let edges = extract.triangles()[number.index()].edge_nodes();
     let sides = edges.map(|(a, b)| side_of_line(extract.node(a), extract.node(b), p));
     (!sides.contains(&Side::Right)).then_some(sides)
 }
 
-/// The node that two edges of a triangle share.
+/// Returns the node that two edges of a triangle share.
 fn shared_end(extract: &Extract, number: TriangleId, on: [bool; 3]) -> NodeId {
     let first = (0..3).find(|&j| on[j] && on[(j + 1) % 3]).unwrap_or(0);
     extract.triangles()[number.index()].edge_nodes()[first].1

@@ -1,4 +1,4 @@
-//! What kind of shape a mesh has: how many parts, how many holes.
+//! The topology of a mesh: the numbers of its parts and holes.
 
 use super::forest::Forest;
 use crate::mesh::extract::Extract;
@@ -46,7 +46,7 @@ mod tests {
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::{Limits, Mesh};
 
-    /// A square of 10 × 10 cells without what lies within `radius` (along either axis) of a place.
+    /// Returns a square of 10 × 10 cells without what lies within `radius` (along either axis) of a place.
     fn without(places: &[(DVec2, f64)]) -> Mesh {
         let mut mesh = Mesh::coarse_grid(
             &Lattice::covering(Rect::UNIT, 0.1, 1_000_000).unwrap(),

@@ -1,10 +1,11 @@
-//! Where triangles of the bisection tree are in a mesh.
+//! Finds triangles of the bisection tree in a mesh.
 
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Mesh, TreeTriangle, TriangleId, WalkEnd};
 
 impl Mesh {
-    /// Whether a triangle of the tree was bisected: whether its halves, or parts of them, are in the mesh.
+    /// Returns whether a triangle of the tree was bisected: whether its halves, or parts of them, are in the
+    /// mesh.
     ///
     /// Time grows with the number of levels only. The triangle must lie in the domain.
     pub fn is_bisected(&self, triangle: &TreeTriangle) -> bool {
@@ -15,7 +16,7 @@ impl Mesh {
         }
     }
 
-    /// The entry of a triangle of the tree, if it is in the mesh.
+    /// Returns the entry of a triangle of the tree, if it is in the mesh.
     pub fn entry_of(&self, triangle: &TreeTriangle) -> Option<TriangleId> {
         // The apex belongs to neighbours as well; a point strictly inside belongs to one triangle.
         let [apex, p, q] = triangle.corners().map(LatticePoint::as_dvec2);
@@ -26,7 +27,7 @@ impl Mesh {
         }
     }
 
-    /// A triangle of the mesh with a point in it, in the coarse triangle of `triangle`.
+    /// Returns a triangle of the mesh with a point in it, in the coarse triangle of `triangle`.
     fn triangle_near(&self, triangle: &TreeTriangle, point: LatticePoint) -> Option<TriangleId> {
         let (_, start) = triangle.coarse_entry(self)?;
         match self.walk(start, point.as_dvec2()) {

@@ -4,24 +4,25 @@ use super::GpuError;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::Triangle;
 
-/// Node buffers that a shader reads at once.
+/// Number of node buffers that a shader reads at once.
 pub const NODE_BUFFERS: usize = 4;
-/// Upper limit of a buffer: with larger ones, each growth of a mesh would allocate much memory at once.
+/// Upper limit of a buffer in bytes: with larger ones, each growth of a mesh would allocate much memory at
+/// once.
 const LARGEST_CHUNK_BYTES: u64 = 256 << 20;
-/// Smallest buffer, so that the first strokes need no larger one.
+/// Size of the smallest buffer in bytes, so that the first strokes need no larger one.
 const SMALLEST_CHUNK_BYTES: u64 = 64 << 10;
 
-/// How many entries of the arrays of a mesh fit one buffer.
+/// The number of array entries of a mesh that fit one buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChunkLimits {
-    /// Triangles in a buffer; they are drawn together.
+    /// Triangles in a buffer. The triangles of a buffer are drawn together.
     pub triangles: usize,
     /// Binary logarithm of the nodes in a buffer; a shader reads [`NODE_BUFFERS`] buffers.
     pub node_bits: u32,
 }
 
 impl ChunkLimits {
-    /// The largest buffers that a device with these limits can bind, up to 256 MiB.
+    /// Returns the largest buffers that a device with these limits can bind, up to 256 MiB.
     pub fn of_device(limits: &wgpu::Limits) -> Self {
         let bytes =
             limits.max_storage_buffer_binding_size.min(limits.max_buffer_size).min(LARGEST_CHUNK_BYTES)
@@ -32,12 +33,12 @@ impl ChunkLimits {
         }
     }
 
-    /// Nodes in a buffer.
+    /// Returns the number of nodes in a buffer.
     pub fn nodes(&self) -> usize {
         1 << self.node_bits
     }
 
-    /// Most nodes that can be shown.
+    /// Returns the largest number of nodes that can be shown.
     pub fn max_nodes(&self) -> usize {
         NODE_BUFFERS * self.nodes()
     }
@@ -96,7 +97,8 @@ impl ChunkedArray {
         Ok(changed)
     }
 
-    /// Twice the present size or a quarter more than needed, whichever is larger; at most a whole chunk.
+    /// Returns twice the present size or a quarter more than needed, in bytes, whichever is larger; at most a
+    /// whole chunk.
     fn grown_size(&self, needed: u64, present: Option<&wgpu::Buffer>) -> u64 {
         let doubled = present.map_or(0, |buffer| 2 * buffer.size());
         let roomy = (needed + needed / 4).max(doubled).max(SMALLEST_CHUNK_BYTES);
@@ -116,7 +118,7 @@ impl ChunkedArray {
         }
     }
 
-    /// How many of the first `items` items lie in each chunk.
+    /// Returns, for each chunk, how many of the first `items` items it contains.
     pub(super) fn items_in_chunks(&self, items: usize) -> impl Iterator<Item = usize> {
         let size = self.chunk_items;
         (0..items.div_ceil(size)).map(move |chunk| (items - chunk * size).min(size))

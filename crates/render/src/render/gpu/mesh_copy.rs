@@ -12,24 +12,25 @@ use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Triangle, TriangleId};
 /// Storage buffers that the shader reads: triangles, nodes and flags.
 pub(super) const STORAGE_BUFFERS: u32 = 2 + NODE_BUFFERS as u32;
 
-/// Changed ranges with at most this many entries between them are written as one.
+/// Changed ranges of triangles or nodes with at most this many entries between them are written as one.
 const SMALL_GAP: usize = 32;
-/// The same for words of flags, of which a write of many is as fast as one of a few.
+/// Changed ranges of words of flags with at most this many words between them are written as one. Writing
+/// many words takes no longer than writing a few.
 const SMALL_GAP_OF_WORDS: usize = 4096;
 
-/// More words of flags than a mesh can have: they are all in one buffer.
+/// Upper bound of the words of flags of any mesh. All are in one buffer.
 const MOST_WORDS: usize = 1 << 28;
 
-/// Size of the uniform `Part` of mesh.wgsl: one u32, and padding that some drivers want.
+/// Size of the uniform `Part` of mesh.wgsl in bytes: one u32, and padding that some drivers require.
 const PART_BYTES: usize = 16;
 
-/// What is needed to make buffers, fill them and bind them.
+/// The handles with which buffers are made, filled and bound.
 pub(super) struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     pub(super) layout: wgpu::BindGroupLayout,
     limits: ChunkLimits,
-    /// Bound in place of buffers that are not needed.
+    /// A buffer that is bound in place of buffers that are not needed.
     nothing: wgpu::Buffer,
 }
 
@@ -74,7 +75,7 @@ fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("mesh"), entries: &entries })
 }
 
-/// Numbers of entries in the two arrays of a mesh.
+/// The numbers of entries in the two arrays of a mesh.
 #[derive(Clone, Copy)]
 pub(super) struct Counts {
     pub(super) nodes: usize,
@@ -93,7 +94,7 @@ impl Counts {
     }
 }
 
-/// A mesh, the flags that say which of its triangles are drawn, and the pieces.
+/// A mesh, the flags of its triangles, and the pieces that replace some of them.
 pub(super) struct MeshCopy {
     mesh: Arrays,
     flags: FlagArray,
@@ -117,7 +118,7 @@ impl MeshCopy {
         }
     }
 
-    /// Prepares for a mesh of which nothing was sent yet.
+    /// Prepares for a mesh whose upload begins.
     pub(super) fn begin(&mut self, gpu: &Gpu, mesh: &Mesh) -> Result<(), GpuError> {
         self.pieces.triangle_count = 0;
         self.replaced.clear();
@@ -131,7 +132,7 @@ impl MeshCopy {
         let count = mesh.raw_triangle_count();
         let flags = self.flags.fit(gpu, count)?;
         let arrays = self.mesh.fit(gpu, mesh.raw_nodes().len(), count, kept)?;
-        // No bind groups: a failed call may have replaced buffers without binding them.
+        // The bind groups are missing when an earlier, failed call replaced buffers without binding them.
         if flags || arrays || self.mesh.bind_groups.is_empty() {
             let flags = self.flags.words.chunks().first();
             self.mesh.bind(gpu, flags);
@@ -140,7 +141,7 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// Sends about `byte_budget` bytes from the entries `sent` on.
+    /// Sends about `byte_budget` bytes, beginning with the entries after `sent`, and adds them to `sent`.
     pub(super) fn send(&mut self, gpu: &Gpu, mesh: &Mesh, sent: &mut Counts, byte_budget: usize) {
         debug_assert_eq!(
             self.mesh.triangle_count,
@@ -155,7 +156,7 @@ impl MeshCopy {
         self.flags.classify(queue, mesh, std::slice::from_ref(&(first..sent.triangles)));
     }
 
-    /// Writes the changed entries among the first `present` ones, and the flags of all.
+    /// Writes the changed entries among the first `present` ones, and all flags.
     pub(super) fn write(&mut self, gpu: &Gpu, mesh: &Mesh, present: Counts, changes: &Changes) {
         let (queue, arrays) = (&gpu.queue, &self.mesh);
         send_ranges(queue, &arrays.nodes, &mesh.raw_nodes()[..present.nodes], &changes.nodes);
@@ -164,12 +165,12 @@ impl MeshCopy {
         self.flags.classify(queue, mesh, &changes.triangles);
     }
 
-    /// Shows other pieces, or none.
+    /// Replaces the pieces, or removes them with `None`.
     pub(super) fn set_pieces(&mut self, gpu: &Gpu, pieces: Option<&PatchPieces>) -> Result<(), GpuError> {
         self.pieces.triangle_count = 0;
         let former = std::mem::take(&mut self.replaced);
         former.iter().for_each(|id| self.flags.flags.restore(*id));
-        // The buffers first: without them, the triangles of the mesh stay.
+        // The buffers come first: if they fail, the triangles of the mesh stay.
         let fitted = pieces.map_or(Ok(()), |pieces| self.send_pieces(gpu, pieces));
         if let (Ok(()), Some(pieces)) = (&fitted, pieces) {
             for (id, range) in pieces.replacements() {
@@ -192,8 +193,8 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// Draws triangles of the mesh again in place of their pieces, or provisional pieces. Returns false when
-    /// other pieces are shown.
+    /// Draws triangles of the mesh again in place of their pieces, or draws provisional pieces. Returns false
+    /// when other pieces are shown.
     pub(super) fn retire(
         &mut self,
         gpu: &Gpu,
@@ -236,18 +237,18 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// The buffers of the mesh, each with its number of triangles.
+    /// Returns the buffers of the mesh, each with its number of triangles.
     pub(super) fn mesh_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         self.mesh.draws()
     }
 
-    /// The buffers of the pieces.
+    /// Returns the buffers of the pieces.
     pub(super) fn piece_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         self.pieces.draws()
     }
 }
 
-/// Triangles and their nodes.
+/// Triangles and their nodes, in buffers.
 struct Arrays {
     triangles: ChunkedArray,
     nodes: ChunkedArray,
@@ -282,7 +283,7 @@ impl Arrays {
         Ok(nodes || triangles)
     }
 
-    /// One group for each chunk of triangles, with all nodes and all flags.
+    /// Makes one bind group for each chunk of triangles, with all nodes and all flags.
     fn bind(&mut self, gpu: &Gpu, flags: Option<&wgpu::Buffer>) {
         let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
             std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(&gpu.nothing));
@@ -351,7 +352,8 @@ impl FlagArray {
     }
 }
 
-/// Sends items from `*next` on: as many as the budget allows, at least one. Returns the bytes sent.
+/// Sends items from `*next` on, as many as the budget in bytes allows and at least one. Returns the bytes
+/// sent.
 fn send<T: bytemuck::Pod>(
     queue: &wgpu::Queue,
     array: &ChunkedArray,

@@ -55,7 +55,7 @@ impl MeshPass {
     }
 }
 
-/// A render pipeline without vertex buffers, from `vs_main` and `fs_main`, without depth buffer and
+/// Returns a render pipeline without vertex buffers, from `vs_main` and `fs_main`, without depth buffer and
 /// multisampling.
 pub(super) fn render_pipeline(
     device: &wgpu::Device,
@@ -67,7 +67,7 @@ pub(super) fn render_pipeline(
     pipeline_from(device, shader, "vs_main", groups, format, blend)
 }
 
-/// [`render_pipeline`] from another vertex shader.
+/// Makes a pipeline like [`render_pipeline`], with another function as vertex shader.
 fn pipeline_from(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
@@ -127,7 +127,7 @@ pub(super) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// Layout entry of a texture that a fragment shader reads without filtering.
+/// Returns layout entry of a texture that a fragment shader reads without filtering.
 pub(super) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
@@ -141,7 +141,7 @@ pub(super) fn texel_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     }
 }
 
-/// A two-dimensional texture without mip levels.
+/// Returns a two-dimensional texture without mip levels.
 pub(super) fn new_texture(
     device: &wgpu::Device,
     label: &str,

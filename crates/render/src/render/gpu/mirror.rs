@@ -35,7 +35,7 @@ pub struct MeshMirror {
     generation: u64,
 }
 
-/// An upload into the back: the revision of the mesh, and how many of its first entries are there.
+/// An upload into the back: the revision of the mesh, and how many of its first entries were sent.
 struct Upload {
     revision: u64,
     sent: Counts,
@@ -66,7 +66,7 @@ impl MeshMirror {
     /// mesh.
     ///
     /// # Errors
-    /// When the device cannot hold the mesh. The mesh on the screen stays.
+    /// Fails when the device cannot hold the mesh. The mesh on the screen stays.
     pub fn begin_upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.upload = None;
         self.gpu.check_nodes(mesh.raw_nodes().len())?;
@@ -94,27 +94,27 @@ impl MeshMirror {
     /// Uploads a whole mesh in one call.
     ///
     /// # Errors
-    /// As [`Self::begin_upload`].
+    /// Fails when the device cannot hold the mesh. The mesh on the screen stays.
     pub fn upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.begin_upload(mesh, revision)?;
         self.advance_upload(mesh, usize::MAX);
         Ok(())
     }
 
-    /// Writes the changed entries of a mesh: of the one being uploaded, otherwise of the one on the screen.
-    /// Without either, the whole mesh is uploaded.
+    /// Writes the changed entries of the mesh that is being uploaded or, without an upload, of the mesh on
+    /// the screen. If there is neither, the whole mesh is uploaded.
     ///
     /// During an upload, changed entries that were already sent are written again; the others follow in their
     /// turn.
     ///
     /// # Errors
-    /// When the device cannot hold the mesh. An unfinished upload is dropped. The picture stays, but if the
-    /// mesh on the screen was the one that changed, [`Self::shown`] becomes `None` and the next mesh is
+    /// Fails when the device cannot hold the mesh. An unfinished upload is dropped. The picture stays, but if
+    /// the mesh on the screen was the one that changed, [`Self::shown`] becomes `None` and the next mesh is
     /// uploaded whole.
     pub fn apply_changes(&mut self, mesh: &Mesh, revision: u64, changes: &Changes) -> Result<(), GpuError> {
         if let Some(upload) = self.upload.take() {
             self.gpu.check_nodes(mesh.raw_nodes().len())?;
-            // Entries behind the end of a mesh that became shorter must be sent again if it grows.
+            // Entries beyond the end of a mesh that became shorter must be sent again if it grows.
             let sent = upload.sent.at_most(mesh);
             self.back.fit(&self.gpu, mesh, sent)?;
             self.back.write(&self.gpu, mesh, sent, changes);
@@ -132,12 +132,13 @@ impl MeshMirror {
         Ok(())
     }
 
-    /// Shows other pieces, or none, in place of triangles of a mesh: of the one being uploaded, otherwise of
-    /// the one on the screen. A mesh begins without pieces when its upload begins, also when
-    /// [`Self::apply_changes`] uploads it whole. Without any mesh, nothing is done.
+    /// Replaces the pieces that are drawn in place of some triangles, or removes them with `None`. They
+    /// belong to the mesh that is being uploaded or, without an upload, to the mesh on the screen. A mesh
+    /// begins without pieces when its upload begins, also when [`Self::apply_changes`] uploads it whole.
+    /// Without any mesh, nothing is done.
     ///
     /// # Errors
-    /// When the device cannot hold the pieces. The mesh is then without pieces.
+    /// Fails when the device cannot hold the pieces. The mesh is then without pieces.
     pub fn set_pieces(&mut self, pieces: Option<&PatchPieces>) -> Result<(), GpuError> {
         if self.upload.is_some() {
             return self.back.set_pieces(&self.gpu, pieces);
@@ -149,13 +150,13 @@ impl MeshMirror {
         self.front.set_pieces(&self.gpu, pieces)
     }
 
-    /// Draws triangles of the mesh again in place of their pieces, or provisional pieces. `pieces` are those
-    /// of [`Self::set_pieces`], and `touched` is what [`PatchPieces::retire`] returned. The time is
-    /// proportional to `touched`. After a mesh lost its pieces because another one is uploaded, nothing is
-    /// done.
+    /// Draws triangles of the mesh again in place of their pieces, or draws provisional pieces. `pieces` are
+    /// the pieces that [`Self::set_pieces`] got, and `touched` is the result of [`PatchPieces::retire`]. The
+    /// time is proportional to `touched`. After a mesh lost its pieces because another one is uploaded,
+    /// nothing is done.
     ///
     /// # Errors
-    /// When the device cannot hold the provisional pieces.
+    /// Fails when the device cannot hold the provisional pieces.
     pub fn retire(
         &mut self,
         pieces: &PatchPieces,
@@ -172,27 +173,27 @@ impl MeshMirror {
         Ok(())
     }
 
-    /// Revision of the mesh that is drawn, or `None` before the first and after a failure.
+    /// Returns the revision of the mesh that is drawn, or `None` before the first mesh and after a failure.
     pub fn shown(&self) -> Option<u64> {
         self.shown
     }
 
-    /// Revision of the mesh that is being uploaded.
+    /// Returns the revision of the mesh that is being uploaded, if any.
     pub fn uploading(&self) -> Option<u64> {
         self.upload.as_ref().map(|upload| upload.revision)
     }
 
-    /// Sizes of the buffers.
+    /// Returns sizes of the buffers.
     pub fn limits(&self) -> ChunkLimits {
         self.gpu.limits()
     }
 
-    /// Changes whenever the picture must be redrawn.
+    /// Returns a number that changes whenever the picture must be redrawn.
     pub(super) fn generation(&self) -> u64 {
         self.generation
     }
 
-    /// Lattice of the mesh that is drawn.
+    /// Returns the lattice of the mesh that is drawn, if any.
     pub(super) fn lattice(&self) -> Option<&Lattice> {
         self.front.lattice.as_ref()
     }
@@ -201,12 +202,12 @@ impl MeshMirror {
         &self.gpu.layout
     }
 
-    /// The buffers of the mesh, each with its number of triangles.
+    /// Returns the buffers of the mesh, each with its number of triangles.
     pub(super) fn mesh_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         self.front.mesh_draws()
     }
 
-    /// The buffers of the pieces, each with its number of triangles.
+    /// Returns the buffers of the pieces, each with its number of triangles.
     pub(super) fn piece_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         self.front.piece_draws()
     }

@@ -1,9 +1,8 @@
 //! Draws a scene on the GPU. The arrays of the mesh are the vertex data.
 //!
-//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of
-//! the pieces in place of some of its triangles, and keeps the
-//! picture of the mesh as a texture, so that the mesh is redrawn only when the mesh, the camera or the style
-//! changed.
+//! A window keeps a [`GpuRenderer`]. It contains a [`MeshMirror`], the copy of the mesh and of the pieces in
+//! place of some of its triangles. It keeps the picture of the mesh as a texture, so that the mesh is redrawn
+//! only when the mesh, the camera or the style changed.
 
 mod chunks;
 mod layout;
@@ -28,10 +27,10 @@ use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 use meshbrush_mesh::text::Bytes;
 use meshbrush_mesh::text::Grouped;
 
-/// Why the graphics driver cannot draw.
+/// The reason why the graphics driver cannot draw.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GpuError {
-    /// No graphics driver at all.
+    /// The machine has no usable graphics driver.
     #[error(
         "No usable graphics driver ({reason}). Install a Vulkan or OpenGL driver, such as mesa-vulkan-drivers."
     )]
@@ -44,10 +43,10 @@ pub enum GpuError {
     NoDevice {
         /// Name of the driver.
         adapter: String,
-        /// Its message.
+        /// The driver's message.
         reason: String,
     },
-    /// Vertex shaders cannot read enough buffers for a mesh.
+    /// Vertex shaders cannot read as many buffers as a mesh needs.
     #[error(
         "The graphics driver lets a shader read {available} storage buffers, but drawing a mesh needs {needed}. Update \
          the driver, or choose another one with WGPU_BACKEND=vulkan."
@@ -86,11 +85,11 @@ pub enum GpuError {
          Choose a lower resolution.", size[0], size[1]
     )]
     TooLarge {
-        /// What is too large, as the subject of a sentence.
+        /// The thing that is too large, as the subject of a sentence.
         what: &'static str,
         /// Its width and height in pixels.
         size: [u32; 2],
-        /// Most pixels along a side.
+        /// Largest number of pixels along a side.
         limit: u32,
     },
     /// The device was lost while a picture was read back.
@@ -111,12 +110,12 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'sta
     }
 }
 
-/// Whether the driver emulates a GPU. [`GpuRenderer::prepare_in_software`] is then faster.
+/// Returns whether the driver emulates a GPU. [`GpuRenderer::prepare_in_software`] is then faster.
 pub fn emulates_gpu(adapter: &wgpu::Adapter) -> bool {
     adapter.get_info().device_type == wgpu::DeviceType::Cpu
 }
 
-/// Everything that a canvas needs on the GPU.
+/// Renderer of a canvas on the GPU.
 ///
 /// For each frame, bring [`Self::mirror_mut`] and the overlay up to date, then call [`Self::prepare`] and
 /// [`Self::paint`].
@@ -127,11 +126,11 @@ pub struct GpuRenderer {
 }
 
 impl GpuRenderer {
-    /// A renderer for canvases of `target_format`, which must be in gamma space: `Rgba8Unorm` or
+    /// Creates a renderer for canvases of `target_format`, which must be in gamma space: `Rgba8Unorm` or
     /// `Bgra8Unorm`.
     ///
     /// # Errors
-    /// When the device cannot draw a mesh at all.
+    /// Fails when the device cannot draw a mesh at all.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -140,10 +139,11 @@ impl GpuRenderer {
         Self::with_chunks(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
     }
 
-    /// As [`Self::new`], with buffers of the given size.
+    /// Creates a renderer with buffers of the given size, for canvases of `target_format` (see
+    /// [`Self::new`]).
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Fails when the device cannot draw a mesh at all.
     pub fn with_chunks(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -157,12 +157,12 @@ impl GpuRenderer {
         Ok(Self { mirror, picture, overlay })
     }
 
-    /// The copy of the mesh.
+    /// Returns the copy of the mesh.
     pub fn mirror(&self) -> &MeshMirror {
         &self.mirror
     }
 
-    /// The copy of the mesh, for updates.
+    /// Returns the copy of the mesh, for updates.
     pub fn mirror_mut(&mut self) -> &mut MeshMirror {
         &mut self.mirror
     }
@@ -170,7 +170,7 @@ impl GpuRenderer {
     /// Shows or hides the overlay. Its colours are uploaded only when its size or revision changed.
     ///
     /// # Errors
-    /// When the raster is larger than the largest texture.
+    /// Fails when the raster is larger than the largest texture.
     pub fn set_overlay(
         &mut self,
         device: &wgpu::Device,
@@ -184,7 +184,7 @@ impl GpuRenderer {
     /// prepares [`Self::paint`].
     ///
     /// # Errors
-    /// When the canvas is larger than the largest texture.
+    /// Fails when the canvas is larger than the largest texture.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -198,12 +198,13 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// As [`Self::prepare`], but the [software renderer](crate::render::software) draws the picture. This is
-    /// several times as fast where the driver emulates a GPU. It needs no mirror. After an edit of which
-    /// [`Self::picture_in_software_mut`] was told, only the part that changed is drawn.
+    /// Redraws the picture with the [software renderer](crate::render::software) if the mesh, the camera or
+    /// the style changed, and prepares [`Self::paint`]. This is several times as fast as [`Self::prepare`]
+    /// where the driver emulates a GPU. It does not use the mirror. After an edit that
+    /// [`Self::picture_in_software_mut`] was told of, only the changed part is drawn.
     ///
     /// # Errors
-    /// As [`Self::prepare`].
+    /// Fails when the canvas is larger than the largest texture.
     pub fn prepare_in_software(
         &mut self,
         device: &wgpu::Device,
@@ -218,18 +219,18 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// Draws the picture in software for whoever draws the whole window: see [`Self::take_image`].
+    /// Draws the picture in software, for a caller that draws the whole window with [`Self::take_image`].
     pub fn draw_image(&mut self, shown: ShownMesh, revision: ShownRevision, camera: &Camera, style: &Style) {
         self.picture.draw_image(shown, revision, camera, style);
     }
 
-    /// The picture of [`Self::draw_image`], the part that is new since the last call, and whether nothing
-    /// below can be seen. `None` if another function drew last.
+    /// Returns the picture of [`Self::draw_image`], the part that is new since the last call, and whether the
+    /// picture is opaque. Returns `None` if another function drew last.
     pub fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
         self.picture.take_image()
     }
 
-    /// The picture that the software renderer draws, to be told of every edit of the mesh.
+    /// Returns the picture that the software renderer draws. It must be told of every edit of the mesh.
     pub fn picture_in_software_mut(&mut self) -> &mut KeptPicture {
         self.picture.kept_mut()
     }
@@ -242,7 +243,7 @@ impl GpuRenderer {
         self.overlay.paint(pass);
     }
 
-    /// How often the picture was redrawn.
+    /// Returns how often the picture was redrawn.
     pub fn redraws(&self) -> u64 {
         self.picture.redraws()
     }

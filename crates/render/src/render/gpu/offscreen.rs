@@ -19,7 +19,7 @@ pub struct Offscreen {
 /// Draws one picture on the GPU, as [`software::draw`](crate::render::software::draw) does without outlines.
 ///
 /// # Errors
-/// When there is no usable driver, or it cannot hold the mesh or the picture.
+/// Fails when there is no usable driver, or it cannot hold the mesh or the picture.
 pub fn offscreen(
     mesh: &Mesh,
     camera: &Camera,
@@ -36,7 +36,7 @@ impl Offscreen {
     /// Opens the first usable driver.
     ///
     /// # Errors
-    /// When there is none.
+    /// Fails when there is no usable driver.
     pub fn new() -> Result<Self, GpuError> {
         let (device, queue, adapter) = pollster::block_on(open())?;
         let format = wgpu::TextureFormat::Rgba8Unorm;
@@ -47,7 +47,7 @@ impl Offscreen {
     /// Replaces the renderer by one with buffers of the given size.
     ///
     /// # Errors
-    /// When the device cannot draw a mesh at all.
+    /// Fails when the device cannot draw a mesh at all.
     pub fn with_chunks(self, chunks: ChunkLimits) -> Result<Self, GpuError> {
         let renderer = GpuRenderer::with_chunks(&self.device, &self.queue, self.format, chunks)?;
         Ok(Self { renderer, ..self })
@@ -56,28 +56,28 @@ impl Offscreen {
     /// Replaces the renderer by one for canvases of another format, such as the `Bgra8Unorm` of windows.
     ///
     /// # Errors
-    /// As [`Self::with_chunks`].
+    /// Fails when the device cannot draw a mesh at all.
     pub fn with_format(self, format: wgpu::TextureFormat) -> Result<Self, GpuError> {
         let renderer = GpuRenderer::new(&self.device, &self.queue, format)?;
         Ok(Self { renderer, format, ..self })
     }
 
-    /// Name of the driver.
+    /// Returns name of the driver.
     pub fn adapter(&self) -> &str {
         &self.adapter
     }
 
-    /// The device.
+    /// Returns the device.
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
 
-    /// The queue of the device.
+    /// Returns the queue of the device.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
     }
 
-    /// The renderer.
+    /// Returns the renderer.
     pub fn renderer(&mut self) -> &mut GpuRenderer {
         &mut self.renderer
     }
@@ -85,7 +85,7 @@ impl Offscreen {
     /// Uploads a whole mesh; `revision` is the caller's name for it.
     ///
     /// # Errors
-    /// When the device cannot hold it.
+    /// Fails when the device cannot hold the mesh.
     pub fn show(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.renderer.mirror_mut().upload(mesh, revision)
     }
@@ -93,7 +93,7 @@ impl Offscreen {
     /// Shows or hides the overlay.
     ///
     /// # Errors
-    /// When the raster is larger than the largest texture.
+    /// Fails when the raster is larger than the largest texture.
     pub fn show_overlay(&mut self, overlay: Option<&Overlay>) -> Result<(), GpuError> {
         self.renderer.set_overlay(&self.device, &self.queue, overlay)
     }
@@ -101,7 +101,7 @@ impl Offscreen {
     /// Draws a frame as a window does, and waits for the device to finish.
     ///
     /// # Errors
-    /// When the canvas is larger than the largest texture, or the device is lost.
+    /// Fails when the canvas is larger than the largest texture, or the device is lost.
     pub fn frame(&mut self, camera: &Camera, style: &Style) -> Result<(), GpuError> {
         let canvas = self.canvas(camera)?;
         let mut encoder = self.encoder();
@@ -114,7 +114,7 @@ impl Offscreen {
     /// Draws a frame and reads it back.
     ///
     /// # Errors
-    /// As [`Self::frame`].
+    /// Fails as [`Self::frame`] does.
     pub fn picture(&mut self, camera: &Camera, style: &Style) -> Result<Image, GpuError> {
         let canvas = self.canvas(camera)?;
         let mut encoder = self.encoder();
@@ -126,7 +126,7 @@ impl Offscreen {
     /// Draws a frame with [`GpuRenderer::prepare_in_software`] and reads it back.
     ///
     /// # Errors
-    /// As [`Self::frame`].
+    /// Fails as [`Self::frame`] does.
     pub fn picture_in_software(
         &mut self,
         shown: ShownMesh,
@@ -174,7 +174,7 @@ fn wait(device: &wgpu::Device) -> Result<(), GpuError> {
 /// Submits `encoder`, waits for the device and reads `canvas` back. `canvas` must have the usage `COPY_SRC`.
 ///
 /// # Errors
-/// When the device is lost.
+/// Fails when the device is lost.
 pub fn read_back(
     device: &wgpu::Device,
     queue: &wgpu::Queue,

@@ -17,12 +17,12 @@ pub(super) struct MeshPicture {
     drawn: Option<Drawn>,
     /// The picture that is drawn in software.
     kept: KeptPicture,
-    /// What of it was drawn since it was last taken.
+    /// The part of the kept picture that was drawn since [`Self::take_image`] last returned it.
     taken_from: Option<PxRect>,
     redraws: u64,
 }
 
-/// What the picture shows. When any of it changes, the picture is redrawn.
+/// The contents of the picture. When any of it changes, the picture is redrawn.
 #[derive(PartialEq)]
 struct Drawn {
     source: Source,
@@ -32,11 +32,12 @@ struct Drawn {
 
 #[derive(PartialEq)]
 enum Source {
-    /// The mirror at this generation.
+    /// The picture shows the mirror at this generation.
     Mirror(u64),
-    /// The mesh and the pieces of this revision, drawn in software.
+    /// The software renderer drew the mesh and the pieces of this revision, and the texture shows them.
     Software(ShownRevision),
-    /// As `Software`, but the texture was not written: whoever draws the window takes the picture.
+    /// The software renderer drew the mesh and the pieces of this revision, but the texture was not written:
+    /// the caller that draws the window takes the picture.
     Image(ShownRevision),
 }
 
@@ -52,7 +53,7 @@ impl MeshPicture {
         }
     }
 
-    /// [`GpuRenderer::prepare`](super::GpuRenderer::prepare), without the overlay.
+    /// Does the work of [`GpuRenderer::prepare`](super::GpuRenderer::prepare), without the overlay.
     pub(super) fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -74,7 +75,8 @@ impl MeshPicture {
         Ok(())
     }
 
-    /// [`GpuRenderer::prepare_in_software`](super::GpuRenderer::prepare_in_software), without the overlay.
+    /// Does the work of [`GpuRenderer::prepare_in_software`](super::GpuRenderer::prepare_in_software),
+    /// without the overlay.
     pub(super) fn prepare_in_software(
         &mut self,
         device: &wgpu::Device,
@@ -91,7 +93,7 @@ impl MeshPicture {
         let is_other = self.texture.fit(device, camera.size_px())?;
         let changed = self.kept.update(shown, revision, camera, style);
         let image = self.kept.image();
-        // A texture that shows something else is written whole.
+        // The whole texture is written when it shows something else.
         let part = if follows && !is_other { changed } else { Some(PxRect::whole(image.size)) };
         if let Some(part) = part {
             self.texture.write(queue, image, &part);
@@ -100,7 +102,7 @@ impl MeshPicture {
         Ok(())
     }
 
-    /// [`GpuRenderer::draw_image`](super::GpuRenderer::draw_image).
+    /// Does the work of [`GpuRenderer::draw_image`](super::GpuRenderer::draw_image).
     pub(super) fn draw_image(
         &mut self,
         shown: ShownMesh,
@@ -119,18 +121,18 @@ impl MeshPicture {
         self.keep(wanted);
     }
 
-    /// [`GpuRenderer::take_image`](super::GpuRenderer::take_image).
+    /// Does the work of [`GpuRenderer::take_image`](super::GpuRenderer::take_image).
     pub(super) fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
         let drawn = self.drawn.as_ref().filter(|drawn| matches!(drawn.source, Source::Image(_)))?;
         Some((self.kept.image(), self.taken_from.take(), drawn.style.is_opaque()))
     }
 
-    /// The picture that is drawn in software, to be told of edits.
+    /// Returns the picture that is drawn in software. It must be told of every edit of the mesh.
     pub(super) fn kept_mut(&mut self) -> &mut KeptPicture {
         &mut self.kept
     }
 
-    /// What to draw, unless the picture already shows it.
+    /// Returns the contents to draw, or `None` if the picture already shows them.
     fn if_not_drawn(&self, source: Source, camera: &Camera, style: &Style) -> Option<Drawn> {
         let wanted = Drawn { source, camera: *camera, style: style.clone() };
         (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)

@@ -7,13 +7,13 @@ use crate::render::software::PxRect;
 
 /// A picture that is drawn on or written to, and copied to the canvas.
 pub struct ShownImage {
-    /// Copies the picture.
+    /// Copies the picture to the canvas.
     copy: wgpu::RenderPipeline,
-    /// Draws a picture that is transparent in part over what is on the canvas.
+    /// Blends a partly transparent picture over the canvas.
     blend: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
-    /// That of the canvas.
+    /// The pixel format of the canvas.
     format: wgpu::TextureFormat,
     target: Option<Target>,
 }
@@ -25,7 +25,7 @@ struct Target {
 }
 
 impl ShownImage {
-    /// Nothing yet, to be shown on canvases of `format`, which must have four bytes per pixel.
+    /// Creates an empty picture for canvases of `format`, which must have four bytes per pixel.
     pub fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("picture"),
@@ -38,10 +38,10 @@ impl ShownImage {
         Self { copy, blend, layout, sampler, format, target: None }
     }
 
-    /// Makes the texture as large as a picture. Returns whether it is another one, which shows nothing yet.
+    /// Gives the texture the size of a picture. Returns whether the texture was replaced by an empty one.
     ///
     /// # Errors
-    /// When the picture is larger than the largest texture.
+    /// Fails when the picture is larger than the largest texture.
     pub fn fit(&mut self, device: &wgpu::Device, size: [u32; 2]) -> Result<bool, GpuError> {
         let has_size =
             |target: &Target| target.texture.width() == size[0] && target.texture.height() == size[1];
@@ -69,12 +69,12 @@ impl ShownImage {
         Ok(true)
     }
 
-    /// The texture, to be drawn on, once it was [fitted](Self::fit).
+    /// Returns the texture for drawing on it, or `None` before the first call of [`Self::fit`].
     pub(super) fn view(&self) -> Option<&wgpu::TextureView> {
         self.target.as_ref().map(|target| &target.view)
     }
 
-    /// Writes a part of a picture to the same place of the texture, which must have its size.
+    /// Writes a part of a picture to the same part of the texture, which must have the picture's size.
     pub fn write(&self, queue: &wgpu::Queue, image: &Image, part: &PxRect) {
         let Some(Target { texture, .. }) = &self.target else { return };
         let origin = wgpu::Origin3d { x: part.columns.start, y: part.rows.start, z: 0 };
@@ -93,18 +93,18 @@ impl ShownImage {
         queue.write_texture(to, bytemuck::cast_slice(&pixels), layout, size);
     }
 
-    /// Copies the picture to the canvas, or draws it over the canvas unless it is opaque. The viewport of
+    /// Copies the picture to the canvas, or blends it over the canvas unless it is opaque. The viewport of
     /// `pass` must be the canvas.
     pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>, is_opaque: bool) {
         let Some(target) = &self.target else { return };
-        // Blending takes a driver that emulates a GPU as long as all the rest.
+        // Where a driver emulates a GPU, blending takes as long as everything else together.
         pass.set_pipeline(if is_opaque { &self.copy } else { &self.blend });
         pass.set_bind_group(0, &target.group, &[]);
         pass.draw(0..3, 0..1);
     }
 }
 
-/// The pixels of a part of a picture, with their bytes in the order of a format.
+/// Returns the pixels of a part of a picture, with their bytes in the order of a format.
 fn pixels_of(image: &Image, part: &PxRect, format: wgpu::TextureFormat) -> Vec<[u8; 4]> {
     let columns = part.columns.start as usize..part.columns.end as usize;
     let rows = part.rows.start as usize..part.rows.end as usize;
@@ -119,7 +119,7 @@ fn pixels_of(image: &Image, part: &PxRect, format: wgpu::TextureFormat) -> Vec<[
     pixels
 }
 
-/// Layout entry of a sampler that takes the nearest pixel.
+/// Returns layout entry of a sampler that takes the nearest pixel.
 fn sampler_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,

@@ -1,4 +1,4 @@
-//! The nodes of a mesh as corners on the screen.
+//! The nodes of a mesh as corners of triangles on the screen.
 
 use std::ops::Range;
 
@@ -11,8 +11,8 @@ use meshbrush_mesh::geometry::LatticePoint;
 /// Nodes that a thread maps at a time.
 const NODES_PER_TASK: usize = 8192;
 
-/// Where one camera sees each node, on the grid of corners. A mesh has twice as many triangles as nodes, so
-/// each is mapped once for six triangles.
+/// The position of each node on the screen of one camera, on the grid of corners. Each node is mapped once
+/// for its six triangles on average, since a mesh has twice as many triangles as nodes.
 #[derive(Debug, Default)]
 pub(super) struct Corners {
     corners: Vec<[i32; 2]>,
@@ -32,7 +32,7 @@ impl Corners {
         mapped.collect_into_vec(&mut self.corners);
     }
 
-    /// Maps the nodes of the changed ranges again, and follows the length of the array.
+    /// Maps the nodes of the changed ranges again, and adapts to the length of the array.
     pub(super) fn follow(&mut self, nodes: &[LatticePoint], changed: &[Range<usize>], camera: &Camera) {
         let screen = camera.lattice_map();
         self.corners.resize(nodes.len(), [0; 2]);

@@ -8,26 +8,26 @@ pub const BAND_ROWS: usize = 16;
 /// A rectangle of pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PxRect {
-    /// From the left.
+    /// Columns, counted from the left.
     pub columns: Range<u32>,
-    /// From the top.
+    /// Rows, counted from the top.
     pub rows: Range<u32>,
 }
 
 impl PxRect {
-    /// All pixels of a picture.
+    /// Returns all pixels of a picture.
     pub fn whole([width, height]: [u32; 2]) -> Self {
         Self { columns: 0..width, rows: 0..height }
     }
 
-    /// The smallest rectangle around this one and another.
+    /// Returns the smallest rectangle that contains this one and another.
     pub fn with(&self, other: &Self) -> Self {
         let around = |a: &Range<u32>, b: &Range<u32>| a.start.min(b.start)..a.end.max(b.end);
         Self { columns: around(&self.columns, &other.columns), rows: around(&self.rows, &other.rows) }
     }
 }
 
-/// For each band of a picture the columns that are drawn again.
+/// For each band of a picture, the columns that are drawn again.
 #[derive(Clone, Debug)]
 pub struct Damage {
     size: [u32; 2],
@@ -35,12 +35,12 @@ pub struct Damage {
 }
 
 impl Damage {
-    /// No pixel of a picture of this size.
+    /// Returns the empty part of a picture of this size, in pixels.
     pub fn nothing(size: [u32; 2]) -> Self {
         Self { size, columns: vec![0..0; (size[1] as usize).div_ceil(BAND_ROWS)] }
     }
 
-    /// All of them.
+    /// Returns all pixels of a picture of this size, in pixels.
     pub fn everything(size: [u32; 2]) -> Self {
         let mut damage = Self::nothing(size);
         damage.columns.fill(0..size[0]);
@@ -63,12 +63,12 @@ impl Damage {
         }
     }
 
-    /// The columns of each band; empty where nothing is drawn again.
+    /// Returns the columns of each band that are drawn again; the range is empty where none are.
     pub fn bands(&self) -> &[Range<u32>] {
         &self.columns
     }
 
-    /// The bands that a rectangle of pixels meets.
+    /// Returns the bands that a rectangle of pixels meets.
     pub fn bands_meeting(&self, columns: &Range<i32>, rows: &Range<i32>) -> impl Iterator<Item = usize> {
         let last = self.columns.len() as i32;
         let rows_of_band = BAND_ROWS as i32;
@@ -80,7 +80,7 @@ impl Damage {
         })
     }
 
-    /// The smallest rectangle around everything that is drawn again.
+    /// Returns the smallest rectangle that contains everything to draw again, or `None` if that is nothing.
     pub fn bounds(&self) -> Option<PxRect> {
         let damaged = || self.columns.iter().enumerate().filter(|(_, columns)| !columns.is_empty());
         let row = |band: usize| ((band * BAND_ROWS) as u32).min(self.size[1]);

@@ -1,7 +1,8 @@
-//! Where the triangles of a mesh are: the rectangle around each group of consecutive entries.
+//! The positions of the triangles of a mesh: a bounding rectangle for each group of consecutive entries.
 //!
 //! A mesh is refined triangle by triangle and block by block, so consecutive entries are close to each other
-//! on the plane, and a small part of a picture meets few groups. Only the time depends on that.
+//! on the plane, and a small part of a picture meets few groups. The picture does not depend on the groups,
+//! only the time does.
 
 use std::ops::Range;
 
@@ -12,10 +13,11 @@ use meshbrush_mesh::mesh::Triangle;
 
 /// Triangles in a group.
 const GROUP: usize = 64;
-/// Groups that a thread is asked for at a time.
+/// Number of groups that a thread examines at a time.
 const GROUPS_PER_TASK: usize = 64;
 
-/// The rectangles around all groups, in the order of the triangles; none around a group outside the domain.
+/// The bounding rectangles of all groups, in the order of the triangles; `None` for a group outside the
+/// domain.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct TriangleGroups {
     rects: Vec<Option<LatticeRect>>,
@@ -39,7 +41,7 @@ impl TriangleGroups {
         self.rects.resize(count, None);
         let groups_of = |range: &Range<usize>| range.start / GROUP..range.end.div_ceil(GROUP).min(count);
         let mut next = 0;
-        // New groups are among the changes, but the last one of before may have become shorter.
+        // New groups are among the changes, but the last of the former groups may have become shorter.
         let last = present.saturating_sub(1)..count;
         for groups in changed.iter().map(groups_of).chain([last]) {
             for group in groups.start.max(next)..groups.end {
@@ -50,14 +52,15 @@ impl TriangleGroups {
         }
     }
 
-    /// Each group with the rectangle around it. The last one may extend beyond the end of the array.
+    /// Returns each group that has a bounding rectangle, with that rectangle. The last group may extend
+    /// beyond the end of the array.
     pub(super) fn iter(&self) -> impl Iterator<Item = (Range<usize>, LatticeRect)> {
         let groups = self.rects.iter().enumerate();
         groups.filter_map(|(group, rect)| rect.map(|rect| (group * GROUP..(group + 1) * GROUP, rect)))
     }
 }
 
-/// The rectangle around the triangles that are not outside the domain.
+/// Returns the bounding rectangle of the triangles in the domain, or `None` if there are none.
 fn rect_around(nodes: &[LatticePoint], triangles: &[Triangle]) -> Option<LatticeRect> {
     let inside = triangles.iter().filter(|triangle| !triangle.is_outside());
     let mut points = inside.flat_map(|triangle| triangle.vertices).map(|vertex| nodes[vertex.index()]);

@@ -1,4 +1,4 @@
-//! The picture of a mesh that is edited: after an edit, only the part where the mesh changed is drawn again.
+//! The picture of a mesh that is edited. After an edit, only the part where the mesh changed is drawn again.
 
 use super::corners::Corners;
 use super::damage::{Damage, PxRect};
@@ -13,9 +13,9 @@ use meshbrush_mesh::mesh::{Changes, Mesh};
 
 /// A picture of a mesh, kept from frame to frame.
 ///
-/// Every edit of the mesh must be told by [`Self::note_changes`] or [`Self::forget_mesh`] before the next
-/// [`Self::update`]. A picture that was drawn in part is the one that [`draw`](super::draw) makes, pixel by
-/// pixel.
+/// The owner must report every edit of the mesh with [`Self::note_changes`] or [`Self::forget_mesh`] before
+/// the next [`Self::update`]. A picture that was drawn in parts equals the one that [`draw`](super::draw)
+/// makes, pixel by pixel.
 #[derive(Debug)]
 pub struct KeptPicture {
     image: Image,
@@ -25,7 +25,7 @@ pub struct KeptPicture {
     corners: Corners,
 }
 
-/// What the picture shows.
+/// The contents of the picture.
 #[derive(Debug)]
 struct Drawn {
     revision: ShownRevision,
@@ -33,7 +33,7 @@ struct Drawn {
     style: Style,
 }
 
-/// What became of the mesh since it was drawn.
+/// The changes of the mesh since it was drawn.
 #[derive(Debug)]
 enum Since {
     Unchanged,
@@ -50,12 +50,12 @@ impl Default for KeptPicture {
 }
 
 impl KeptPicture {
-    /// The picture.
+    /// Returns the picture.
     pub fn image(&self) -> &Image {
         &self.image
     }
 
-    /// Notes which entries of `mesh` changed; it is the mesh as it is now.
+    /// Notes which entries of `mesh` changed. `mesh` is the mesh after the change.
     pub fn note_changes(&mut self, changes: &Changes, mesh: &Mesh) {
         match &mut self.since {
             Since::Unchanged => self.since = Since::Within(changes.clone()),
@@ -64,18 +64,18 @@ impl KeptPicture {
         }
     }
 
-    /// Notes that the mesh is another one.
+    /// Notes that the mesh was replaced by another one.
     pub fn forget_mesh(&mut self) {
         self.since = Since::Replaced;
     }
 
-    /// The picture, where it is not needed any more.
+    /// Returns the picture and drops everything else.
     pub(super) fn into_image(self) -> Image {
         self.image
     }
 
-    /// Draws again what changed since the last call: nothing, the part of an edit, or everything. Returns the
-    /// rectangle around it.
+    /// Draws again the part that changed since the last call: nothing, the part of an edit, or everything.
+    /// Returns the smallest rectangle that contains this part, or `None` for nothing.
     pub fn update(
         &mut self,
         shown: ShownMesh,
@@ -107,7 +107,7 @@ impl KeptPicture {
         Some(bounds)
     }
 
-    /// Follows mesh and camera with what is known of the triangles.
+    /// Updates the groups and corners of the triangles for mesh and camera.
     fn follow(&mut self, since: &Since, mesh: &Mesh, camera: &Camera) {
         let same_camera = self.drawn.as_ref().is_some_and(|drawn| drawn.camera == *camera);
         let camera = camera.on_lattice(mesh.lattice());
@@ -126,7 +126,8 @@ impl KeptPicture {
         }
     }
 
-    /// What became of the mesh, by its revision where nobody said it.
+    /// Returns the changes of the mesh. If none were reported but the revision differs, the mesh was
+    /// replaced.
     fn checked(&self, since: Since, revision: ShownRevision) -> Since {
         let drawn = self.drawn.as_ref().map(|drawn| drawn.revision.mesh);
         match since {
@@ -154,11 +155,11 @@ impl KeptPicture {
         }
     }
 
-    /// The pixels that an edit of a mesh can change.
+    /// Returns the pixels that an edit of a mesh can change.
     ///
-    /// The triangles of the changed entries cover together what the former ones covered, since the others are
-    /// as they were. Beyond that, an edge can become one of the boundary or cease to be, and with it the
-    /// pixels beside it in an unchanged triangle.
+    /// Together, the triangles of the changed entries cover the area that the former ones covered, since the
+    /// other triangles are unchanged. Beyond that, an edge can become a boundary edge or cease to be one,
+    /// which changes the pixels beside it in an unchanged triangle.
     fn damage_of(&self, changes: &Changes, mesh: &Mesh, size: [u32; 2], style: &Style) -> Damage {
         let mut damage = Damage::nothing(size);
         let margin_px = (style.edge_reach_px() + style.rim_px()).ceil() as i32;

@@ -44,7 +44,7 @@ pub fn draw<'a>(
     image
 }
 
-/// Draws what files get of a mesh.
+/// Draws the extract of a mesh, for files.
 pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image {
     let mut image = Image::filled(camera.size_px(), ground(style));
     let camera = camera.on_lattice(extract.lattice());

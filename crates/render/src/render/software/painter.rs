@@ -1,4 +1,4 @@
-//! Draws triangles as one camera sees them, on all cores.
+//! Draws the triangles that one camera sees, on all cores.
 
 use std::ops::Range;
 
@@ -16,20 +16,21 @@ use crate::scene::{Camera, LevelPaint, Style};
 use meshbrush_mesh::geometry::{LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{Orientation, Triangle};
 
-/// Triangles and their nodes. A neighbour that is one of `triangles` shares an edge.
+/// Triangles and their nodes. If the neighbour of a triangle is one of `triangles`, they share an edge.
 pub(super) struct TriangleArrays<'a> {
     pub(super) nodes: &'a [LatticePoint],
-    /// Where the nodes are on the screen.
+    /// Positions of the nodes on the screen.
     pub(super) corners: &'a Corners,
     pub(super) triangles: &'a [Triangle],
-    /// Where the triangles are.
+    /// Positions of the triangles, in groups.
     pub(super) groups: &'a TriangleGroups,
-    /// The triangles that are replaced by others.
+    /// Flags of the triangles that others replace.
     pub(super) flags: &'a DrawFlags,
 }
 
 impl TriangleArrays<'_> {
-    /// For each vertex whether the opposite edge is on the boundary: nothing is drawn across it.
+    /// Returns, for each vertex, whether the opposite edge is on the boundary, so that no neighbour draws its
+    /// half of the line.
     fn boundary_opposite(&self, triangle: &Triangle) -> [bool; 3] {
         let mut boundary = [false; 3];
         for ((from, to), across) in triangle.edges().into_iter().zip(triangle.raw_neighbours) {
@@ -42,7 +43,7 @@ impl TriangleArrays<'_> {
         self.flags.is_vacant(index) || self.flags.is_drawn(index) && self.triangles[index].is_outside()
     }
 
-    /// For each band the groups of triangles that can be seen in its damaged part, in their order.
+    /// Returns, for each band, the groups of triangles that can be seen in its damaged part, in their order.
     fn groups_in_bands(&self, camera: &Camera, damage: &Damage) -> Vec<Vec<Range<usize>>> {
         let mut bands = vec![Vec::new(); damage.bands().len()];
         for (group, rect) in self.groups.iter() {
@@ -55,13 +56,13 @@ impl TriangleArrays<'_> {
     }
 }
 
-/// Columns and rows of the pixels that triangles within `rect` can colour.
+/// Returns columns and rows of the pixels that triangles within `rect` can colour.
 fn pixels_around(camera: &Camera, rect: &LatticeRect) -> [Range<i32>; 2] {
     let corners = [rect.min, rect.max].map(|p| rasterizer::snapped(camera.screen_from_lattice(p)));
     rasterizer::pixels_around(&corners, 0)
 }
 
-/// Draws triangles as one camera sees them, in one style.
+/// Draws triangles for one camera in one style.
 pub(super) struct Painter {
     camera: Camera,
     ground: [u8; 4],
@@ -69,16 +70,17 @@ pub(super) struct Painter {
 }
 
 impl Painter {
-    /// A painter of meshes on the lattice of the camera.
+    /// Creates a painter of meshes on the lattice of the camera.
     pub(super) fn new(camera: Camera, style: &Style) -> Self {
         let shaders = LevelPaint::all(&camera, style).map(|paint| LevelShader::new(&paint, style));
         Self { camera, ground: ground(style), shaders }
     }
 
-    /// Draws the damaged part of a picture again: the ground, and the arrays one above the other.
+    /// Draws the damaged part of a picture again: the ground, and then the arrays one above the other.
     ///
     /// A pixel takes its colour from the last triangle that covers it. Each band draws its triangles in the
-    /// order of the arrays, so the picture does not depend on the threads, nor on what of it is drawn again.
+    /// order of the arrays, so the picture depends neither on the threads nor on the part that is drawn
+    /// again.
     pub(super) fn draw(&self, image: &mut Image, damage: &Damage, arrays: &[TriangleArrays]) {
         let groups: Vec<_> = arrays.iter().map(|each| each.groups_in_bands(&self.camera, damage)).collect();
         let width = image.size[0];
@@ -114,7 +116,7 @@ impl Painter {
     }
 }
 
-/// The colour beside the mesh.
+/// Returns the colour of the ground.
 pub(super) fn ground(style: &Style) -> [u8; 4] {
     style.clear_color().map(|c| (255.0 * c).round() as u8)
 }
@@ -132,11 +134,11 @@ impl HalfPlane {
         self.normal.dot(px) + self.offset
     }
 
-    /// The half-plane to the left of the line from one node to another.
+    /// Returns the half-plane to the left of the line from one node to another.
     ///
     /// The part of the cross product that consists of lattice coordinates is calculated in integers. They
-    /// have 30 bits, so the sum of two products has 61. The remainder, of the camera's place within a lattice
-    /// step, is as large as the length of the edge at most, so its rounding errors are below 2⁻⁵⁰ steps.
+    /// have 30 bits, so the sum of two products has 61. The remainder comes from the camera's position within
+    /// a lattice step and is at most the length of the edge, so its rounding errors are below 2⁻⁵⁰ steps.
     fn left_of(from: LatticePoint, to: LatticePoint, camera: &Camera) -> Self {
         let steps = |p: LatticePoint| I64Vec2::new(i64::from(p.x), i64::from(p.y));
         let (anchor, fraction) = camera.anchor();
@@ -154,7 +156,8 @@ impl HalfPlane {
     }
 }
 
-/// The half-planes that intersect in a triangle. Each is that of the edge opposite the vertex.
+/// Returns the half-planes whose intersection is a triangle, each with the edge opposite the vertex of the
+/// same number.
 fn half_planes(triangle: &Triangle, nodes: &[LatticePoint], camera: &Camera) -> [HalfPlane; 3] {
     let corners = triangle.vertices.map(|v| nodes[v.index()]);
     std::array::from_fn(|i| {

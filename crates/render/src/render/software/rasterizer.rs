@@ -14,8 +14,8 @@ const SUBPIXEL_BITS: u32 = 8;
 const PIXEL: i32 = 1 << SUBPIXEL_BITS;
 const HALF_PIXEL: i32 = PIXEL / 2;
 
-/// A pixel position rounded to the grid of corners. Positions beyond 4 million px are clamped; no rasterized
-/// triangle with such a corner reaches the picture.
+/// Returns a pixel position rounded to the grid of corners. Positions beyond 4 million px are clamped; no
+/// rasterized triangle with such a corner reaches the picture.
 pub(super) fn snapped(px: DVec2) -> [i32; 2] {
     const FAR: f64 = (1 << 30) as f64;
     // The sum has no bits for a fraction and is rounded to an even number where that is half; its lowest bits
@@ -24,8 +24,8 @@ pub(super) fn snapped(px: DVec2) -> [i32; 2] {
     [px.x, px.y].map(|c| ((c * f64::from(PIXEL)).clamp(-FAR, FAR) + NO_FRACTION).to_bits() as i32)
 }
 
-/// Columns and rows of the pixels that a triangle with these [`snapped`] corners can colour, and `margin_px`
-/// more on every side.
+/// Returns columns and rows of the pixels that a triangle with these [`snapped`] corners can colour, and
+/// `margin_px` more on every side.
 pub(super) fn pixels_around(corners: &[[i32; 2]], margin_px: i32) -> [Range<i32>; 2] {
     [0, 1].map(|axis| {
         let along = corners.iter().map(|corner| corner[axis]);
@@ -36,7 +36,7 @@ pub(super) fn pixels_around(corners: &[[i32; 2]], margin_px: i32) -> [Range<i32>
     })
 }
 
-/// Whether a triangle with [`snapped`] corners extends over at least [`HUGE_PX`] along an axis.
+/// Returns whether a triangle with [`snapped`] corners extends over at least [`HUGE_PX`] along an axis.
 #[inline]
 pub(super) fn is_huge([a, b, c]: [[i32; 2]; 3]) -> bool {
     const HUGE: i64 = HUGE_PX as i64 * PIXEL as i64;
@@ -70,8 +70,8 @@ impl LevelShader {
         }
     }
 
-    /// The amounts to subtract from the distances to the three edges, so that boundary edges get their full
-    /// width.
+    /// Returns the amounts to subtract from the distances to the three edges, so that boundary edges get
+    /// their full width.
     #[inline]
     fn rims(&self, at_boundary: impl FnOnce() -> [bool; 3]) -> [f32; 3] {
         if self.edge_alpha == 0.0 {
@@ -80,7 +80,7 @@ impl LevelShader {
         at_boundary().map(|boundary| if boundary { self.rim_px } else { 0.0 })
     }
 
-    /// The colour of a pixel whose centre is `distance_px` inside the nearest edge.
+    /// Returns the colour of a pixel whose centre is `distance_px` inside the nearest edge.
     #[inline]
     fn color(&self, distance_px: f32) -> [u8; 4] {
         let share = (self.edge_reach_px - distance_px).clamp(0.0, 1.0) * self.edge_alpha;
@@ -96,7 +96,7 @@ pub(super) struct Rasterizer<'a> {
     width: i32,
     columns: Range<i32>,
     rows: Range<i32>,
-    /// Those of the rows, in full width.
+    /// The pixels of the rows, in full width.
     pixels: &'a mut [[u8; 4]],
 }
 
@@ -113,8 +113,8 @@ struct EdgeFunction {
 }
 
 impl EdgeFunction {
-    /// The edge from `p` to `q` of a triangle that runs clockwise on the screen, at the pixel `column`,
-    /// `row`.
+    /// Returns the edge from `p` to `q` of a triangle that runs clockwise on the screen, at the pixel
+    /// `column`, `row`.
     #[inline]
     fn new(p: [i32; 2], q: [i32; 2], column: i32, row: i32) -> Self {
         let [dx, dy] = [i64::from(q[0]) - i64::from(p[0]), i64::from(q[1]) - i64::from(p[1])];
@@ -133,14 +133,14 @@ impl EdgeFunction {
 }
 
 impl<'a> Rasterizer<'a> {
-    /// A rasterizer for these columns of the rows from `first_row` on, whose `pixels` are given.
+    /// Creates a rasterizer for these columns of the rows from `first_row` on, whose `pixels` are given.
     pub(super) fn new(pixels: &'a mut [[u8; 4]], width: u32, columns: Range<u32>, first_row: usize) -> Self {
         let rows = first_row as i32..(first_row + pixels.len() / width as usize) as i32;
         let columns = columns.start as i32..columns.end as i32;
         Self { width: width as i32, columns, rows, pixels }
     }
 
-    /// Gives all pixels one colour.
+    /// Gives all pixels of the columns one colour.
     pub(super) fn fill(&mut self, color: [u8; 4]) {
         for row in self.rows.clone() {
             self.pixels_of(row, self.columns.clone()).fill(color);
@@ -215,14 +215,14 @@ impl<'a> Rasterizer<'a> {
     }
 }
 
-/// The distance to the nearest edge after subtracting `rims`.
+/// Returns the distance to the nearest edge after subtracting `rims`.
 #[inline]
 fn nearest(distances: [f32; 3], rims: [f32; 3]) -> f32 {
     (distances[0] - rims[0]).min(distances[1] - rims[1]).min(distances[2] - rims[2])
 }
 
-/// The pixels within `limits` whose centres lie between `low` and `high`, which are in units of the grid of
-/// corners.
+/// Returns the pixels within `limits` whose centres lie between `low` and `high`, which are in units of the
+/// grid of corners.
 #[inline]
 fn pixels_between(low: i32, high: i32, limits: &Range<i32>) -> Range<i32> {
     let first = (low - HALF_PIXEL + PIXEL - 1) >> SUBPIXEL_BITS;

@@ -1,11 +1,11 @@
-//! The threads that draw.
+//! The threads for drawing.
 
 use std::sync::OnceLock;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Draws on threads of their own, one for each core: those of all other work can be busy for longer than a
-/// frame, as when a file is written.
+/// Runs `draw` on a pool of threads that is used for drawing only, one for each core. The threads of all
+/// other work can be busy for longer than a frame, for example while a file is written.
 pub fn on_drawing_threads<R: Send>(draw: impl FnOnce() -> R + Send) -> R {
     static THREADS: OnceLock<Option<ThreadPool>> = OnceLock::new();
     let threads =

@@ -19,7 +19,7 @@ fn ring(center: DVec2, radius: f64, roughness: f64) -> Ring {
         .collect()
 }
 
-/// The mesh, with triangles of about the given diameter along the coast.
+/// Returns the mesh, with triangles of about the given diameter along the coast.
 pub fn coast(diameter: f64) -> BuiltMesh {
     let land = vec![ring(dvec2(0.0, 0.0), 0.8, 0.15), ring(dvec2(0.1, 0.05), 0.25, 0.2)];
     let islands = [dvec2(1.1, 0.9), dvec2(-1.0, 0.8)].map(|center| vec![ring(center, 0.06, 0.1)]);

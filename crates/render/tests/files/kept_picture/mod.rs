@@ -1,4 +1,4 @@
-//! Pictures that a person wants to look at.
+//! Writes pictures of tests into a folder, for a person to look at.
 
 use meshbrush_render::render::Image;
 

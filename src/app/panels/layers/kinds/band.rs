@@ -3,17 +3,17 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use super::{Addition, KindPanel, set_kind_once};
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::OPEN_BAND;
-use crate::app::frame::FrameState;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{Layer, LayerKind};
 
 /// A band of the values of a raster.
-pub const BAND: KindPanel = KindPanel {
+pub const BAND: LayerKindRow = LayerKindRow {
     is_of: |kind| matches!(kind, LayerKind::Band { .. }),
     icon: Icon::BAND,
+    tool: None,
     additions: &[
         Addition { title: "band of a raster…", command: |_| Command::Layer(LayerCommand::AddBand) },
         Addition { title: "band of a file…", command: |_| Command::File(FileCommand::Ask(&OPEN_BAND)) },

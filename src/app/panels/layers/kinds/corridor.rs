@@ -3,17 +3,16 @@
 use eframe::egui::Ui;
 
 use super::distance::range_rows;
-use super::{Addition, KindPanel, set_kind_once};
 use crate::app::command::{Command, LayerCommand};
-use crate::app::frame::FrameState;
-use crate::app::panels::{button_rows, remark};
+use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, remark, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// A strip along the paths as they were when they were taken.
-pub const CORRIDOR: KindPanel = KindPanel {
+pub const CORRIDOR: LayerKindRow = LayerKindRow {
     is_of: |kind| matches!(kind, LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. }),
     icon: Icon::PATH,
+    tool: None,
     additions: &[Addition {
         title: "corridor along the paths",
         command: |_| Command::Layer(LayerCommand::AddCorridor),

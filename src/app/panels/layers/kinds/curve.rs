@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
-use crate::app::panels::remark;
+use crate::app::kit::remark;
 use crate::app::widgets::{ActionButton, KnotAnswer, KnotRow};
 use meshbrush_core::layers::ValueCurve;
 use meshbrush_mesh::text::LengthUnit;
@@ -39,7 +39,7 @@ fn knot_row(ui: &mut Ui, curve: &ValueCurve, place: usize, unit: LengthUnit) -> 
     }
 }
 
-/// What the value of a knot may be: knots stay in order.
+/// Returns the allowed values of a knot: knots stay in order.
 fn values_between(knots: &[[f64; 2]], place: usize) -> RangeInclusive<f64> {
     let least = place.checked_sub(1).map_or(f64::MIN, |before| knots[before][0].next_up());
     let greatest = knots.get(place + 1).map_or(f64::MAX, |after| after[0].next_down());

@@ -2,21 +2,21 @@
 
 use eframe::egui::Ui;
 
-use super::{Addition, KindPanel, add, set_kind_once};
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
-use crate::app::frame::FrameState;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
 use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// The distance to shapes or to the outline of the domain.
-pub const DISTANCE: KindPanel = KindPanel {
+pub const DISTANCE: LayerKindRow = LayerKindRow {
     is_of: |kind| {
         let LayerKind::Distance { to, .. } = kind else { return false };
         !matches!(to, DistanceTo::Corridor { .. })
     },
     icon: Icon::DISTANCE,
+    tool: None,
     additions: &[
         Addition { title: "distance to the outline", command: add_distance_to_outline },
         Addition {
@@ -28,7 +28,7 @@ pub const DISTANCE: KindPanel = KindPanel {
 
 fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
     let transfer = &state.session.document().settings().transfer;
-    add(LayerKind::distance_to(DistanceTo::Outline, transfer, Settings::USUAL_GRADATION))
+    add_layer(LayerKind::distance_to(DistanceTo::Outline, transfer, Settings::USUAL_GRADATION))
 }
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
@@ -55,7 +55,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     }
 }
 
-/// The distance beyond which a layer asks for nothing. Returns whether it changed.
+/// Shows the distance beyond which a layer asks for nothing. Returns whether it changed.
 pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool {
     let mut is_limited = range.is_finite();
     if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
@@ -67,7 +67,7 @@ pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool 
     is_limited && row.help("Beyond this distance the layer asks for nothing.").show(ui).changed()
 }
 
-/// What chooses the target of the distance.
+/// Shows buttons that choose the target of the distance.
 fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Open shapes…")).clicked() {

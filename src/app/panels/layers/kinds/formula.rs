@@ -2,26 +2,29 @@
 
 use eframe::egui::Ui;
 
-use super::{Addition, KindPanel, add, quantity_name, set_kind_once};
+use super::quantity_name;
 use crate::app::command::Command;
-use crate::app::frame::FrameState;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
 use crate::app::panels::formula::FormulaRow;
 use crate::app::widgets::{Icon, NumberRow, segmented};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 
 /// A formula in x and y.
-pub const FORMULA: KindPanel = KindPanel {
+pub const FORMULA: LayerKindRow = LayerKindRow {
     is_of: |kind| matches!(kind, LayerKind::Formula { .. }),
     icon: Icon::FORMULA,
+    tool: None,
     additions: &[
         Addition {
             title: "formula for the target diameter",
-            command: |state| add(LayerKind::constant(state.session.document().settings().transfer.h_max)),
+            command: |state| {
+                add_layer(LayerKind::constant(state.session.document().settings().transfer.h_max))
+            },
         },
         Addition {
             title: "formula for the risk",
-            command: |_| add(LayerKind::risk(Formula::constant_of(0.0))),
+            command: |_| add_layer(LayerKind::risk(Formula::constant_of(0.0))),
         },
     ],
     parameters,

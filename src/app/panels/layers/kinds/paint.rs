@@ -2,22 +2,23 @@
 
 use eframe::egui::Ui;
 
-use super::{Addition, KindPanel, add, quantity_name};
+use super::quantity_name;
 use crate::app::command::{Command, LayerCommand};
-use crate::app::frame::FrameState;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
 use crate::app::widgets::{ActionButton, Icon, ValueRow};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_mesh::text::Bytes;
 
 /// Painted risk and painted diameters.
-pub const PAINT: KindPanel = KindPanel {
+pub const PAINT: LayerKindRow = LayerKindRow {
     is_of: |kind| matches!(kind, LayerKind::Paint(_)),
     icon: Icon::BRUSH,
+    tool: None,
     additions: &[
-        Addition { title: "paint, as risk", command: |_| add(LayerKind::Paint(Quantity::Risk)) },
+        Addition { title: "paint, as risk", command: |_| add_layer(LayerKind::Paint(Quantity::Risk)) },
         Addition {
             title: "paint, as target diameter",
-            command: |_| add(LayerKind::Paint(Quantity::Diameter)),
+            command: |_| add_layer(LayerKind::Paint(Quantity::Diameter)),
         },
     ],
     parameters,

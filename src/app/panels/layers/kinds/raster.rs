@@ -5,19 +5,19 @@ use std::sync::Arc;
 use eframe::egui::Ui;
 
 use super::curve::curve_rows;
-use super::{Addition, KindPanel, set_kind_once};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
-use crate::app::frame::FrameState;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
 use meshbrush_io::io;
 
 /// A picture or a grid.
-pub const RASTER: KindPanel = KindPanel {
+pub const RASTER: LayerKindRow = LayerKindRow {
     is_of: |kind| matches!(kind, LayerKind::Raster { .. }),
     icon: Icon::RASTER,
+    tool: None,
     additions: &[
         Addition {
             title: "picture or grid, as risk…",
@@ -35,7 +35,7 @@ pub const RASTER: KindPanel = KindPanel {
     parameters,
 };
 
-/// What the values of a raster mean, without a curve's knots.
+/// The meaning of the values of a raster, without a curve's knots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Meaning {
     Diameter,
@@ -76,25 +76,24 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     source_rows(ui, source);
 }
 
-/// The reading of a raster with another meaning. A new curve is fine where the layer was fine: where the risk
-/// is greatest or the diameter least.
+/// Returns the reading of a raster with another meaning. A new curve is fine where the layer was fine: where
+/// the risk is greatest or the diameter least.
 ///
 /// # Errors
-/// A sentence, when the values cannot have that meaning.
+/// Fails with a sentence when the values cannot have that meaning.
 fn read_as(
     meaning: Meaning,
     source: &RasterSource,
     before: &RasterReading,
     transfer: &Transfer,
 ) -> Result<RasterReading, String> {
-    let (risk, diameter) = (io::layers::RasterReading::Risk, io::layers::RasterReading::Diameter);
-    let checked = |reading| {
-        let problem = io::layers::check_values(&source.raster, reading);
-        problem.map_err(|problem| format!("{}: {problem}", source.name))
+    let checked = |reading: RasterReading| {
+        let problem = io::layers::check_values(&source.raster, (&reading).into());
+        problem.map(|()| reading).map_err(|problem| format!("{}: {problem}", source.name))
     };
     Ok(match meaning {
-        Meaning::Risk => checked(&risk).map(|()| RasterReading::Risk)?,
-        Meaning::Diameter => checked(&diameter).map(|()| RasterReading::Diameter)?,
+        Meaning::Risk => checked(RasterReading::Risk)?,
+        Meaning::Diameter => checked(RasterReading::Diameter)?,
         Meaning::Curve => {
             let Transfer { h_min, h_max, .. } = *transfer;
             let ends = if *before == RasterReading::Risk { [h_max, h_min] } else { [h_min, h_max] };
@@ -108,7 +107,7 @@ fn read_as(
     })
 }
 
-/// Where a raster is from, and its size.
+/// Shows the source of a raster, and its size.
 pub fn source_rows(ui: &mut Ui, source: &RasterSource) {
     ValueRow::new("File", &source.name).help("The file that the layer was read from.").show(ui);
     let [columns, rows] = source.raster.raster().size().map(|side| format::count(u64::from(side)));

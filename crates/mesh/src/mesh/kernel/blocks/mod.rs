@@ -16,8 +16,8 @@
 //! conforming refinement that satisfies the rule. The rule must be monotone: children of a triangle that
 //! satisfies it satisfy it too.
 //!
-//! What is written depends on the rule and the mesh only, so the arrays are the same for any number of
-//! threads. Their order is not that of Algorithm 12, which [`Refiner`](super::Refiner) follows.
+//! The result depends on the rule and the mesh only, so the arrays are the same for any number of threads.
+//! Their order is not that of Algorithm 12, which [`Refiner`](super::Refiner) follows.
 
 mod rule;
 mod skeleton;
@@ -25,7 +25,7 @@ mod survey;
 mod template;
 mod write;
 
-use super::{Limits, Mesh, Progress, RefineError};
+use super::{LimitError, Limits, Mesh, Progress, RefineError};
 pub use rule::{LevelsWithin, RuleAnswers, SharedRule};
 use skeleton::{Blocks, Skeleton};
 use survey::Survey;
@@ -51,7 +51,7 @@ enum Stage {
 }
 
 impl BlockRefiner {
-    /// Work that visits every triangle of `mesh` and all their descendants.
+    /// Creates the work that visits every triangle of `mesh` and all their descendants.
     pub fn new(mesh: &Mesh, limits: Limits) -> Self {
         Self { limits, stage: Stage::Survey(Survey::new(mesh)), triangles: 0, capped: 0 }
     }
@@ -60,13 +60,13 @@ impl BlockRefiner {
     /// thread at least.
     ///
     /// # Errors
-    /// When a limit is reached. The mesh is then of no use.
-    pub fn advance(
+    /// Fails when the rule fails, or a limit is reached. The mesh is then of no use.
+    pub fn advance<R: SharedRule>(
         &mut self,
         mesh: &mut Mesh,
-        rule: &impl SharedRule,
+        rule: &R,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, RefineError<R::Error>> {
         self.stage = match std::mem::replace(&mut self.stage, Stage::Done) {
             Stage::Survey(mut survey) => {
                 let progress = survey.advance(mesh, &self.limits, rule, visits)?;
@@ -76,20 +76,24 @@ impl BlockRefiner {
                     Progress::Done => Stage::Skeleton(Box::new(Skeleton::new(mesh, survey.finish()))),
                 }
             }
-            Stage::Skeleton(mut skeleton) => match skeleton.advance(&self.limits, visits)? {
-                Progress::More => Stage::Skeleton(skeleton),
-                Progress::Done => self.begin_writing(skeleton.finish())?,
-            },
-            Stage::Write(mut writer) => match writer.advance(mesh, &self.limits, visits)? {
-                Progress::More => Stage::Write(writer),
-                Progress::Done => Stage::Done,
-            },
+            Stage::Skeleton(mut skeleton) => {
+                match skeleton.advance(&self.limits, visits).map_err(LimitError::with_rule)? {
+                    Progress::More => Stage::Skeleton(skeleton),
+                    Progress::Done => self.begin_writing(skeleton.finish()).map_err(LimitError::with_rule)?,
+                }
+            }
+            Stage::Write(mut writer) => {
+                match writer.advance(mesh, &self.limits, visits).map_err(LimitError::with_rule)? {
+                    Progress::More => Stage::Write(writer),
+                    Progress::Done => Stage::Done,
+                }
+            }
             Stage::Done => Stage::Done,
         };
         Ok(if matches!(self.stage, Stage::Done) { Progress::Done } else { Progress::More })
     }
 
-    fn begin_writing(&mut self, blocks: Blocks) -> Result<Stage, RefineError> {
+    fn begin_writing(&mut self, blocks: Blocks) -> Result<Stage, LimitError> {
         self.triangles = blocks.triangles();
         if self.triangles > self.limits.most_triangles() {
             return Err(self.limits.passed());
@@ -97,28 +101,48 @@ impl BlockRefiner {
         Ok(Stage::Write(Box::new(Writer::new(blocks))))
     }
 
-    /// How many triangles the mesh will have, as far as that is known.
+    /// Returns how many triangles the mesh will have, as far as that is known.
     pub fn triangles(&self) -> usize {
         self.triangles
     }
 
-    /// How many triangles asked for more than [`Limits::max_level`] allows.
+    /// Returns how many triangles asked for more than [`Limits::max_level`] allows.
     pub fn capped(&self) -> usize {
         self.capped
     }
 }
 
 impl Mesh {
-    /// Refines on all threads, in one go. Returns how many triangles the level cap left
-    /// coarser than their target.
+    /// Refines on all threads, in one go. Returns how many triangles the level cap left coarser than their
+    /// target.
+    ///
+    /// The rule is asked by several threads, so it is a closure that returns a closure for each of them. A
+    /// triangle is given by its corners and its level:
+    ///
+    /// ```
+    /// use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+    /// use meshbrush_mesh::mesh::{Limits, Mesh, bisection_edge_length};
+    ///
+    /// let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000)?;
+    /// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
+    /// let rule = || {
+    ///     |corners: [LatticePoint; 3], level: u32| {
+    ///         let near = corners.iter().any(|&p| lattice.world_from_lattice(p).length() < 0.3);
+    ///         bisection_edge_length(lattice.spacing(), level) > if near { 0.01 } else { 0.1 }
+    ///     }
+    /// };
+    /// mesh.refine_in_blocks(&Limits::default(), &rule)?;
+    /// assert!(mesh.violations().is_empty());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// When a limit is reached. The mesh is then of no use.
-    pub fn refine_in_blocks(
+    /// Fails when the rule fails, or a limit is reached. The mesh is then of no use.
+    pub fn refine_in_blocks<R: SharedRule>(
         &mut self,
         limits: &Limits,
-        rule: &impl SharedRule,
-    ) -> Result<usize, RefineError> {
+        rule: &R,
+    ) -> Result<usize, RefineError<R::Error>> {
         let mut refiner = BlockRefiner::new(self, *limits);
         while refiner.advance(self, rule, usize::MAX)? == Progress::More {}
         Ok(refiner.capped())

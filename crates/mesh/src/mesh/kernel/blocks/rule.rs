@@ -1,38 +1,57 @@
-//! What refinement in blocks asks a rule.
+//! The interface of rules for refinement in blocks.
 
 use crate::geometry::LatticePoint;
+use crate::mesh::kernel::Answer;
 
-/// A refinement rule that several threads can ask. It must be monotone.
+/// A refinement rule that several threads can ask. It must be monotone: what satisfies it, all triangles
+/// within satisfy too.
 pub trait SharedRule: Sync {
-    /// The answers for one thread, which may keep what helps with the next triangles nearby.
-    fn answers(&self) -> impl RuleAnswers;
+    /// Why the rule cannot answer; [`Infallible`](std::convert::Infallible) where it always can.
+    type Error: Send;
+
+    /// Returns the answers for one thread, which may keep what helps with the next triangles nearby.
+    fn answers(&self) -> impl RuleAnswers<Error = Self::Error>;
 }
 
 impl<F, A> SharedRule for F
 where
     F: Fn() -> A + Sync,
-    A: RuleAnswers,
+    A: RuleAnswers<Error: Send>,
 {
-    fn answers(&self) -> impl RuleAnswers {
+    type Error = A::Error;
+
+    fn answers(&self) -> impl RuleAnswers<Error = Self::Error> {
         self()
     }
 }
 
-/// Answers of a refinement rule. A closure that says whether a triangle exceeds its target is enough.
+/// Answers of a refinement rule. A closure that returns whether a triangle exceeds its target is enough.
 pub trait RuleAnswers {
-    /// What is known of a triangle, given by its corners in any order and its level, and of all triangles
-    /// within it: at least whether the triangle itself exceeds its target.
-    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin;
+    /// Why the rule cannot answer.
+    type Error;
+
+    /// Returns the answers for a triangle, given by its corners in any order and its level, and as far as
+    /// known for all triangles within it. The answer for the triangle itself must be known.
+    ///
+    /// # Errors
+    /// Fails when the rule cannot answer.
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Self::Error>;
 }
 
-impl<F: FnMut([LatticePoint; 3], u32) -> bool> RuleAnswers for F {
+impl<F, A> RuleAnswers for F
+where
+    F: FnMut([LatticePoint; 3], u32) -> A,
+    A: Answer,
+{
+    type Error = A::Error;
+
     #[inline]
-    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> LevelsWithin {
-        LevelsWithin::of_one(level, self(corners, level))
+    fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, A::Error> {
+        Ok(LevelsWithin::of_one(level, self(corners, level).into_result()?))
     }
 }
 
-/// What is known of all triangles within a triangle, by their levels.
+/// The known answers for all triangles within a triangle, by their levels.
 ///
 /// ```text
 ///   level   …   exceed_below                satisfied_from   …
@@ -40,9 +59,9 @@ impl<F: FnMut([LatticePoint; 3], u32) -> bool> RuleAnswers for F {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LevelsWithin {
-    /// At coarser levels than this one, all exceed their target.
+    /// All triangles at levels coarser than this one exceed their target.
     pub exceed_below: u32,
-    /// At this level and finer ones, all satisfy it.
+    /// All triangles at this level and finer ones satisfy their target.
     pub satisfied_from: u32,
 }
 
@@ -50,7 +69,7 @@ impl LevelsWithin {
     /// Anything is possible.
     pub const UNKNOWN: Self = Self { exceed_below: 0, satisfied_from: u32::MAX };
 
-    /// What follows from the answer for the triangle itself.
+    /// Returns the answers that follow from the answer for the triangle itself.
     #[inline]
     pub fn of_one(level: u32, exceeds: bool) -> Self {
         if exceeds {
@@ -60,7 +79,7 @@ impl LevelsWithin {
         }
     }
 
-    /// The same, with an answer for the triangle itself, which is asked for unless it is known.
+    /// Adds the answer for a triangle of `level` itself. `exceeds` is called unless the answer is known.
     #[inline]
     pub fn decided_at(self, level: u32, exceeds: impl FnOnce() -> bool) -> Self {
         match self.exceeds(level) {
@@ -69,7 +88,7 @@ impl LevelsWithin {
         }
     }
 
-    /// What both say together.
+    /// Combines two sets of answers for the same triangles.
     #[inline]
     pub fn and(self, other: Self) -> Self {
         Self {
@@ -78,7 +97,7 @@ impl LevelsWithin {
         }
     }
 
-    /// The answer for a triangle of a level, if it is known.
+    /// Returns the answer for a triangle of a level, if it is known.
     #[inline]
     pub fn exceeds(&self, level: u32) -> Option<bool> {
         if level < self.exceed_below {
@@ -90,7 +109,7 @@ impl LevelsWithin {
         }
     }
 
-    /// The level of all triangles, if it is known.
+    /// Returns the level of all triangles, if it is known.
     #[inline]
     pub fn one_level(&self) -> Option<u32> {
         (self.exceed_below >= self.satisfied_from).then_some(self.satisfied_from)

@@ -11,13 +11,13 @@
 
 use super::survey::{Slots, Wanted};
 use super::template::halvings;
-use crate::mesh::kernel::{Limits, Mesh, Progress, RefineError, TriangleId};
+use crate::mesh::kernel::{LimitError, Limits, Mesh, Progress, TriangleId};
 
 /// The mesh of the blocks, in slices.
 #[derive(Clone, Debug)]
 pub(super) struct Skeleton {
     mesh: Mesh,
-    /// What is to become of each triangle.
+    /// The planned treatment of each triangle.
     wanted: Vec<Wanted>,
     slots: Slots,
     /// Triangles to look at.
@@ -29,12 +29,12 @@ pub(super) struct Skeleton {
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     pub mesh: Mesh,
-    /// By how many levels each triangle is refined.
+    /// The number of levels by which each triangle is refined.
     pub depths: Vec<u8>,
 }
 
 impl Skeleton {
-    /// The slots say what is to become of the triangles of `mesh`.
+    /// Returns the slots say what is to become of the triangles of `mesh`.
     pub fn new(mesh: &Mesh, slots: Slots) -> Self {
         let count = mesh.raw_triangle_count();
         let waiting = (0..count).rev().map(TriangleId::from_index).collect();
@@ -44,8 +44,8 @@ impl Skeleton {
     /// Looks at about `visits` triangles.
     ///
     /// # Errors
-    /// When there are more blocks than the limits allow triangles.
-    pub fn advance(&mut self, limits: &Limits, visits: usize) -> Result<Progress, RefineError> {
+    /// Fails when there are more blocks than the limits allow triangles.
+    pub fn advance(&mut self, limits: &Limits, visits: usize) -> Result<Progress, LimitError> {
         // Ends: all bisections belong to the smallest mesh.
         for _ in 0..visits {
             let Some(id) = self.waiting.pop() else { return Ok(Progress::Done) };
@@ -59,7 +59,7 @@ impl Skeleton {
         Ok(Progress::More)
     }
 
-    /// The triangle to be bisected: this one, or a neighbour that halves a common edge less.
+    /// Returns the triangle to be bisected: this one, or a neighbour that halves a common edge less.
     #[inline]
     fn unsettled(&self, id: TriangleId) -> Option<TriangleId> {
         let Wanted::Uniform(depth) = self.wanted[id.index()] else { return Some(id) };
@@ -78,7 +78,7 @@ impl Skeleton {
     }
 
     /// Bisects a triangle and what must be bisected with it.
-    fn bisect(&mut self, id: TriangleId, limits: &Limits) -> Result<(), RefineError> {
+    fn bisect(&mut self, id: TriangleId, limits: &Limits) -> Result<(), LimitError> {
         let Self { mesh, wanted, slots, waiting, chain } = self;
         mesh.room_for(id, Mesh::most_new_triangles(mesh.triangle(id).level()), limits)?;
         mesh.refine_triangle_with(id, chain, |_, parent| {
@@ -95,7 +95,7 @@ impl Skeleton {
         Ok(())
     }
 
-    /// The blocks, once all are settled.
+    /// Returns the blocks, once all are settled.
     pub fn finish(self) -> Blocks {
         let depth = |wanted| match wanted {
             Wanted::Uniform(depth) => depth as u8,
@@ -106,7 +106,7 @@ impl Skeleton {
 }
 
 impl Blocks {
-    /// How many triangles all blocks have.
+    /// Returns how many triangles all blocks have.
     pub fn triangles(&self) -> usize {
         self.depths.iter().map(|&depth| 1 << depth).sum()
     }

@@ -32,19 +32,20 @@ const MOST_TASKS: usize = 1024;
 /// slowest one.
 const TASKS_PER_THREAD: usize = 4;
 
-/// What is to become of a triangle.
+/// The planned treatment of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Wanted {
-    /// Nobody has asked yet.
+    /// The rule was not called yet.
     Open,
-    /// It is refined by so many levels, everywhere.
+    /// The triangle is refined by this number of levels, everywhere.
     Uniform(u32),
-    /// It is bisected; its children have two slots from this one on, the one that keeps the parent's entry
-    /// first.
+    /// The triangle is bisected. Its children have two slots from this one on, first the child that keeps the
+    /// parent's entry.
     Bisected(u32),
 }
 
-/// What is to become of the triangles of a mesh: those have the first slots, in the order of their ids.
+/// The planned treatment of the triangles of a mesh, which have the first slots, in the order of their ids,
+/// and of their descendants.
 pub(super) type Slots = Vec<Wanted>;
 
 /// The survey of a mesh, in slices.
@@ -66,7 +67,7 @@ pub(super) struct Survey {
 struct Subtree {
     slot: u32,
     level: u32,
-    /// In the order of [`Triangle::vertices`](crate::mesh::Triangle::vertices).
+    /// The corners in the order of [`Triangle::vertices`](crate::mesh::Triangle::vertices).
     corners: [LatticePoint; 3],
 }
 
@@ -83,14 +84,14 @@ impl Survey {
     /// Asks about `visits` triangles, or more where that occupies all threads.
     ///
     /// # Errors
-    /// When there are more triangles than the limits allow, or too fine ones.
-    pub fn advance(
+    /// Fails when the rule fails, or there are more triangles than the limits allow, or too fine ones.
+    pub fn advance<R: SharedRule>(
         &mut self,
         mesh: &Mesh,
         limits: &Limits,
-        rule: &impl SharedRule,
+        rule: &R,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, RefineError<R::Error>> {
         if self.next == self.round.len() {
             (self.round, self.next) = (std::mem::take(&mut self.open), 0);
         }
@@ -103,6 +104,7 @@ impl Survey {
             subtrees.map(|subtrees| Task::new(mesh, limits, rule.answers()).survey(subtrees)).collect();
         let firsts = (self.next..).step_by(size);
         for (found, first) in found.into_iter().zip(firsts) {
+            let found = found?;
             if let Some(at) = found.too_fine {
                 return Err(RefineError::too_fine(mesh.lattice(), at));
             }
@@ -110,7 +112,7 @@ impl Survey {
         }
         self.next = end;
         if self.triangles > limits.most_triangles() {
-            return Err(limits.passed());
+            return Err(limits.passed().with_rule());
         }
         let is_done = self.next == self.round.len() && self.open.is_empty();
         Ok(if is_done { Progress::Done } else { Progress::More })
@@ -140,17 +142,17 @@ impl Survey {
         }));
     }
 
-    /// How many triangles of the tree need not be bisected, as far as was asked.
+    /// Returns how many triangles of the tree need not be bisected, as far as was asked.
     pub fn triangles(&self) -> usize {
         self.triangles
     }
 
-    /// How many triangles exceed their target at the level cap.
+    /// Returns how many triangles exceed their target at the level cap.
     pub fn capped(&self) -> usize {
         self.capped
     }
 
-    /// The slots, once all questions are answered.
+    /// Returns the slots, once all questions are answered.
     pub fn finish(mut self) -> Slots {
         // Parents come before their children; tasks could not join what other tasks have found.
         for slot in (0..self.slots.len()).rev() {
@@ -162,7 +164,7 @@ impl Survey {
     }
 }
 
-/// What is to become of a triangle that is bisected, by what is to become of its children.
+/// Returns the planned treatment of a bisected triangle from the treatments of its children.
 #[inline]
 fn joined(slots: &[Wanted], first: u32) -> Wanted {
     match slots[first as usize..first as usize + 2] {
@@ -182,7 +184,7 @@ struct Task<A> {
     found: Found,
 }
 
-/// What a task has found. Slots are those of the task: the subtrees have the first ones.
+/// The result of a task. Slots are numbered within the task: its subtrees have the first ones.
 #[derive(Default)]
 struct Found {
     subtrees: usize,
@@ -200,62 +202,63 @@ impl<A: RuleAnswers> Task<A> {
         Self { answers, cap, deepest, visits: TASK_VISITS, found: Found::default() }
     }
 
-    fn survey(mut self, subtrees: &[Subtree]) -> Found {
+    fn survey(mut self, subtrees: &[Subtree]) -> Result<Found, A::Error> {
         self.found.subtrees = subtrees.len();
         self.found.slots = vec![Wanted::Open; subtrees.len()];
         for (slot, &subtree) in subtrees.iter().enumerate() {
             let subtree = Subtree { slot: slot as u32, ..subtree };
-            let levels = self.ask(&subtree, LevelsWithin::UNKNOWN);
-            self.found.slots[slot] = self.wanted(&subtree, levels);
+            let levels = self.ask(&subtree, LevelsWithin::UNKNOWN)?;
+            self.found.slots[slot] = self.wanted(&subtree, levels)?;
         }
-        self.found
+        Ok(self.found)
     }
 
-    /// What is to become of a triangle, by what is known of it and of all triangles within.
+    /// Decides the treatment of a triangle from the known answers for it and for all triangles within it.
     #[inline]
-    fn wanted(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Wanted {
+    fn wanted(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Result<Wanted, A::Error> {
         if self.is_bisected(triangle, levels) {
             return self.bisected(triangle, levels);
         }
         self.found.triangles += 1;
-        Wanted::Uniform(0)
+        Ok(Wanted::Uniform(0))
     }
 
     /// Asks about the descendants of a triangle that is bisected.
-    fn bisected(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Wanted {
+    fn bisected(&mut self, triangle: &Subtree, levels: LevelsWithin) -> Result<Wanted, A::Error> {
         if let Some(depth) = self.uniform_depth(triangle.level, levels) {
             self.found.triangles += 1 << depth;
-            return Wanted::Uniform(depth);
+            return Ok(Wanted::Uniform(depth));
         }
         if self.visits == 0 {
             self.found.open.push(*triangle);
-            return Wanted::Open;
+            return Ok(Wanted::Open);
         }
         self.visits -= 1;
         let first = self.found.slots.len() as u32;
         self.found.slots.extend([Wanted::Open; 2]);
         for child in triangle.children(first) {
-            let levels = self.ask(&child, levels);
-            self.found.slots[child.slot as usize] = self.wanted(&child, levels);
+            let levels = self.ask(&child, levels)?;
+            self.found.slots[child.slot as usize] = self.wanted(&child, levels)?;
         }
         let joined = joined(&self.found.slots, first);
         if let Wanted::Uniform(_) = joined {
             // No slot is behind those of the children.
             self.found.slots.truncate(first as usize);
         }
-        joined
+        Ok(joined)
     }
 
-    /// What is known of a triangle and of all triangles within, where so much was known before.
+    /// Returns the known answers for a triangle and for all triangles within it, given the answers known
+    /// before.
     #[inline]
-    fn ask(&mut self, triangle: &Subtree, known: LevelsWithin) -> LevelsWithin {
-        match known.exceeds(triangle.level) {
+    fn ask(&mut self, triangle: &Subtree, known: LevelsWithin) -> Result<LevelsWithin, A::Error> {
+        Ok(match known.exceeds(triangle.level) {
             Some(_) => known,
-            None => known.and(self.answers.levels_within(triangle.corners, triangle.level)),
-        }
+            None => known.and(self.answers.levels_within(triangle.corners, triangle.level)?),
+        })
     }
 
-    /// Whether a triangle exceeds its target and may be bisected.
+    /// Returns whether a triangle exceeds its target and may be bisected.
     #[inline]
     fn is_bisected(&mut self, triangle: &Subtree, levels: LevelsWithin) -> bool {
         let exceeds = triangle.level < levels.exceed_below;
@@ -273,7 +276,7 @@ impl<A: RuleAnswers> Task<A> {
         false
     }
 
-    /// By how many levels a triangle is refined everywhere, if that is known.
+    /// Returns the number of levels by which a triangle is refined everywhere, if it is known.
     #[inline]
     fn uniform_depth(&self, level: u32, levels: LevelsWithin) -> Option<u32> {
         let depth = levels.one_level()?.checked_sub(level)?;
@@ -282,7 +285,7 @@ impl<A: RuleAnswers> Task<A> {
 }
 
 impl Subtree {
-    /// Its children, with slots from this one on.
+    /// Returns the children, with slots from this one on.
     #[inline]
     fn children(&self, first_slot: u32) -> [Self; 2] {
         let is_odd = self.level % 2 == 1;

@@ -44,7 +44,7 @@ pub(super) struct Side {
     pub edge: u8,
 }
 
-/// By depth, whether the level is odd, and orientation.
+/// The templates, by depth, parity of the level, and orientation.
 static TEMPLATES: LazyLock<Vec<Template>> = LazyLock::new(|| {
     let shapes = [Orientation::Clockwise, Orientation::Anticlockwise].map(|o| [0, 1].map(|level| (level, o)));
     let of_depth = |depth| {
@@ -53,40 +53,40 @@ static TEMPLATES: LazyLock<Vec<Template>> = LazyLock::new(|| {
     (0..=MOST_DEPTH).flat_map(of_depth).collect()
 });
 
-/// How often an edge is halved in a block of this depth; edge 0 is the bisection edge.
+/// Returns how often an edge is halved in a block of this depth; edge 0 is the bisection edge.
 #[inline]
 pub(super) fn halvings(depth: u32, edge: usize) -> u32 {
     (depth + u32::from(edge == 0)) / 2
 }
 
-/// How many nodes lie within an edge of a block.
+/// Returns how many nodes lie within an edge of a block.
 #[inline]
 pub(super) fn nodes_within(depth: u32, edge: usize) -> u32 {
     (1 << halvings(depth, edge)) - 1
 }
 
 impl Template {
-    /// The template of a triangle that is refined by `depth` levels.
+    /// Returns the template of a triangle that is refined by `depth` levels.
     #[inline]
     pub fn of(triangle: &Triangle, depth: u32) -> &'static Self {
         let shape = 2 * (triangle.orientation() as usize) + (triangle.level() & 1) as usize;
         &TEMPLATES[4 * depth as usize + shape]
     }
 
-    /// How many nodes lie within an edge of the block.
+    /// Returns how many nodes lie within an edge of the block.
     #[inline]
     pub fn nodes_within(&self, edge: usize) -> u32 {
         nodes_within(self.depth, edge)
     }
 
-    /// The slots of the nodes inside the block.
+    /// Returns the slots of the nodes inside the block.
     #[inline]
     pub fn inner_slots(&self) -> Range<usize> {
         let on_edges: u32 = (0..3).map(|edge| self.nodes_within(edge)).sum();
         3 + on_edges as usize..self.triangle_at.len()
     }
 
-    /// The point of a slot in a block with these corners.
+    /// Returns the point of a slot in a block with these corners.
     #[inline]
     pub fn point(&self, slot: usize, [a, b, c]: [LatticePoint; 3]) -> LatticePoint {
         let weights = self.weights[slot].map(u64::from);
@@ -128,14 +128,14 @@ impl Template {
     }
 }
 
-/// The logarithm of the sum of a node's weights.
+/// Returns the logarithm of the sum of a node's weights.
 #[inline]
 fn weight_bits(depth: u32) -> u32 {
     depth.div_ceil(2)
 }
 
-/// A mesh of one triangle, with its right angle at the origin. Its legs have as many steps as the weights of
-/// a node add up to.
+/// Returns a mesh of one triangle, with its right angle at the origin. Its legs have as many steps as the
+/// weights of a node add up to.
 fn single_triangle(depth: u32, level: u32, orientation: Orientation) -> Mesh {
     let lattice = Lattice::covering(Rect::UNIT, 1.0, 2).expect("the unit square has a grid");
     let steps = 1 << weight_bits(depth);
@@ -157,7 +157,7 @@ fn single_triangle(depth: u32, level: u32, orientation: Orientation) -> Mesh {
     Mesh { lattice, nodes, triangles, triangle_at, counts, coarse: CoarseIndex::default() }
 }
 
-/// The mesh with all triangles of this level.
+/// Returns the mesh with all triangles of this level.
 fn refined(mut mesh: Mesh, level: u32) -> Mesh {
     while let Some(coarse) = mesh.triangles.iter().position(|triangle| triangle.level() < level) {
         mesh.refine_triangle(TriangleId::from_index(coarse));
@@ -165,7 +165,8 @@ fn refined(mut mesh: Mesh, level: u32) -> Mesh {
     mesh
 }
 
-/// A node of the block as the weighted mean of its corners: their weights, in the order of its vertices.
+/// Returns a node of the block as the weighted mean of its corners: their weights, in the order of its
+/// vertices.
 fn weights(block: &Mesh, node: LatticePoint) -> [u16; 3] {
     let steps = block.nodes.iter().map(|corner| corner.x).max().unwrap_or_default();
     block.corners(TriangleId(0)).map(|corner| match (corner.x, corner.y) {
@@ -178,12 +179,12 @@ fn weights(block: &Mesh, node: LatticePoint) -> [u16; 3] {
 /// The places of two vertices of the block, as in [`Triangle::edges`].
 type Edge = (usize, usize);
 
-/// Whether a node with these weights lies on an edge of the block.
+/// Returns whether a node with these weights lies on an edge of the block.
 fn is_on((from, to): Edge, weights: [u16; 3]) -> bool {
     weights[3 - from - to] == 0
 }
 
-/// For each slot its node in the mesh.
+/// Returns for each slot its node in the mesh.
 fn order_of_slots(edges: [Edge; 3], weights: &[[u16; 3]]) -> Vec<usize> {
     let others = 3..weights.len();
     let mut order = vec![0, 1, 2];
@@ -196,7 +197,7 @@ fn order_of_slots(edges: [Edge; 3], weights: &[[u16; 3]]) -> Vec<usize> {
     order
 }
 
-/// The edges of all triangles, with what lies across.
+/// Returns the edges of all triangles, with what lies across.
 fn sides(mesh: &Mesh) -> impl Iterator<Item = (Side, Neighbour)> + '_ {
     mesh.triangles.iter().zip(0..).flat_map(|(triangle, id)| {
         let across = triangle.raw_neighbours.into_iter().zip(0..);
@@ -204,7 +205,7 @@ fn sides(mesh: &Mesh) -> impl Iterator<Item = (Side, Neighbour)> + '_ {
     })
 }
 
-/// The sides along an edge of the block, from its beginning to its end.
+/// Returns the sides along an edge of the block, from its beginning to its end.
 fn border(mesh: &Mesh, edge: Edge, weights: &[[u16; 3]]) -> Vec<Side> {
     let start = |side: &Side| {
         let (from, to) = mesh.triangles[side.triangle as usize].edge_nodes()[usize::from(side.edge)];

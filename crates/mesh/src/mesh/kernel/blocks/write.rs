@@ -17,7 +17,7 @@ use super::template::{Side, Template, nodes_within};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::memory::{Piece, append_pieces};
 use crate::mesh::kernel::{
-    KindCounts, Limits, Mesh, Neighbour, NodeId, Progress, RefineError, Triangle, TriangleId,
+    KindCounts, LimitError, Limits, Mesh, Neighbour, NodeId, Progress, Triangle, TriangleId,
 };
 
 /// About so many triangles are a chunk, which is written by one thread.
@@ -31,7 +31,7 @@ const COPIES_PER_VISIT: usize = 8;
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
     blocks: Blocks,
-    /// Of the first blocks, as far as they have numbers.
+    /// The numbers of the first blocks, as far as they are assigned.
     numbers: Vec<Numbers>,
     /// The next numbers that are free.
     free: Free,
@@ -50,13 +50,14 @@ struct Free {
     node: u32,
 }
 
-/// Where the triangles and nodes of a block are in the mesh.
+/// The indices of the triangles and nodes of a block in the mesh.
 #[derive(Clone, Copy, Debug)]
 struct Numbers {
-    /// Where its triangles but the first would begin if that one were among them.
+    /// The index of the first triangle of the block if the block's triangles were consecutive; the first one
+    /// is elsewhere.
     triangles: u32,
-    /// Where its own nodes begin: those within the edges that belong to it, in the order of the edges, and
-    /// then those inside.
+    /// The index of the block's first own node: the nodes within the edges that belong to it come first, in
+    /// the order of the edges, then the nodes inside.
     nodes: u32,
 }
 
@@ -64,13 +65,13 @@ struct Numbers {
 #[derive(Clone, Debug)]
 struct Chunk {
     blocks: Range<usize>,
-    /// Without the first ones of the blocks.
+    /// Number of triangles without the first ones of the blocks.
     triangles: usize,
     nodes: usize,
 }
 
 impl Writer {
-    /// Nothing is written yet.
+    /// Creates the work of writing blocks, with nothing written yet.
     pub fn new(blocks: Blocks) -> Self {
         let skeleton = &blocks.mesh;
         let free = Free { triangle: skeleton.triangles.len() as u32, node: skeleton.nodes.len() as u32 };
@@ -81,13 +82,13 @@ impl Writer {
     /// Numbers about `visits` blocks, or writes about as many triangles, or more to occupy all threads.
     ///
     /// # Errors
-    /// When the system has no more memory.
+    /// Fails when the system has no more memory.
     pub fn advance(
         &mut self,
         mesh: &mut Mesh,
         limits: &Limits,
         visits: usize,
-    ) -> Result<Progress, RefineError> {
+    ) -> Result<Progress, LimitError> {
         if self.numbers.len() < self.blocks.depths.len() {
             self.number(visits);
             return Ok(Progress::More);
@@ -104,7 +105,7 @@ impl Writer {
     }
 
     /// Puts the skeleton in place of the contents of `mesh`, and makes room for the triangles of all blocks.
-    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Result<(), RefineError> {
+    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Result<(), LimitError> {
         let skeleton = &self.blocks.mesh;
         if self.copied == 0 {
             mesh.triangles.clear();
@@ -168,15 +169,15 @@ impl Writer {
         self.free.node += own as u32;
     }
 
-    /// Where the nodes within the first edges of a block, up to this one, begin that belong to it.
+    /// Returns where the nodes within the first edges of a block, up to this one, begin that belong to it.
     fn own_nodes_within(&self, block: usize, edge: usize) -> u32 {
         let depth = u32::from(self.blocks.depths[block]);
         let before = (0..edge).filter(|&edge| self.owner(block, edge).is_none());
         self.numbers[block].nodes + before.map(|edge| nodes_within(depth, edge)).sum::<u32>()
     }
 
-    /// The other block that the nodes within an edge belong to, and its number of the edge; `None` where they
-    /// belong to this one.
+    /// Returns the other block that the nodes within an edge belong to, and its number of the edge; `None`
+    /// where they belong to this one.
     #[inline]
     fn owner(&self, block: usize, edge: usize) -> Option<(TriangleId, usize)> {
         let skeleton = &self.blocks.mesh;
@@ -190,13 +191,13 @@ impl Writer {
         Template::of(&self.blocks.mesh.triangles[block], u32::from(self.blocks.depths[block]))
     }
 
-    /// The number of a triangle of a block in the mesh.
+    /// Returns the number of a triangle of a block in the mesh.
     #[inline]
     fn triangle(&self, block: TriangleId, triangle: u32) -> TriangleId {
         if triangle == 0 { block } else { TriangleId(self.numbers[block.index()].triangles + triangle) }
     }
 
-    /// A triangle around a node of the skeleton.
+    /// Returns a triangle around a node of the skeleton.
     fn triangle_at_corner(&self, node: NodeId) -> TriangleId {
         let block = self.blocks.mesh.triangle_at[node.index()];
         let vertices = self.blocks.mesh.triangle(block).vertices;
@@ -204,7 +205,7 @@ impl Writer {
         self.triangle(block, self.template(block.index()).triangle_at[corner])
     }
 
-    /// The slots of the nodes that belong to a block, without its corners.
+    /// Returns the slots of the nodes that belong to a block, without its corners.
     fn own_slots(&self, block: usize) -> impl Iterator<Item = Range<usize>> {
         let template = self.template(block);
         let mut first = 3;

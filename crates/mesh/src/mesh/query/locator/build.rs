@@ -18,7 +18,7 @@ use crate::mesh::kernel::{Mesh, TriangleId, make_room};
 /// Triangles that one thread sorts at a time, at least.
 const TRIANGLES: usize = 1 << 16;
 
-/// Where the small triangles of a mesh lie: the rows of the table, a part of them for each thread at a time.
+/// The rows of the table of small triangles, in bands of which each thread fills one at a time.
 #[derive(Clone, Copy)]
 struct Bands {
     /// How often the coarse cells are divided into the squares of the table.
@@ -29,9 +29,10 @@ struct Bands {
     rows_of_band: usize,
 }
 
-/// Some triangles, sorted. The depth of a triangle says how often the coarse cell is halved for its squares.
+/// Some triangles, sorted by depth. The depth of a triangle is the number of times that the coarse cell is
+/// halved for its squares.
 struct Sorted {
-    /// Those in squares of the table or larger ones, by depth.
+    /// Triangles in squares of the table or in larger squares, by depth.
     large: Vec<Vec<TriangleId>>,
     /// The others by band, and there by depth. Some are in two bands.
     small: Vec<Vec<Vec<TriangleId>>>,
@@ -47,7 +48,8 @@ impl<'m> Locator<'m> {
         let starts: Vec<usize> = (0..count).step_by(step).collect();
         let chunk = |&start: &usize| start..count.min(start + step);
         let sorted: Vec<Sorted> = starts.par_iter().map(|start| bands.sort(mesh, chunk(start))).collect();
-        // The larger triangles first: a square is divided only for a smaller one, and hands on what it has.
+        // Larger triangles come first: a square is divided only for a smaller triangle, and its parts inherit
+        // its contents.
         for depth in 0..=bands.divisions {
             if depth > 0 {
                 table.divide();
@@ -64,13 +66,13 @@ impl<'m> Locator<'m> {
     }
 }
 
-/// How often the coarse cell is halved for the squares of a triangle: of level 0; 1 and 2; 3 and 4; …
+/// Returns how often the coarse cell is halved for the squares of a triangle: of level 0; 1 and 2; 3 and 4; …
 fn depth_of(level: u32) -> usize {
     level.div_ceil(2) as usize
 }
 
 impl Bands {
-    /// The table is divided as long as it has one square for eight triangles at most.
+    /// Chooses the divisions so that the table has at most one square for eight triangles.
     fn new(mesh: &Mesh, coarse_cells: usize) -> Self {
         let deepest = depth_of(mesh.level_counts().len().saturating_sub(1) as u32);
         let is_wanted = |&n: &usize| 8 * (coarse_cells << (2 * (n - 1))) <= mesh.triangles.len();
@@ -85,7 +87,7 @@ impl Bands {
         self.rows.div_ceil(self.rows_of_band)
     }
 
-    /// The band with a square.
+    /// Returns the band with a square.
     fn of(&self, half: &Half) -> usize {
         (half.origin.y >> self.side_bits) as usize / self.rows_of_band
     }
@@ -97,7 +99,7 @@ impl Bands {
             large: vec![Vec::new(); self.divisions + 1],
             small: vec![vec![Vec::new(); depths.saturating_sub(self.divisions)]; self.count()],
         };
-        // Squares without a triangle are looked at once more, by a walk: that says what lies outside.
+        // Walks examine the squares without a triangle once more, to find those outside the domain.
         for id in ids.map(TriangleId::from_index).filter(|&id| !mesh.triangle(id).is_outside()) {
             let depth = depth_of(mesh.triangle(id).level());
             if depth <= self.divisions {
@@ -144,7 +146,7 @@ impl Bands {
     }
 }
 
-/// The quarters of all bands in one array; divided squares get the places there.
+/// Returns the quarters of all bands in one array; divided squares get the places there.
 fn join(table: &mut Table, squares_of_band: usize, mut parts: Vec<Vec<[Square; 4]>>) -> Vec<[Square; 4]> {
     let (mut firsts, mut total) = (Vec::new(), 0);
     for part in &parts {
@@ -176,7 +178,7 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
-    /// The square of side 2^`bits` with the given corner, after the divisions that this takes.
+    /// Returns the square of side 2^`bits` with the given corner, after the divisions that this takes.
     fn square_mut(&mut self, origin: LatticePoint, bits: u32) -> &mut Square {
         let row = (origin.y >> self.side_bits) as usize;
         let number = row * self.columns + (origin.x >> self.side_bits) as usize - self.first;
@@ -201,7 +203,7 @@ fn divide(square: &mut Square, quarters: &mut Vec<[Square; 4]>) -> usize {
     })
 }
 
-/// The half squares that a triangle is made of: one at even levels, two at odd levels.
+/// Returns the half squares that a triangle is made of: one at even levels, two at odd levels.
 ///
 /// ```text
 ///     o                    apex

@@ -72,7 +72,7 @@ impl Square {
         (self.below & FLAG != 0).then_some((self.below & !FLAG) as usize)
     }
 
-    /// Lower left, lower right, upper left, upper right.
+    /// Returns the lower left, lower right, upper left, upper right.
     fn quarters(self) -> [Self; 4] {
         let all_below = Self { below: self.below, above: self.below };
         let all_above = Self { below: self.above & !FLAG, above: self.above & !FLAG };
@@ -99,8 +99,8 @@ impl Square {
         self.above = (self.above & !FLAG) | if half.rising { FLAG } else { 0 };
     }
 
-    /// The triangle at offset (u, v) from the lower left corner, both strictly between 0 and `side`; `None`
-    /// for a hole, and on the diagonal.
+    /// Returns the triangle at offset (u, v) from the lower left corner, both strictly between 0 and `side`;
+    /// `None` for a hole, and on the diagonal.
     #[inline]
     fn at(self, u: f64, v: f64, side: f64) -> Option<TriangleId> {
         // A rounded sum lies on the true side of `side`, or on it.
@@ -131,7 +131,7 @@ impl Table {
         self.squares = finer;
     }
 
-    /// The number of the square with a point, in lattice steps.
+    /// Returns the number of the square with a point, in lattice steps.
     #[inline]
     fn number(&self, x: u32, y: u32) -> usize {
         (y >> self.side_bits) as usize * self.columns + (x >> self.side_bits) as usize
@@ -156,7 +156,8 @@ impl Locator<'_> {
         self.on_a_line(square, p).unwrap_or_else(|| self.mesh.locate(point))
     }
 
-    /// The smallest square around a point in lattice coordinates, and the binary logarithm of its side.
+    /// Returns the smallest square around a point in lattice coordinates, and the binary logarithm of its
+    /// side.
     #[inline]
     fn square_around(&self, p: DVec2) -> Option<(Square, u32)> {
         let extent = self.mesh.lattice.extent();
@@ -173,8 +174,8 @@ impl Locator<'_> {
         Some((square, bits))
     }
 
-    /// The answer for a point on the rim or the diagonal of its square, by a short walk. `None` in and beside
-    /// a hole, and at the coarse nodes, where parts of the domain may touch that no walk joins.
+    /// Returns the answer for a point on the rim or the diagonal of its square, by a short walk. `None` in
+    /// and beside a hole, and at the coarse nodes, where parts of the domain may touch that no walk joins.
     fn on_a_line(&self, square: Square, p: DVec2) -> Option<Location> {
         let at_coarse_node = p % f64::from(self.mesh.lattice.cell_steps()) == DVec2::ZERO;
         let hint = [square.below, square.above & !FLAG].into_iter().find(|&id| id != NOTHING)?;

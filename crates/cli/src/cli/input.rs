@@ -1,0 +1,245 @@
+//! What a command meshes: a project, a recipe or what options say, with options in place of the values of a
+//! file.
+
+use std::io::stdin;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::args::InputArguments;
+use super::failure::Failure;
+use super::options;
+use super::output::is_standard_stream;
+use super::terminal::Terminal;
+use meshbrush_core::build::MeshSpec;
+use meshbrush_core::document::{PathPlan, Settings};
+use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_core::layers::PaintLayers;
+use meshbrush_io::io::geojson::{self, Outline};
+use meshbrush_io::io::layers::SavedLayer;
+use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
+use meshbrush_io::io::settings::{SavedSettings, SavedTreatment, Usual};
+use meshbrush_io::io::{Meter, ReadError, project};
+use meshbrush_mesh::geometry::Lattice;
+use meshbrush_mesh::mesh::{CoarseError, Limits, MemoryLimit, bisection_edge_length};
+use meshbrush_mesh::text::LengthUnit;
+
+/// Most triangles unless `--max-triangles` or a file says otherwise.
+const USUAL_BUDGET: usize = 50_000_000;
+
+/// The file of domain and layers, if there is one, and the settings in the text.
+#[derive(Debug)]
+pub struct Input {
+    /// A saved document, whose values [`Self::settings`] override.
+    pub project: Option<PathBuf>,
+    /// The recipe that domain and layers come from.
+    pub recipe: Option<Recipe>,
+    /// The settings in the options, in place of those of the recipe where there is one.
+    pub settings: SavedSettings,
+}
+
+/// A mesh to make, and the texts about it.
+pub struct ToMesh {
+    /// The description of the mesh.
+    pub spec: MeshSpec,
+    /// The paint of its layers.
+    pub paint: PaintLayers,
+    /// Names of the boundary.
+    pub marks: Arc<BoundaryMarks>,
+    /// The unit of coordinates and lengths, where a file says it.
+    pub unit: LengthUnit,
+    /// The paths of a project or a recipe.
+    pub paths: Arc<PathPlan>,
+}
+
+impl Input {
+    /// Checks the arguments one by one and against each other. Of the files only a recipe is read.
+    ///
+    /// # Errors
+    /// Fails with a sentence that names the option, the value and the rule; and when a recipe cannot be read.
+    pub fn new(typed: &InputArguments) -> Result<Self, Failure> {
+        refuse_options_beside_a_file(typed)?;
+        let options = options::settings(typed)?;
+        let recipe = typed.recipe.as_deref().map(read_recipe).transpose()?;
+        let settings = match &recipe {
+            Some(recipe) => recipe.settings.clone().overridden_by(&options),
+            None => options,
+        };
+        if settings.uses_scale() && settings.limits.h_min.is_none() {
+            let problem =
+                "Risk and images need --h-min, the target diameter where the risk is 1 or the image black";
+            return Err(Failure::Usage(format!("{problem}. The size of the finest detail is a good start.")));
+        }
+        settings.limits.check().map_err(|fault| Failure::Usage(fault.full_sentence()))?;
+        match typed.boundary_diameter {
+            // Of a project the domain is not known yet.
+            Some(diameter) if typed.project.is_none() => {
+                let has_outline = settings.domain.region.is_some();
+                check_boundary_diameter(diameter, has_outline, settings.domain.boundary)?;
+            }
+            _ => {}
+        }
+        Ok(Self { project: typed.project.clone(), recipe, settings })
+    }
+
+    /// Options that were given and change nothing, a sentence each.
+    pub fn options_without_effect(&self, typed: &InputArguments) -> Vec<String> {
+        // The layers and the domain of a project are not known yet.
+        let is_known = self.project.is_none();
+        let unused = [
+            (is_known
+                && typed.transfer_shape.is_some()
+                && !self.settings.layer.iter().any(SavedLayer::is_risk))
+            .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
+            typed
+                .resolution
+                .is_some()
+                .then_some("--resolution changes nothing: every layer is asked at its own resolution."),
+            (is_known && typed.boundary.is_some() && self.settings.domain.region.is_none())
+                .then_some("--boundary changes nothing without --region."),
+        ];
+        unused.into_iter().flatten().map(str::to_owned).collect()
+    }
+
+    /// Returns the files to read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let recipe = self.recipe.as_ref().map(|recipe| recipe.file().to_owned());
+        self.settings.files().map(Path::to_owned).chain(self.project.clone()).chain(recipe).collect()
+    }
+
+    /// Reads the files.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read or used, there is no coarse grid, or an option does not suit the
+    /// file.
+    pub fn read(&self, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
+        let (settings, paint) = match &self.project {
+            Some(path) => self.read_project(path, terminal)?,
+            None => self.read_files(terminal)?,
+        };
+        let limits = Limits {
+            max_triangles: settings.max_triangles,
+            max_level: self.settings.mesh.max_level,
+            // The window keeps room for a second mesh; here there is one.
+            max_memory: Some(MemoryLimit::for_one_mesh(settings.max_memory)),
+        };
+        let lattice = Lattice::covering(settings.domain.bounds, settings.spacing, limits.most_triangles());
+        let lattice = lattice.map_err(CoarseError::from)?;
+        self.settings
+            .domain
+            .boundary_diameter
+            .map_or(Ok(()), |diameter| check_resolvable(diameter, &lattice))?;
+        let spec = settings.mesh_spec_on(lattice, limits);
+        // What is said about parts counts for every domain; else only fitted meshes are cleaned.
+        let spec = MeshSpec { cleaning: self.settings.cleaning(spec.cleaning), ..spec };
+        let Settings { boundary_marks: marks, unit, paths, .. } = settings;
+        Ok(ToMesh { spec, paint, marks, unit, paths })
+    }
+
+    fn read_project(&self, path: &Path, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {
+        let (meter, reading) = (Meter::default(), format!("reading {}", path.display()));
+        let document = terminal.while_metered(&reading, &meter, || project::read_metered(path, &meter))?;
+        let options = &self.settings.domain;
+        let has_outline = document.settings().domain.region().is_some();
+        if let Some(diameter) = options.boundary_diameter {
+            let stored = SavedTreatment::of(document.settings().boundary);
+            check_boundary_diameter(diameter, has_outline, Some(options.boundary.unwrap_or(stored)))?;
+        } else if options.boundary.is_some() && !has_outline {
+            terminal.note("--boundary changes nothing: the domain of the project has no polygons.");
+        }
+        let settings = self.settings.override_settings(document.settings().clone());
+        let settings = settings.map_err(|fault| Failure::Usage(fault.to_string()))?;
+        settings.transfer.checked()?;
+        Ok((settings, document.paint().clone()))
+    }
+
+    fn read_files(&self, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {
+        let meter = &Meter::default();
+        let most_coarse = self.settings.mesh.max_triangles.unwrap_or(USUAL_BUDGET);
+        // Without a memory budget, the mesh may take what its triangles take.
+        let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
+        let loading = Loading { usual, with_hidden: false, read_outline, meter };
+        let loaded = terminal.while_metered("reading", meter, || self.settings.load_files("", &loading));
+        let Loaded { settings, paint, notes } = loaded?;
+        notes.iter().for_each(|note| terminal.note(note));
+        Ok((settings, paint))
+    }
+}
+
+/// Checks that a diameter at the outline makes sense.
+///
+/// # Errors
+/// Fails when the domain has no outline, or nothing is refined along it.
+fn check_boundary_diameter(
+    diameter: f64,
+    has_outline: bool,
+    boundary: Option<SavedTreatment>,
+) -> Result<(), Failure> {
+    let problem = if !has_outline {
+        "it is for the outline of a domain from a file. Name that with --region, or leave it out"
+    } else if boundary == Some(SavedTreatment::Report) {
+        "with --boundary report nothing is refined along the outline. Take --boundary fitted, or leave it out"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::Usage(format!("--boundary-diameter {diameter}: {problem}.")))
+}
+
+/// Refuses the options on domain and layers beside a project or a recipe, which decide both.
+fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
+    let (file, advice) = match (&typed.project, &typed.recipe) {
+        (Some(file), _) => (
+            format!("--project {}", file.display()),
+            "Edit them in the window; or write the project as a recipe with `meshbrush recipe`, and edit that",
+        ),
+        (None, Some(file)) => (file.display().to_string(), "Edit the recipe"),
+        (None, None) => return Ok(()),
+    };
+    let given = [
+        ("--domain", typed.domain.is_some()),
+        ("--inside", typed.inside.is_some()),
+        ("--region", typed.region.is_some()),
+        ("--target", !typed.target.is_empty()),
+        ("--risk", !typed.risk.is_empty()),
+        ("--target-raster", !typed.target_raster.is_empty()),
+        ("--risk-raster", !typed.risk_raster.is_empty()),
+        ("--threats", !typed.threats.is_empty()),
+        ("--distance", !typed.distance.is_empty()),
+    ];
+    let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
+    let rule = "domain and layers are those of the file, and other options override its settings";
+    Err(Failure::Usage(format!("{option} cannot be used with {file}: {rule}. {advice}.")))
+}
+
+/// Reads a recipe.
+fn read_recipe(path: &Path) -> Result<Recipe, Failure> {
+    if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(recipe::ENDING)) {
+        let file = path.display();
+        return Err(Failure::Usage(format!(
+            "{file}: a file without an option is a recipe, and its name ends with .toml. Name a project with \
+             --project, and a domain with --region."
+        )));
+    }
+    Ok(recipe::read(path)?)
+}
+
+/// Reads the polygons of a domain, from standard input where the file is `-`.
+fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
+    match is_standard_stream(path) {
+        true => geojson::read_outline_from(stdin().lock(), Path::new("standard input")),
+        false => geojson::read_outline(path, meter),
+    }
+}
+
+/// Refuses a diameter at the outline that the lattice cannot resolve: the refinement would fail wherever the
+/// outline passes.
+fn check_resolvable(diameter: f64, lattice: &Lattice) -> Result<(), Failure> {
+    let level = lattice.deepest_level();
+    let smallest = bisection_edge_length(lattice.spacing(), level);
+    if diameter >= smallest {
+        return Ok(());
+    }
+    Err(Failure::Work(format!(
+        "--boundary-diameter {diameter:e}: below {smallest:.3e} (level {level}) nodes would leave the lattice. Raise it, or mesh a \
+         smaller domain."
+    )))
+}

@@ -1,0 +1,175 @@
+//! The options on what to mesh, as the tables of settings.
+
+use std::path::Path;
+
+use glam::DVec2;
+
+use super::args::{BoundaryArgument, InputArguments};
+use super::failure::Failure;
+use meshbrush_core::field::Formula;
+use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedQuantity};
+use meshbrush_io::io::settings::{
+    SavedDomain, SavedLimits, SavedMesh, SavedParts, SavedSettings, SavedTreatment,
+};
+use meshbrush_io::io::{KeyFault, Step};
+use meshbrush_mesh::geometry::Rect;
+
+/// Growth of the target diameter by unit of distance, unless an option says otherwise.
+const USUAL_SLOPE: f64 = 0.2;
+
+/// Returns the settings that the options state; every value is checked on its own.
+///
+/// # Errors
+/// Fails with a sentence that names the option, the value and the rule.
+pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
+    let layers = layers(typed)?;
+    let settings = SavedSettings {
+        domain: SavedDomain {
+            bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
+            inside: typed.inside.clone(),
+            region: typed.region.clone(),
+            boundary: typed.boundary.map(Into::into),
+            boundary_diameter: typed.boundary_diameter,
+            parts: typed.parts.as_deref().map(parts).transpose()?,
+            keep_pinches: typed.keep_pinches,
+            ..SavedDomain::default()
+        },
+        mesh: SavedMesh {
+            spacing: typed.spacing,
+            rule: typed.rule.map(|rule| meshbrush_core::field::RefinementRule::from(rule).into()),
+            max_triangles: typed.max_triangles,
+            max_level: typed.max_level,
+            max_memory: typed.max_memory.clone(),
+        },
+        limits: SavedLimits {
+            h_min: typed.h_min,
+            h_max: typed.h_max,
+            shape: typed.transfer_shape,
+            gradation: typed.gradation,
+        },
+        layer: layers.iter().map(|(_, layer)| layer.clone()).collect(),
+        ..SavedSettings::default()
+    };
+    settings.check().map_err(|fault| refused(&fault, typed, &layers))?;
+    Ok(settings)
+}
+
+/// Returns the layers of the options, each of which takes the finest, from the bottom of the stack to its
+/// top, each with its option as typed.
+fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> {
+    let (diameter, risk) = (SavedQuantity::Diameter, SavedQuantity::Risk);
+    let mut layers = Vec::new();
+    for (option, texts, quantity) in [("--target", &typed.target, diameter), ("--risk", &typed.risk, risk)] {
+        layers.extend(texts.iter().map(|text| {
+            let (quantity, formula) = (Some(quantity), Some(text.clone()));
+            let layer = SavedLayer { quantity, formula, ..SavedLayer::of_kind(SavedKind::Formula) };
+            (option.to_owned(), layer)
+        }));
+    }
+    let of_file = |option: &str, kind, path: &Path| {
+        let layer = SavedLayer { file: Some(path.to_owned()), ..SavedLayer::of_kind(kind) };
+        (format!("{option} {}", path.display()), layer)
+    };
+    for (option, paths, quantity) in
+        [("--target-raster", &typed.target_raster, diameter), ("--risk-raster", &typed.risk_raster, risk)]
+    {
+        layers.extend(paths.iter().map(|path| {
+            let (option, layer) = of_file(option, SavedKind::Raster, path);
+            (option, SavedLayer { read_as: Some(quantity), ..layer })
+        }));
+    }
+    layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
+    for path in &typed.distance {
+        let (option, layer) = of_file("--distance", SavedKind::Distance, path);
+        let at_zero = typed.distance_at_zero.or(typed.h_min).ok_or_else(|| {
+            let problem =
+                "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
+            Failure::Usage(format!("{option}: {problem}."))
+        })?;
+        let slope = typed.distance_slope.unwrap_or(USUAL_SLOPE);
+        let (at_zero, slope) = (Some(at_zero), Some(slope));
+        layers.push((option, SavedLayer { at_zero, slope, range: typed.distance_range, ..layer }));
+    }
+    Ok(layers)
+}
+
+/// Returns the sentence for a value that cannot be used, with its option.
+fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLayer)]) -> Failure {
+    let number = |option: &str, value: Option<f64>| match (value, &fault.given) {
+        (Some(value), Some(_)) => format!("{option} {value}"),
+        _ => option.to_owned(),
+    };
+    let option = match &fault.path[..] {
+        [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
+            "at_zero" => number("--distance-at-zero", typed.distance_at_zero.or(typed.h_min)),
+            "slope" => number("--distance-slope", typed.distance_slope),
+            "range" => number("--distance-range", typed.distance_range),
+            _ => layers[*layer].0.clone(),
+        },
+        [_, Step::Key(key), ..] => match &**key {
+            "inside" => "--inside".to_owned(),
+            "boundary_diameter" => number("--boundary-diameter", typed.boundary_diameter),
+            "spacing" => number("--spacing", typed.spacing),
+            "h_min" => number("--h-min", typed.h_min),
+            "gradation" => "--gradation".to_owned(),
+            "max_triangles" => format!("--max-triangles {}", typed.max_triangles.unwrap_or_default()),
+            "max_memory" => format!("--max-memory {}", typed.max_memory.as_deref().unwrap_or_default()),
+            "h_max" if fault.given.is_some() => number("--h-max", typed.h_max),
+            // The sentences about the curve name its numbers.
+            _ => return Failure::Usage(fault.full_sentence()),
+        },
+        _ => return Failure::Usage(fault.to_string()),
+    };
+    let pointer = fault.pointer.as_ref().map(|pointer| format!("\n    {}", pointer.replace('\n', "\n    ")));
+    Failure::Usage(format!("{option}: {}{}", fault.sentence, pointer.unwrap_or_default()))
+}
+
+/// Returns the parts of the mesh that stay.
+fn parts(text: &str) -> Result<SavedParts, Failure> {
+    match text {
+        "all" => Ok(SavedParts::All),
+        "largest" => Ok(SavedParts::Largest),
+        share => match share.parse() {
+            Ok(share) if (0.0..=1.0).contains(&share) => Ok(SavedParts::Share(share)),
+            _ => Err(Failure::Usage(format!(
+                "--parts {share}: write largest, all, or a share of the area from 0 to 1, as in 0.01."
+            ))),
+        },
+    }
+}
+
+/// Compiles a formula.
+///
+/// # Errors
+/// Fails with the mistake and, on separate lines, the formula and carets under the mistake.
+pub fn parse_formula(option: &str, text: &str) -> Result<Formula, Failure> {
+    Formula::parse(text).map_err(|mistake| {
+        let pointer = mistake.pointer().replace('\n', "\n    ");
+        Failure::Usage(format!("{option}: {mistake}\n    {pointer}"))
+    })
+}
+
+fn parse_domain(text: &str) -> Result<[f64; 4], Failure> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let Ok([x0, y0, x1, y1]) = numbers.as_deref() else {
+        let problem = format!("--domain {text}: write four numbers with commas between, X0,Y0,X1,Y1");
+        return Err(Failure::Usage(format!("{problem}, as in 0,0,1,1.")));
+    };
+    let domain = Rect::new(DVec2::new(*x0, *y0), DVec2::new(*x1, *y1));
+    if !domain.is_proper() {
+        let problem =
+            format!("--domain {text}: all four numbers must be finite, X0 less than X1 and Y0 less than Y1");
+        return Err(Failure::Usage(format!("{problem}.")));
+    }
+    Ok([*x0, *y0, *x1, *y1])
+}
+
+impl From<BoundaryArgument> for SavedTreatment {
+    fn from(typed: BoundaryArgument) -> Self {
+        match typed {
+            BoundaryArgument::Report => Self::Report,
+            BoundaryArgument::Fitted => Self::Fitted,
+            BoundaryArgument::Outline => Self::Outline,
+        }
+    }
+}

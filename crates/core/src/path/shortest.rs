@@ -1,0 +1,272 @@
+//! The shortest way through triangles of one cost, exactly.
+//!
+//! It is straight but for bends at corners of the walls. The search looks from the start, and from each
+//! corner that it sees, through the triangles: what is seen through an edge is an interval of it.
+//!
+//! ```text
+//!            c
+//!          ╱   ╲          from the root, the interval l–r of the edge pq is seen, and through it parts of
+//!        ╱       ╲        the edges pc and cq, and c itself if it lies between the rays
+//!      p──l─────r──q
+//!          ╲   ╱
+//!           root
+//! ```
+//!
+//! Intervals and corners wait in the order of the least length of a way to the goal by them (A*, as
+//! \[CuiHaraborGrastien2017\]), so that the first way that is complete is the shortest.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+
+use super::Passage;
+use super::path_mesh::{NONE, PathMesh};
+use super::place::Place;
+use super::walls::Walls;
+use crate::geometry::{Side, side_of_points};
+
+/// So many intervals are looked through at most.
+const MOST_INTERVALS: usize = 200_000;
+/// A way is shorter than a known one by this share at least.
+const LEAST_GAIN: f64 = 1e-9;
+
+/// Where a shortest way is sought: through the open triangles with a cost.
+pub(super) struct Shortest<'a> {
+    pub mesh: &'a PathMesh,
+    pub costs: &'a [f64],
+    pub walls: &'a Walls,
+    pub cost: f64,
+}
+
+/// The point that a part of the way begins with: the start, or a corner by the number of its node.
+#[derive(Clone, Copy)]
+struct Root {
+    at: DVec2,
+    /// [`NONE`] for the start.
+    node: u32,
+    /// The length of the way to it.
+    length: f64,
+}
+
+/// What waits to be looked at.
+#[derive(Clone, Copy)]
+struct Waiting {
+    /// No way by it is shorter.
+    least: f64,
+    root: Root,
+    /// What is seen from the root; `None` for all around it.
+    seen: Option<Interval>,
+}
+
+/// A part of an edge through which a triangle is seen: on the left and on the right, seen from the root.
+#[derive(Clone, Copy)]
+struct Interval {
+    triangle: u32,
+    /// The place of the edge's first end among the corners of the triangle: its left end from outside.
+    edge: usize,
+    left: DVec2,
+    right: DVec2,
+}
+
+impl Ord for Waiting {
+    /// The greatest comes first: the least length.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.least.total_cmp(&self.least)
+    }
+}
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+impl Eq for Waiting {}
+
+impl Shortest<'_> {
+    /// The shortest way between two places, as a polyline that the walls admit. `None` where it is not
+    /// shorter than `known`, or the search is too long.
+    pub fn way(&self, [start, goal]: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
+        let mut search = Search::new(self, goal.point, known * (1.0 - LEAST_GAIN));
+        search.see_around(Root { at: start.point, node: NONE, length: 0.0 });
+        let mut intervals = 0;
+        while let Some(Waiting { least, root, seen }) = search.waiting.pop() {
+            if least >= search.shortest {
+                break;
+            }
+            // Meanwhile a shorter way to the root may be known.
+            if root.node != NONE && root.length > search.corners[root.node as usize].length {
+                continue;
+            }
+            match seen {
+                None => search.see_around(root),
+                Some(interval) => search.see_through(root, interval),
+            }
+            intervals += 1;
+            if intervals > MOST_INTERVALS {
+                return None;
+            }
+        }
+        let mut way = vec![goal.point];
+        let mut node = search.last?;
+        // Ends: each corner has a longer way than the one before it.
+        while node != NONE {
+            way.push(self.mesh.nodes[node as usize]);
+            node = search.corners[node as usize].before;
+        }
+        way.push(start.point);
+        way.dedup();
+        way.reverse();
+        (way.len() > 1 && self.walls.admit_all(&way)).then_some(way)
+    }
+
+    fn is_open(&self, triangle: u32) -> bool {
+        triangle != NONE
+            && self.mesh.passage(triangle) == Passage::Open
+            && self.costs[triangle as usize] == self.cost
+    }
+}
+
+/// What is known of a corner of the walls.
+#[derive(Clone, Copy)]
+struct Corner {
+    /// Whether a shortest way can bend there.
+    bends: bool,
+    /// The length of the shortest known way to it.
+    length: f64,
+    /// The corner before it on that way.
+    before: u32,
+}
+
+struct Search<'a> {
+    over: &'a Shortest<'a>,
+    goal: DVec2,
+    /// The triangles that hold the goal.
+    at_goal: Vec<u32>,
+    /// By node.
+    corners: Vec<Corner>,
+    waiting: BinaryHeap<Waiting>,
+    /// The length of the shortest known way to the goal.
+    shortest: f64,
+    /// The last corner on it.
+    last: Option<u32>,
+}
+
+impl<'a> Search<'a> {
+    fn new(over: &'a Shortest<'a>, goal: DVec2, known: f64) -> Self {
+        let blank = Corner { bends: false, length: f64::INFINITY, before: NONE };
+        let mut corners = vec![blank; over.mesh.node_count()];
+        over.walls.bends().into_iter().for_each(|node| corners[node as usize].bends = true);
+        let at_goal = over.mesh.open_triangles_at(goal);
+        Self { over, goal, at_goal, corners, waiting: BinaryHeap::new(), shortest: known, last: None }
+    }
+
+    /// Looks from a root into the triangles around it.
+    fn see_around(&mut self, root: Root) {
+        let mesh = self.over.mesh;
+        let around = match root.node {
+            NONE => mesh.open_triangles_at(root.at),
+            node => mesh.around(node).to_vec(),
+        };
+        for triangle in around.into_iter().filter(|&triangle| self.over.is_open(triangle)) {
+            if self.at_goal.contains(&triangle) {
+                self.reach_goal(root);
+            }
+            let corners = mesh.triangles[triangle as usize].corners;
+            corners.iter().for_each(|&node| self.reach(node, root));
+            for edge in 0..3 {
+                let [a, b] = [corners[edge], corners[(edge + 1) % 3]].map(|node| mesh.nodes[node as usize]);
+                // From inside, the first end of an edge is on the right.
+                if side_of_points(a, b, root.at) == Side::Left {
+                    self.put(root, mesh.across[triangle as usize][edge], [b, a], triangle);
+                }
+            }
+        }
+    }
+
+    /// Looks from a root through an interval into a triangle.
+    fn see_through(&mut self, root: Root, Interval { triangle, edge, left, right }: Interval) {
+        let mesh = self.over.mesh;
+        let corners = mesh.triangles[triangle as usize].corners;
+        let [p, q, c] = [0, 1, 2].map(|step| mesh.nodes[corners[(edge + step) % 3] as usize]);
+        let sides = |at| [side_of_points(root.at, left, at), side_of_points(root.at, right, at)];
+        if self.at_goal.contains(&triangle) {
+            let [of_left, of_right] = sides(self.goal);
+            if of_left != Side::Left && of_right != Side::Right {
+                self.reach_goal(root);
+            }
+        }
+        let [of_left, of_right] = sides(c);
+        if of_left != Side::Left && of_right != Side::Right {
+            self.reach(corners[(edge + 2) % 3], root);
+        }
+        let across = |step: usize| mesh.across[triangle as usize][(edge + step) % 3];
+        if of_left == Side::Right {
+            let from = crossing([root.at, left], [p, c]);
+            let to = if of_right == Side::Right { crossing([root.at, right], [p, c]) } else { c };
+            self.put(root, across(2), [from, to], triangle);
+        }
+        if of_right == Side::Left {
+            let from = if of_left == Side::Left { crossing([root.at, left], [c, q]) } else { c };
+            self.put(root, across(1), [from, crossing([root.at, right], [c, q])], triangle);
+        }
+    }
+
+    /// Puts what is seen from a root through an interval into the queue.
+    fn put(&mut self, root: Root, triangle: u32, [left, right]: [DVec2; 2], from: u32) {
+        if left == right || !self.over.is_open(triangle) {
+            return;
+        }
+        let across = self.over.mesh.across[triangle as usize];
+        let Some(edge) = (0..3).find(|&edge| across[edge] == from) else { return };
+        let least = root.length + least_by(root.at, [left, right], self.goal);
+        if least < self.shortest {
+            let seen = Some(Interval { triangle, edge, left, right });
+            self.waiting.push(Waiting { least, root, seen });
+        }
+    }
+
+    /// A node is seen from a root.
+    fn reach(&mut self, node: u32, root: Root) {
+        let at = self.over.mesh.nodes[node as usize];
+        let corner = &mut self.corners[node as usize];
+        let length = root.length + root.at.distance(at);
+        let least = length + at.distance(self.goal);
+        if corner.bends && length < corner.length && node != root.node && least < self.shortest {
+            (corner.length, corner.before) = (length, root.node);
+            self.waiting.push(Waiting { least, root: Root { at, node, length }, seen: None });
+        }
+    }
+
+    /// The goal is seen from a root.
+    fn reach_goal(&mut self, root: Root) {
+        let length = root.length + root.at.distance(self.goal);
+        if length < self.shortest {
+            (self.shortest, self.last) = (length, Some(root.node));
+        }
+    }
+}
+
+/// Where the line through two points crosses a segment, or its nearer end where rounding leads beyond it.
+fn crossing([from, to]: [DVec2; 2], [a, b]: [DVec2; 2]) -> DVec2 {
+    let way = to - from;
+    let [of_a, of_b] = [a, b].map(|end| way.perp_dot(end - from));
+    let share = of_a / (of_a - of_b);
+    if share.is_finite() { a.lerp_monotonic(b, share.clamp(0.0, 1.0)) } else { a }
+}
+
+/// The least length of a way between two points by a point of a segment.
+fn least_by(from: DVec2, [a, b]: [DVec2; 2], to: DVec2) -> f64 {
+    let edge = b - a;
+    let squared = edge.length_squared();
+    let [along_from, along_to] = [from, to].map(|point| (point - a).dot(edge) / squared);
+    let [off_from, off_to] = [from, to].map(|point| (point - a).perp_dot(edge).abs());
+    let both = off_from + off_to;
+    let share = if both > 0.0 { (along_from * off_to + along_to * off_from) / both } else { along_from };
+    let at = a.lerp(b, share.clamp(0.0, 1.0));
+    from.distance(at) + at.distance(to)
+}

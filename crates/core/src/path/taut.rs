@@ -1,0 +1,94 @@
+//! Paths pulled taut where the cost is constant: there they are as short as any near them.
+
+use glam::DVec2;
+
+use super::CostDensity;
+use super::walls::Walls;
+use crate::geometry::{Rect, Side, side_of_points};
+
+/// So many times the number of points of a path are looked at at most.
+const MOST_VISITS: usize = 16;
+
+/// A polyline that the walls admit, pulled taut: where the cost around a point and its two neighbours is
+/// constant, the shortest way between these neighbours replaces the way by the point.
+///
+/// ```text
+///       v                 .
+///      / \               / \            no wall in the triangle: the point v is left out
+///     /   \     ─▶     c────d           walls: the way leads along their corners c, d
+///    p     q          p      q
+/// ```
+pub(super) fn taut(points: &[DVec2], density: &dyn CostDensity, walls: &Walls) -> Vec<DVec2> {
+    let mut left = MOST_VISITS * points.len();
+    let mut pulled = vec![points[0]];
+    // Points that are still to come, the next one last.
+    let mut rest: Vec<DVec2> = points[1..].iter().rev().copied().collect();
+    while let Some(at) = rest.pop() {
+        let (Some(&before), Some(&after)) = (pulled.last(), rest.last()) else {
+            pulled.push(at);
+            continue;
+        };
+        if left == 0 || !is_constant(density, [before, at, after]) {
+            pulled.push(at);
+            continue;
+        }
+        left -= 1;
+        match shortest(walls, [before, at, after]) {
+            None => pulled.push(at),
+            Some(chain) => {
+                rest.extend(chain.iter().rev());
+                // The angle at the point before is another one now.
+                if pulled.len() > 1 {
+                    rest.extend(pulled.pop());
+                }
+            }
+        }
+    }
+    pulled
+}
+
+/// Whether the cost is constant around all points of a path and their neighbours: a taut path is as short
+/// there as any near it.
+pub(super) fn is_constant_along(points: &[DVec2], density: &dyn CostDensity) -> bool {
+    match *points {
+        [p, q] => is_constant(density, [p, p, q]),
+        _ => points.windows(3).all(|three| is_constant(density, [three[0], three[1], three[2]])),
+    }
+}
+
+/// Whether the cost has one value around some points.
+fn is_constant(density: &dyn CostDensity, [a, b, c]: [DVec2; 3]) -> bool {
+    let range = density.range(&Rect::new(a.min(b).min(c), a.max(b).max(c)));
+    range.least == range.greatest
+}
+
+/// The points of the shortest way between two points that stays in the triangle with a third one, between
+/// its ends. `None` where it leads by that third point, or rounding stands in the way.
+fn shortest(walls: &Walls, [p, at, q]: [DVec2; 3]) -> Option<Vec<DVec2>> {
+    if at == p || at == q || walls.admit(p, q) {
+        return Some(Vec::new());
+    }
+    let corners = walls.corners_within(p, q, at);
+    let beyond = side_of_points(p, q, at);
+    let mut chain = Vec::new();
+    let mut last = p;
+    // Ends: each corner is taken once, and the last of the chain is q.
+    for _ in 0..=corners.len() {
+        let mut next = q;
+        for &corner in corners.iter().filter(|&&corner| corner != last) {
+            let side = side_of_points(last, next, corner);
+            let is_farther = last.distance_squared(corner) > last.distance_squared(next);
+            if side == beyond || (side == Side::On && is_farther && next != q) {
+                next = corner;
+            }
+        }
+        if next == q {
+            break;
+        }
+        chain.push(next);
+        last = next;
+    }
+    let way: Vec<DVec2> = [p].into_iter().chain(chain.iter().copied()).chain([q]).collect();
+    let length = |way: &[DVec2]| way.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+    (length(&way) < length(&[p, at, q]) && walls.admit_all(&way)).then_some(chain)
+}

@@ -1,0 +1,132 @@
+//! From the keys of a layer to a layer of a stack, with the data that they name.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
+use super::{SavedLayer, SavedQuantity};
+use crate::io::KeyFault;
+use meshbrush_core::domain::Polygon;
+use meshbrush_core::layers::{
+    DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterSource, ShapeList, Shapes, Threat, Threats,
+};
+use meshbrush_core::raster::RasterPyramid;
+use meshbrush_mesh::text::abridged;
+
+/// A sentence that says why the data of a layer cannot be used, with the name of the layer.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", abridged(_0))]
+pub struct TextError(pub String);
+
+/// The source of the data that layers name: files, or the parts of a project.
+pub trait LayerData {
+    /// Why data could not be read, or a value cannot be used.
+    type Error: From<KeyFault> + From<TextError>;
+
+    /// Which of the two it is.
+    const STORED: Stored;
+
+    /// Returns the pixels of a layer, as it reads them: risks are from 0 to 1, and diameters positive.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read, or a value is not valid.
+    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, Self::Error>;
+
+    /// Returns the threats of a table.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read.
+    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, Self::Error>;
+
+    /// Returns the points, lines and polygons of a file.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read.
+    fn shapes(&mut self, file: &Path) -> Result<ShapeList, Self::Error>;
+
+    /// Returns the polygons of a file.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read.
+    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, Self::Error>;
+}
+
+impl SavedLayer {
+    /// Returns the layer, with its data. Polygons are filled: the distance within them is 0. What is painted
+    /// is not part of a layer.
+    ///
+    /// # Errors
+    /// Fails with the errors of `data`; when a value cannot be used; and a sentence that names the layer when
+    /// its data cannot be used.
+    pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
+        let quantity = match self.quantity {
+            Some(SavedQuantity::Risk) => Quantity::Risk,
+            _ => Quantity::Diameter,
+        };
+        let kind = match self.checked(D::STORED)? {
+            CheckedKind::Paint => LayerKind::Paint(quantity),
+            CheckedKind::Formula(formula) => LayerKind::Formula { quantity, formula },
+            CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?, reading },
+            CheckedKind::Threats(list) => {
+                let list = list.map_or_else(|| data.threats(self.path()), Ok)?;
+                let threats = Threats::new(list);
+                LayerKind::Threats(threats.map_err(|(number, error)| {
+                    self.error(format_args!("threat {} cannot be used. {error}", number + 1))
+                })?)
+            }
+            CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
+                let to = match self.shapes_of(to, data)? {
+                    Some(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
+                    None => DistanceTo::Outline,
+                };
+                LayerKind::Distance { to, at_zero, slope, range }
+            }
+            CheckedKind::Corridor(along, Growth { at_zero, slope, range }, width) => {
+                let to = match self.shapes_of(along, data)? {
+                    Some(lines) => DistanceTo::Corridor { lines, width },
+                    None => DistanceTo::Outline,
+                };
+                LayerKind::Distance { to, at_zero, slope, range }
+            }
+            CheckedKind::Band(between, diameter) => {
+                LayerKind::Band { source: self.source(data)?, between, diameter }
+            }
+        };
+        let (visible, locked, combine) = (self.visible, self.locked, self.combine.into());
+        let mask = self.loaded_mask(data)?;
+        Ok(Layer { id, name: self.shown_name().to_owned(), visible, locked, combine, mask, kind })
+    }
+
+    fn path(&self) -> &Path {
+        self.file.as_deref().unwrap_or(Path::new(""))
+    }
+
+    fn source<D: LayerData>(&self, data: &mut D) -> Result<RasterSource, D::Error> {
+        Ok(RasterSource { name: self.file_name(), raster: data.raster(self)? })
+    }
+
+    /// Returns the shapes of a distance, or `None` for the outline of the domain.
+    fn shapes_of<D: LayerData>(&self, to: CheckedShapes, data: &mut D) -> Result<Option<Shapes>, D::Error> {
+        let list = match to {
+            CheckedShapes::Outline => return Ok(None),
+            CheckedShapes::File => data.shapes(self.path())?,
+            CheckedShapes::InPlace(list) => list,
+        };
+        Ok(Some(Shapes::new(list, true).map_err(|error| self.error(error))?))
+    }
+
+    fn loaded_mask<D: LayerData>(&self, data: &mut D) -> Result<Option<Mask>, D::Error> {
+        let polygons = match (self.mask_in_place()?, &self.mask_file) {
+            (Some(polygons), _) => polygons,
+            (None, Some(file)) => data.polygons(file)?,
+            (None, None) => return Ok(None),
+        };
+        let mask = Mask::new(&polygons);
+        Ok(Some(mask.map_err(|error| self.error(format_args!("its mask cannot be used. {error}")))?))
+    }
+
+    /// Returns an error with the name of the layer.
+    pub fn error(&self, problem: impl std::fmt::Display) -> TextError {
+        TextError(format!("The layer “{}”: {problem}", self.shown_name()))
+    }
+}

@@ -1,0 +1,222 @@
+//! The rasters of layers, from pictures and grids: for the window, recipes and options alike.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::png::Behind;
+use super::super::{Meter, ReadError, asc, png};
+use meshbrush_core::field::{Transfer, f32_not_below};
+use meshbrush_core::layers::RasterReading;
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::Number;
+
+/// The kind of the values of a raster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RasterValues {
+    /// Risks, from 0 to 1. Transparent pixels of a picture are black: no risk.
+    Risk,
+    /// Target diameters in world units. Grey lies between the ends of the transfer curve, black is smallest.
+    Diameter,
+    /// Any numbers, which a curve or a band interprets.
+    Any,
+}
+
+impl From<&RasterReading> for RasterValues {
+    fn from(reading: &RasterReading) -> Self {
+        match reading {
+            RasterReading::Risk => Self::Risk,
+            RasterReading::Diameter => Self::Diameter,
+            RasterReading::Curve(_) => Self::Any,
+        }
+    }
+}
+
+/// Why a raster cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum RasterError {
+    /// The file is of no use.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A value is not valid; the sentence names the file, the value and its place.
+    #[error("{0}")]
+    Value(String),
+}
+
+/// The pixels of a layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RasterFile {
+    /// The file.
+    pub path: PathBuf,
+    /// The format of the raster.
+    pub format: RasterFormat,
+    /// The rectangle of the raster. Without one, an image covers the bounds of the domain, and a grid has the
+    /// bounds in its header.
+    pub bounds: Option<Rect>,
+}
+
+impl RasterFile {
+    /// Returns a file by its name; it lies where the format says.
+    ///
+    /// # Errors
+    /// Fails with a sentence when the ending of the name is that of no raster.
+    pub fn named(path: &Path) -> Result<Self, String> {
+        Ok(Self { path: path.to_owned(), format: RasterFormat::of(path)?, bounds: None })
+    }
+}
+
+/// The kinds of raster files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RasterFormat {
+    /// A greyscale image, whose values are from 0 (black) to 1 (white).
+    Png,
+    /// A grid that says which rectangle it covers.
+    Asc,
+}
+
+impl RasterFormat {
+    /// Returns the format that the ending of a file name says.
+    ///
+    /// # Errors
+    /// Fails with a sentence when it is the ending of no raster.
+    pub fn of(path: &Path) -> Result<Self, String> {
+        let ending = path.extension().unwrap_or_default();
+        match ending {
+            _ if ending.eq_ignore_ascii_case("png") => Ok(Self::Png),
+            _ if ending.eq_ignore_ascii_case("asc") => Ok(Self::Asc),
+            _ => Err("a raster is a .png or an .asc file.".into()),
+        }
+    }
+}
+
+/// The place and the scale of rasters that have none of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct RasterFrame {
+    /// The rectangle of an image, in world units.
+    pub domain: Rect,
+    /// The scale of images of diameters.
+    pub transfer: Transfer,
+}
+
+/// Reads rasters and checks their values. Layers that read the same file share its pixels.
+#[derive(Debug)]
+pub struct RasterLoader {
+    /// Files that say no place of their own, and whether transparent pixels are black.
+    known: BTreeMap<(PathBuf, bool), Arc<RasterPyramid>>,
+    meter: Meter,
+}
+
+impl RasterLoader {
+    /// Returns a loader that has read nothing yet. The meter counts the bytes of each file.
+    pub fn new(meter: &Meter) -> Self {
+        Self { known: BTreeMap::new(), meter: meter.clone() }
+    }
+
+    /// Returns the rectangle that a file itself says it covers, in world units: that of a grid without
+    /// `bounds`.
+    ///
+    /// # Errors
+    /// Fails when the file is of no use.
+    pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
+        let says_place = file.format == RasterFormat::Asc && file.bounds.is_none();
+        if says_place { Ok(Some(self.grid(&file.path)?.raster().bounds())) } else { Ok(None) }
+    }
+
+    /// Returns the raster of a file, in which risks are from 0 to 1 and diameters are positive. Pixels
+    /// without a value are NaN.
+    ///
+    /// # Errors
+    /// Fails when the file cannot be read, or a value is not valid.
+    pub fn load(
+        &mut self,
+        file: &RasterFile,
+        values: RasterValues,
+        frame: &RasterFrame,
+    ) -> Result<Arc<RasterPyramid>, RasterError> {
+        let raster = self.pixels(file, values, frame)?;
+        if values == RasterValues::Diameter && file.format == RasterFormat::Png {
+            return Ok(Arc::new(RasterPyramid::new(diameters(raster.raster(), &frame.transfer))));
+        }
+        let named = |problem| RasterError::Value(format!("{}: {problem}", file.path.display()));
+        check_values(&raster, values).map_err(named)?;
+        Ok(raster)
+    }
+
+    /// Returns the values of a file, before the layer interprets them.
+    fn pixels(
+        &mut self,
+        RasterFile { path, format, bounds }: &RasterFile,
+        values: RasterValues,
+        frame: &RasterFrame,
+    ) -> Result<Arc<RasterPyramid>, ReadError> {
+        match (format, bounds) {
+            (RasterFormat::Asc, None) => self.grid(path),
+            (RasterFormat::Asc, Some(place)) => {
+                let grid = asc::read_metered(path, &self.meter)?;
+                let grid = Raster::from_values(*place, grid.size(), grid.values().to_vec());
+                Ok(Arc::new(RasterPyramid::new(grid)))
+            }
+            (RasterFormat::Png, _) => {
+                let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
+                let place = bounds.unwrap_or(frame.domain);
+                let read = |meter: &Meter| png::read_metered(path, place, behind, meter);
+                match bounds {
+                    Some(_) => Ok(Arc::new(RasterPyramid::new(read(&self.meter)?))),
+                    None => self.read_once((path.clone(), behind == Behind::Black), read),
+                }
+            }
+        }
+    }
+
+    fn grid(&mut self, path: &Path) -> Result<Arc<RasterPyramid>, ReadError> {
+        self.read_once((path.to_owned(), false), |meter| asc::read_metered(path, meter))
+    }
+
+    fn read_once(
+        &mut self,
+        key: (PathBuf, bool),
+        read: impl FnOnce(&Meter) -> Result<Raster, ReadError>,
+    ) -> Result<Arc<RasterPyramid>, ReadError> {
+        if let Some(raster) = self.known.get(&key) {
+            return Ok(raster.clone());
+        }
+        let raster = Arc::new(RasterPyramid::new(read(&self.meter)?));
+        self.known.insert(key, raster.clone());
+        Ok(raster)
+    }
+}
+
+/// Checks the values of a raster: risks are from 0 to 1, and target diameters positive. Pixels without a
+/// value are NaN, and ask for nothing.
+///
+/// # Errors
+/// Fails with the first value that is not valid, and its place.
+pub fn check_values(raster: &RasterPyramid, values: RasterValues) -> Result<(), String> {
+    type Check = fn(f32) -> bool;
+    let (what, rule, is_valid): (_, _, Check) = match values {
+        RasterValues::Risk => {
+            ("risk", "it must lie from 0 to 1. Scale the values first", |value| (0.0..=1.0).contains(&value))
+        }
+        RasterValues::Diameter => ("target diameter", "it must be positive", |value| value > 0.0),
+        RasterValues::Any => return Ok(()),
+    };
+    let Some(range) = raster.whole().range else { return Ok(()) };
+    if is_valid(range.least) && is_valid(range.greatest) {
+        return Ok(());
+    }
+    let raster = raster.raster();
+    let is_wrong = |value: f32| !value.is_nan() && !is_valid(value);
+    let wrong = raster.all().pixels().find(|&(x, y)| is_wrong(raster.get(x, y)));
+    let Some((x, y)) = wrong else { return Ok(()) };
+    let (value, at) = (raster.get(x, y), raster.pixel_center(x, y));
+    let [value, x, y] = [f64::from(value), at.x, at.y].map(Number);
+    Err(format!("the {what} is {value} at x = {x}, y = {y}; {rule}."))
+}
+
+/// Grey as length: linear from `h_min` (black) to `h_max` (white).
+fn diameters(grey: &Raster, transfer: &Transfer) -> Raster {
+    let Transfer { h_min, h_max, .. } = *transfer;
+    let length = |&value: &f32| f32_not_below(h_min + f64::from(value) * (h_max - h_min));
+    Raster::from_values(grey.bounds(), grey.size(), grey.values().iter().map(length).collect())
+}

@@ -1,0 +1,154 @@
+//! The words of layers.
+
+use serde::{Deserialize, Serialize};
+
+use meshbrush_core::layers::{Combine, Quantity};
+
+/// The kinds of layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedKind {
+    /// Paint.
+    Paint,
+    /// A formula in x and y.
+    Formula,
+    /// Values by pixel.
+    Raster,
+    /// Points with a range.
+    Threats,
+    /// The distance to shapes.
+    Distance,
+    /// The distance to a strip along lines.
+    Corridor,
+    /// One diameter where a raster's value lies between two numbers.
+    Band,
+}
+
+/// See [`Combine`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedCombine {
+    /// The smaller target diameter counts.
+    #[default]
+    Finest,
+    /// Nothing below gets finer.
+    Floor,
+    /// The layer alone counts.
+    Replace,
+}
+
+/// See [`Quantity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedQuantity {
+    /// Risk, 0 to 1.
+    Risk,
+    /// Target diameter in world units.
+    Diameter,
+}
+
+/// The target of a distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedDistanceTo {
+    /// The boundary of the domain.
+    Outline,
+}
+
+/// How the risk of a threat falls with the distance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedLaw {
+    /// See `ThreatLaw::Radar`.
+    #[default]
+    Radar,
+    /// See `ThreatLaw::Gaussian`.
+    Gaussian,
+    /// See `ThreatLaw::Disc`.
+    Disc,
+}
+
+impl SavedKind {
+    /// Returns the word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Paint => "paint",
+            Self::Formula => "formula",
+            Self::Raster => "raster",
+            Self::Threats => "threats",
+            Self::Distance => "distance",
+            Self::Corridor => "corridor",
+            Self::Band => "band",
+        }
+    }
+
+    /// Returns the name of a layer that is given none.
+    pub fn usual_name(self) -> &'static str {
+        match self {
+            Self::Paint => "Paint",
+            Self::Formula => "Formula",
+            Self::Raster => "Raster",
+            Self::Threats => "Threats",
+            Self::Distance => "Distance",
+            Self::Corridor => "Corridor",
+            Self::Band => "Band",
+        }
+    }
+
+    /// Returns the keys of this kind alone.
+    pub fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Paint => &["quantity", "file", "layer"],
+            Self::Formula => &["quantity", "formula"],
+            Self::Raster => &["file", "bounds", "as", "curve"],
+            Self::Threats => &["file", "threats"],
+            Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
+            Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
+            Self::Band => &["file", "bounds", "between", "diameter"],
+        }
+    }
+}
+
+impl SavedCombine {
+    pub(super) fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl From<SavedCombine> for Combine {
+    fn from(saved: SavedCombine) -> Self {
+        match saved {
+            SavedCombine::Finest => Self::Finest,
+            SavedCombine::Floor => Self::Floor,
+            SavedCombine::Replace => Self::Replace,
+        }
+    }
+}
+
+impl From<Combine> for SavedCombine {
+    fn from(combine: Combine) -> Self {
+        match combine {
+            Combine::Finest => Self::Finest,
+            Combine::Floor => Self::Floor,
+            Combine::Replace => Self::Replace,
+        }
+    }
+}
+
+impl From<SavedQuantity> for Quantity {
+    fn from(saved: SavedQuantity) -> Self {
+        match saved {
+            SavedQuantity::Risk => Self::Risk,
+            SavedQuantity::Diameter => Self::Diameter,
+        }
+    }
+}
+
+impl From<Quantity> for SavedQuantity {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Risk => Self::Risk,
+            Quantity::Diameter => Self::Diameter,
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! The files that a recipe or options name, as the data of the settings of a document.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::super::geojson::{self, Outline};
+use super::super::layers::{
+    LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
+};
+use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
+use super::super::{KeyFault, Meter, ReadError, project, shapes, threats};
+use super::notes::{cut_at_antimeridian, notes};
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use meshbrush_core::field::Transfer;
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
+use meshbrush_core::raster::RasterPyramid;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::CoarseError;
+use meshbrush_mesh::text::abridged;
+
+/// Why settings cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// A file is of no use.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The data of a layer or a region are of no use.
+    #[error(transparent)]
+    Data(#[from] TextError),
+    /// A value cannot be used.
+    #[error(transparent)]
+    Value(#[from] KeyFault),
+    /// There is no coarse grid.
+    #[error(transparent)]
+    Coarse(#[from] CoarseError),
+    /// The parts do not suit each other; the sentence says which.
+    #[error("{}", abridged(_0))]
+    Unsuited(String),
+}
+
+/// How files are read.
+pub struct Loading<'a> {
+    /// The limits of a mesh where the text has none.
+    pub usual: Usual,
+    /// Whether hidden layers, which ask for nothing, are read too.
+    pub with_hidden: bool,
+    /// Reads the polygons of the domain.
+    pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
+    /// Counts the bytes of each file.
+    pub meter: &'a Meter,
+}
+
+impl<'a> Loading<'a> {
+    /// Returns all layers, for a document.
+    pub fn for_document(meter: &'a Meter) -> Self {
+        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: geojson::read_outline, meter }
+    }
+}
+
+/// Settings with the data of their files.
+pub struct Loaded {
+    /// The settings of a document.
+    pub settings: Settings,
+    /// The paint of its layers.
+    pub paint: PaintLayers,
+    /// Notes for a person, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl SavedSettings {
+    /// Reads the files. `name` is what the document is called.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read or used, there is no coarse grid, or a layer asks for the distance to
+    /// the outline of a domain that has none.
+    pub fn load_files(&self, name: &str, loading: &Loading) -> Result<Loaded, LoadError> {
+        let mut files = Files {
+            loading,
+            rasters: RasterLoader::new(loading.meter),
+            projects: BTreeMap::new(),
+            frame: RasterFrame { domain: Rect::UNIT, transfer: Settings::default().transfer },
+            paint: PaintLayers::default(),
+            note: None,
+        };
+        let settings = self.load(name, &loading.usual, &mut files)?;
+        check_outline(&settings)?;
+        // Without a domain of its own, the mesh covers all rasters.
+        let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
+        let notes = files.note.into_iter().chain(notes(&settings, has_frame));
+        let notes = notes.map(|note| abridged(&note)).collect();
+        Ok(Loaded { settings, paint: files.paint, notes })
+    }
+}
+
+/// Reads the files that tables and layers name, each once.
+struct Files<'a> {
+    loading: &'a Loading<'a>,
+    rasters: RasterLoader,
+    projects: BTreeMap<PathBuf, Document>,
+    frame: RasterFrame,
+    paint: PaintLayers,
+    /// A sentence for a person about the polygons.
+    note: Option<String>,
+}
+
+impl Files<'_> {
+    /// Adds what a project has painted on a layer, if that is a paint layer.
+    fn add_paint(&mut self, layer: &SavedLayer, id: LayerId) -> Result<(), LoadError> {
+        let (true, Some(path)) = (layer.is_paint(), &layer.file) else { return Ok(()) };
+        if !self.projects.contains_key(path) {
+            self.projects.insert(path.clone(), project::read_metered(path, self.loading.meter)?);
+        }
+        let document = &self.projects[path];
+        let (name, file) = (layer.layer.as_deref().unwrap_or(layer.shown_name()), path.display());
+        let painted = || document.settings().layers.iter().filter(|layer| layer.paints().is_some());
+        let Some(stored) = painted().find(|other| other.name == name) else {
+            let known: Vec<String> = painted().map(|layer| format!("“{}”", layer.name)).collect();
+            let there = match known.is_empty() {
+                true => "has none".to_owned(),
+                false => format!("has {}", known.join(", ")),
+            };
+            return Err(layer.error(format_args!("{file} has no paint layer “{name}”; it {there}.")).into());
+        };
+        if stored.paints() != layer.quantity.map(Into::into) {
+            let problem = format_args!("what is painted on “{name}” in {file} is not of this `quantity`.");
+            return Err(layer.error(problem).into());
+        }
+        document.paint().get(stored.id).into_iter().for_each(|raster| self.paint.insert(id, raster.clone()));
+        Ok(())
+    }
+}
+
+impl Storage for Files<'_> {
+    type Layer = SavedLayer;
+    type Error = LoadError;
+
+    fn keys(layer: &SavedLayer) -> &SavedLayer {
+        layer
+    }
+
+    fn region(&mut self, file: &Path, bounds: Option<Rect>) -> Result<ReadRegion, LoadError> {
+        let outline = (self.loading.read_outline)(file, self.loading.meter)?;
+        self.note = cut_at_antimeridian(file, &outline);
+        let (domain, marks) = domain_of(&outline.polygons, bounds)
+            .map_err(|error| LoadError::Unsuited(format!("{}: {error}", file.display())))?;
+        Ok(ReadRegion { domain, marks, unit: outline.unit })
+    }
+
+    fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<Rect>, LoadError> {
+        let mut extent: Option<Rect> = None;
+        let of_rasters = layers.iter().filter(|layer| layer.visible && layer.raster_values().is_some());
+        for layer in of_rasters {
+            let place = self.rasters.own_place(&layer.raster_file()?)?;
+            extent = place.into_iter().chain(extent).reduce(|a, b| a.union(&b));
+        }
+        Ok(extent)
+    }
+
+    fn layer(
+        &mut self,
+        layer: &SavedLayer,
+        number: LayerId,
+        domain: Rect,
+        transfer: &Transfer,
+    ) -> Result<Option<Layer>, LoadError> {
+        if !(layer.visible || self.loading.with_hidden) {
+            return Ok(None);
+        }
+        self.frame = RasterFrame { domain, transfer: *transfer };
+        let loaded = layer.load(number, self)?;
+        self.add_paint(layer, number)?;
+        Ok(Some(loaded))
+    }
+
+    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
+        Ok(geojson::without_names(geojson::read_named_metered(file, self.loading.meter)?))
+    }
+}
+
+impl LayerData for Files<'_> {
+    type Error = LoadError;
+
+    const STORED: Stored = Stored::InFiles;
+
+    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, LoadError> {
+        let values = layer.raster_values().unwrap_or(RasterValues::Any);
+        self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
+            RasterError::Read(error) => error.into(),
+            RasterError::Value(problem) => layer.error(problem).into(),
+        })
+    }
+
+    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, LoadError> {
+        Ok(threats::read(file, self.loading.meter)?)
+    }
+
+    fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
+        Ok(shapes::read(file, self.loading.meter)?.shapes)
+    }
+
+    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
+        Storage::polygons(self, file)
+    }
+}
+
+/// Returns the domain that polygons cover, in `bounds` where these are given, and the names that they bring.
+fn domain_of(
+    polygons: &[NamedPolygon],
+    bounds: Option<Rect>,
+) -> Result<(Domain, BoundaryMarks), RegionError> {
+    let Some(bounds) = bounds else { return BoundaryMarks::domain_of(polygons) };
+    let plain = polygons.iter().map(|named| named.polygon.clone()).collect();
+    let domain = Domain::of_stored_polygons(plain, bounds)?;
+    let marks = BoundaryMarks::of_polygons(polygons, &domain);
+    Ok((domain, marks))
+}
+
+/// Refuses a distance to the outline of a domain that has none.
+fn check_outline(Settings { layers, domain, .. }: &Settings) -> Result<(), LoadError> {
+    let Some(layer) = layers.iter().find(|layer| layer.visible && layer.is_of_outline()) else {
+        return Ok(());
+    };
+    let Some(region) = domain.as_region() else {
+        let problem = "there is no distance to the outline of a domain that is given by a formula";
+        return Err(LoadError::Unsuited(format!(
+            "The layer “{}”: {problem}. Give the domain by polygons, or the distance to shapes.",
+            layer.name
+        )));
+    };
+    Shapes::outline(&region).map(|_| ()).map_err(|error| LoadError::Unsuited(error.to_string()))
+}

@@ -1,0 +1,57 @@
+//! Notes for a person about settings from files.
+
+use std::path::Path;
+
+use super::super::geojson::Outline;
+use meshbrush_core::document::Settings;
+use meshbrush_core::layers::{Layer, LayerKind, RasterSource};
+use meshbrush_mesh::geometry::Rect;
+
+/// The share of a rectangle that a raster covers which covers all of it, but for rounding.
+const WHOLE: f64 = 1.0 - 1e-6;
+
+/// Returns the note on polygons that are cut at the antimeridian.
+pub fn cut_at_antimeridian(path: &Path, outline: &Outline) -> Option<String> {
+    outline.is_cut_at_antimeridian().then(|| {
+        format!(
+            "{} is cut at the antimeridian (longitude 180°): the halves on its sides are separate parts of the mesh, and \
+             without --parts all only the largest part stays. Add 360 to the negative longitudes to mesh them as one.",
+            path.display()
+        )
+    })
+}
+
+/// Returns layers that ask for nothing, or only in a part of the domain: that is noted where the domain
+/// `has_frame` of its own.
+pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = String> {
+    let domain = settings.domain.bounds;
+    let note = move |layer: &Layer| match (&layer.kind, &layer.mask) {
+        (_, Some(mask)) if mask.bounds().intersection(&domain).is_none() => Some(format!(
+            "The mask of the layer “{}” does not meet the domain: it asks for nothing.",
+            layer.name
+        )),
+        (LayerKind::Raster { source, .. } | LayerKind::Band { source, .. }, _) => {
+            of_raster(layer, source, domain, has_frame)
+        }
+        _ => None,
+    };
+    settings.layers.iter().filter(|layer| layer.visible).filter_map(note)
+}
+
+fn of_raster(layer: &Layer, source: &RasterSource, domain: Rect, has_frame: bool) -> Option<String> {
+    let (bounds, file) = (source.raster.raster().bounds(), &source.name);
+    let common = bounds.intersection(&domain).map_or(0.0, |common| common.size().element_product());
+    if common == 0.0 {
+        let Rect { min, max } = bounds;
+        let place = format!("{}, {} to {}, {}", min.x, min.y, max.x, max.y);
+        return Some(format!("{file} covers {place} and does not meet the domain."));
+    }
+    let share = common / domain.size().element_product();
+    (share < WHOLE && has_frame).then(|| {
+        let percent = (100.0 * share).max(1.0).floor();
+        let name = &layer.name;
+        format!(
+            "{file} covers {percent} % of the domain's rectangle; beyond it the layer “{name}” asks for nothing."
+        )
+    })
+}

@@ -1,0 +1,229 @@
+//! Checks of tables. What a value becomes is computed here, too, so that nothing is checked in two ways.
+
+use std::path::{Path, PathBuf};
+
+use super::{
+    SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins, SavedSettings, SavedTreatment,
+};
+use crate::io::layers::{FindFile, SavedLayer, Stored, compiled, each, point, positive_length, rect_of};
+use crate::io::{KeyFault, Step};
+use glam::DVec2;
+use meshbrush_core::document::LEAST_MEMORY;
+use meshbrush_core::field::{Formula, Transfer};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::MOST_TRIANGLES;
+use meshbrush_mesh::text::{Bytes, Grouped, Number, excerpt};
+
+impl<L> SavedSettings<L> {
+    /// Checks every value on its own, but for those of layers.
+    ///
+    /// # Errors
+    /// Fails for the first one that cannot be used.
+    pub fn check_tables(&self) -> Result<(), KeyFault> {
+        let in_table = |table: &'static str| move |fault: KeyFault| fault.within(table);
+        self.domain.check().map_err(in_table("domain"))?;
+        self.mesh.check().map_err(in_table("mesh"))?;
+        self.limits.check().map_err(in_table("limits"))?;
+        self.paths.routes().map_err(in_table("paths"))?;
+        self.paths.checked_cost().map_err(in_table("paths"))?;
+        for (index, region) in self.keep_out.iter().enumerate() {
+            region.check().map_err(|fault| fault.within(index).within("keep_out"))?;
+        }
+        self.pins.points().map_err(in_table("pins"))?;
+        Ok(())
+    }
+}
+
+impl SavedSettings {
+    /// Checks every value on its own.
+    ///
+    /// # Errors
+    /// Fails for the first one that cannot be used.
+    pub fn check(&self) -> Result<(), KeyFault> {
+        self.check_tables()?;
+        for (index, layer) in self.layer.iter().enumerate() {
+            layer.checked(Stored::InFiles).map_err(|fault| fault.within(index).within("layer"))?;
+        }
+        Ok(())
+    }
+
+    /// Checks whether the values of a recipe suit each other.
+    ///
+    /// # Errors
+    /// Fails for the first one that does not.
+    pub(in crate::io) fn check_recipe(&self) -> Result<(), KeyFault> {
+        self.domain.check_together().map_err(|fault| fault.within("domain"))?;
+        for (index, layer) in self.layer.iter().enumerate() {
+            let has_scale = self.limits.h_min.is_some() || !layer.uses_scale();
+            let problem = if layer.is_paint() && layer.file.is_none() {
+                "paint has no form as text; name the project that holds it, as in file = \"harbour.meshbrush\"."
+            } else if !has_scale {
+                "risk and images need `h_min` in the table [limits]: the target diameter where the risk is 1 or the \
+                 image black."
+            } else {
+                continue;
+            };
+            return Err(KeyFault::entry("kind", problem).within(index).within("layer"));
+        }
+        Ok(())
+    }
+
+    /// Returns whether some layer needs both ends of the scale from the smallest to the largest target
+    /// diameter.
+    pub fn uses_scale(&self) -> bool {
+        self.layer.iter().any(SavedLayer::uses_scale)
+    }
+
+    /// Returns the files to read.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let of_layers = self.layer.iter().flat_map(|layer| [layer.file.as_ref(), layer.mask_file.as_ref()]);
+        let of_paths = self.keep_out.iter().map(|region| region.file.as_ref());
+        of_layers.chain([self.domain.region.as_ref()]).chain(of_paths).flatten().map(PathBuf::as_path)
+    }
+
+    /// Puts the path of each file in place of its name.
+    ///
+    /// # Errors
+    /// Fails for the first one that `find` does not find.
+    pub(in crate::io) fn place_files(&mut self, find: &FindFile) -> Result<(), KeyFault> {
+        let place = |key: &'static str, file: &mut Option<PathBuf>| -> Result<(), KeyFault> {
+            let Some(name) = file else { return Ok(()) };
+            *name = find(&name.to_string_lossy()).map_err(|sentence| KeyFault::entry(key, sentence))?;
+            Ok(())
+        };
+        place("region", &mut self.domain.region).map_err(|fault| fault.within("domain"))?;
+        for (index, layer) in self.layer.iter_mut().enumerate() {
+            let placed =
+                place("file", &mut layer.file).and_then(|()| place("mask_file", &mut layer.mask_file));
+            placed.map_err(|fault| fault.within(index).within("layer"))?;
+        }
+        for (index, region) in self.keep_out.iter_mut().enumerate() {
+            region.name.get_or_insert_with(|| region_name(region.file.as_deref()));
+            place("file", &mut region.file).map_err(|fault| fault.within(index).within("keep_out"))?;
+        }
+        Ok(())
+    }
+
+    /// Puts output files into a folder.
+    pub(in crate::io) fn place_outputs(&mut self, folder: &Path) {
+        self.output.iter_mut().for_each(|SavedOutput { file, .. }| *file = folder.join(&file));
+    }
+}
+
+/// Returns the name of a keep-out region that is given none.
+fn region_name(file: Option<&Path>) -> String {
+    let name = file.map(|file| file.file_name().unwrap_or_default().to_string_lossy().into_owned());
+    name.unwrap_or_else(|| super::paths::USUAL_NAME.into())
+}
+
+impl SavedDomain {
+    fn check(&self) -> Result<(), KeyFault> {
+        self.rect()?;
+        self.formula()?;
+        self.boundary_diameter.map_or(Ok(()), |diameter| length("boundary_diameter", diameter))?;
+        if let Some(SavedParts::Share(share)) = self.parts
+            && !(0.0..=1.0).contains(&share)
+        {
+            let sentence = format!("{} is not a share of the area, which lies from 0 to 1.", Number(share));
+            return Err(KeyFault::value("parts", sentence));
+        }
+        each("splits", &self.splits, |at| point(*at))?;
+        each("names", &self.names, |name| point(name.at).map_err(|fault| fault.within("at")))?;
+        Ok(())
+    }
+
+    fn check_together(&self) -> Result<(), KeyFault> {
+        if self.region.is_some() && self.inside.is_some() {
+            return Err(KeyFault::key(
+                "inside",
+                "the domain is given by `region` or by `inside`, not by both.",
+            ));
+        }
+        let of_outline =
+            [("boundary_diameter", self.boundary_diameter.is_some()), ("boundary", self.boundary.is_some())];
+        if let Some((key, _)) =
+            of_outline.into_iter().find(|(_, is_given)| *is_given && self.region.is_none())
+        {
+            let sentence =
+                "this is for the outline of a region; name its file with `region`, or leave it out.";
+            return Err(KeyFault::key(key, sentence));
+        }
+        if self.boundary_diameter.is_some() && self.boundary == Some(SavedTreatment::Report) {
+            let sentence = "with boundary = \"report\" nothing is refined along the outline; leave it out.";
+            return Err(KeyFault::key("boundary_diameter", sentence));
+        }
+        Ok(())
+    }
+
+    /// Returns the rectangle that the coarse grid covers, in world units.
+    pub(super) fn rect(&self) -> Result<Option<Rect>, KeyFault> {
+        self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))
+    }
+
+    /// Returns the formula of the domain.
+    pub(super) fn formula(&self) -> Result<Option<Formula>, KeyFault> {
+        self.inside.as_deref().map(|text| compiled("inside", text)).transpose()
+    }
+}
+
+impl SavedMesh {
+    fn check(&self) -> Result<(), KeyFault> {
+        self.spacing.map_or(Ok(()), |spacing| length("spacing", spacing))?;
+        if let Some(count) = self.max_triangles
+            && !(2..=MOST_TRIANGLES).contains(&count)
+        {
+            let rule = format!("choose from 2 to {} triangles.", Grouped(MOST_TRIANGLES));
+            return Err(KeyFault { given: Some(String::new()), ..KeyFault::value("max_triangles", rule) });
+        }
+        self.memory().map(|_| ())
+    }
+
+    /// Most memory, in bytes.
+    pub(super) fn memory(&self) -> Result<Option<usize>, KeyFault> {
+        let Some(typed) = &self.max_memory else { return Ok(None) };
+        let wrong = |rule: &str| KeyFault {
+            given: Some(format!("\"{}\" is no such size: ", excerpt(40, typed))),
+            ..KeyFault::value("max_memory", format!("{rule}, such as 500MB or 2GB."))
+        };
+        let bytes = Bytes::parse(typed).ok_or_else(|| wrong("give a size with its unit"))?;
+        if bytes < LEAST_MEMORY { Err(wrong("choose 1MB at least")) } else { Ok(Some(bytes)) }
+    }
+}
+
+impl SavedLimits {
+    /// Checks each number, and whether they make a curve.
+    ///
+    /// # Errors
+    /// Fails for the first one that cannot be used.
+    pub fn check(&self) -> Result<(), KeyFault> {
+        self.h_min.map_or(Ok(()), |h_min| length("h_min", h_min))?;
+        self.h_max.map_or(Ok(()), |h_max| length("h_max", h_max))?;
+        // Where one end is not given, the other takes its place: only the rest is checked then.
+        let h_min = self.h_min.or(self.h_max).unwrap_or(1.0);
+        let h_max = self.h_max.unwrap_or(h_min);
+        let transfer = Transfer { h_min, h_max, shape: self.shape.unwrap_or(1.0) };
+        let wrong_key = if h_min > h_max { "h_max" } else { "shape" };
+        transfer.checked().map_err(|error| KeyFault::value(wrong_key, error.to_string()))?;
+        match self.gradation {
+            Some(gradation) if !(gradation > 0.0 && gradation.is_finite()) => {
+                let sentence = format!(
+                    "a gradation of {} cannot be kept: it must be positive and finite, and 0.1 to 0.5 are usual.",
+                    Number(gradation)
+                );
+                Err(KeyFault::value("gradation", sentence))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl SavedPins {
+    /// Returns the points, in world units.
+    pub(super) fn points(&self) -> Result<Vec<DVec2>, KeyFault> {
+        each("at", &self.at, |at| point(*at))
+    }
+}
+
+fn length(key: impl Into<Step>, value: f64) -> Result<(), KeyFault> {
+    positive_length(value).map(|_| ()).map_err(|fault| fault.within(key))
+}

@@ -1,0 +1,212 @@
+//! Turns tables into the settings of a document, and reads the data that they name.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{SavedSettings, SavedTreatment, marks_of};
+use crate::io::KeyFault;
+use crate::io::layers::{SavedLayer, TextError};
+use meshbrush_core::document::{PathPlan, Settings};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::field::{RefinementRule, Transfer};
+use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_mesh::geometry::{Lattice, Rect};
+use meshbrush_mesh::mesh::{Cleaning, CoarseError, bisection_edge_length};
+use meshbrush_mesh::text::LengthUnit;
+
+/// Coarse cells along the longer side of the domain unless the spacing is given (N_e of the report's
+/// example).
+const USUAL_CELLS: f64 = 20.0;
+
+/// The limits of a mesh where the text has none.
+#[derive(Clone, Copy, Debug)]
+pub struct Usual {
+    /// Most coarse triangles; no text says it.
+    pub most_coarse: usize,
+    /// Most triangles.
+    pub max_triangles: usize,
+    /// Most memory, in bytes.
+    pub max_memory: usize,
+}
+
+impl Usual {
+    /// That of a document.
+    pub const DOCUMENT: Self = Self {
+        most_coarse: meshbrush_core::document::MAX_COARSE_TRIANGLES,
+        max_triangles: Settings::MAX_TRIANGLES,
+        max_memory: Settings::MAX_MEMORY,
+    };
+}
+
+/// Polygons of a domain, with what their file says beside them.
+#[derive(Debug)]
+pub struct ReadRegion {
+    /// The domain.
+    pub domain: Domain,
+    /// Names of its boundary.
+    pub marks: BoundaryMarks,
+    /// The unit of coordinates and lengths.
+    pub unit: LengthUnit,
+}
+
+/// Where the data are that tables and layers name.
+pub trait Storage {
+    /// A layer, with what says where its data are.
+    type Layer;
+    /// Why data could not be read, or a value cannot be used.
+    type Error: From<KeyFault> + From<TextError> + From<CoarseError>;
+
+    /// Returns the keys of a layer.
+    fn keys(layer: &Self::Layer) -> &SavedLayer;
+
+    /// Returns the polygons of the domain, in `bounds` where these are given.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read or used.
+    fn region(&mut self, file: &Path, bounds: Option<Rect>) -> Result<ReadRegion, Self::Error>;
+
+    /// Returns the rectangle of the rasters of layers, in world units: the domain where no key says it.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read.
+    fn extent(&mut self, layers: &[Self::Layer]) -> Result<Option<Rect>, Self::Error>;
+
+    /// Returns the layer with its data, or `None` where it is left out. `number` counts the layers from 0.
+    ///
+    /// # Errors
+    /// Fails when a value cannot be used, or the data not read.
+    fn layer(
+        &mut self,
+        layer: &Self::Layer,
+        number: LayerId,
+        domain: Rect,
+        transfer: &Transfer,
+    ) -> Result<Option<Layer>, Self::Error>;
+
+    /// Returns the polygons of a keep-out region.
+    ///
+    /// # Errors
+    /// Fails when they cannot be read.
+    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, Self::Error>;
+}
+
+impl<L> SavedSettings<L> {
+    /// Returns the settings of a document that is called `name`; `storage` reads the data.
+    ///
+    /// Limits of the target diameter that are not given do not restrict it: they are the smallest and the
+    /// largest number.
+    ///
+    /// # Errors
+    /// Fails when a value cannot be used, data cannot be read, or there is no coarse grid.
+    pub fn load<S: Storage<Layer = L>>(
+        &self,
+        name: &str,
+        usual: &Usual,
+        storage: &mut S,
+    ) -> Result<Settings, S::Error> {
+        self.check_tables()?;
+        let ReadRegion { domain, marks, unit } = self.read_domain(storage)?;
+        let bounds = domain.bounds;
+        let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
+        let lattice = Lattice::covering(bounds, spacing, usual.most_coarse).map_err(CoarseError::from)?;
+        let transfer = self.transfer::<S>(bisection_edge_length(lattice.spacing(), 0));
+        let numbered = self.layer.iter().zip((0..).map(LayerId));
+        let layers = numbered.map(|(layer, number)| storage.layer(layer, number, bounds, &transfer));
+        let layers = layers.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let keep_out = self.keep_out.iter().map(|region| region.load(|file| storage.polygons(file)));
+        let paths = PathPlan {
+            keep_out: keep_out.collect::<Result<_, _>>()?,
+            routes: self.paths.routes()?,
+            cost: self.paths.checked_cost()?,
+        };
+        let diameter = self.domain.boundary_diameter.unwrap_or(BoundaryTreatment::usual_diameter(spacing));
+        Ok(Settings {
+            name: name.to_owned(),
+            unit: self.domain.unit.map_or(unit, Into::into),
+            background: None,
+            domain,
+            boundary: self.domain.boundary.unwrap_or(SavedTreatment::Outline).with_diameter(diameter),
+            cleaning: self.cleaning(Cleaning::FOR_SOLVERS),
+            boundary_marks: Arc::new(if self.domain.has_marks() { self.domain.marks() } else { marks }),
+            pins: Arc::new(self.pins.points()?),
+            paths: Arc::new(paths),
+            spacing,
+            transfer,
+            layers,
+            gradation: self.limits.gradation,
+            rule: self.mesh.rule.map_or_else(|| self.usual_rule::<S>(), Into::into),
+            max_triangles: self.mesh.max_triangles.unwrap_or(usual.max_triangles),
+            max_memory: self.mesh.memory()?.unwrap_or(usual.max_memory),
+        })
+    }
+
+    fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {
+        let bounds = self.domain.rect()?;
+        if let Some(file) = &self.domain.region {
+            return storage.region(file, bounds);
+        }
+        let bounds = match bounds {
+            Some(bounds) => bounds,
+            None => storage.extent(&self.layer)?.unwrap_or(Rect::UNIT),
+        };
+        let shape = self.domain.formula()?.map_or(DomainShape::Whole, DomainShape::Formula);
+        let (marks, unit) = (BoundaryMarks::default(), LengthUnit::None);
+        Ok(ReadRegion { domain: Domain { bounds, shape }, marks, unit })
+    }
+
+    /// Returns the curve from risk to diameter; its ends bound h̄.
+    fn transfer<S: Storage<Layer = L>>(&self, coarse_diameter: f64) -> Transfer {
+        let h_min = self.limits.h_min.unwrap_or(f64::MIN_POSITIVE);
+        let uses_scale = self.layer.iter().any(|layer| S::keys(layer).uses_scale());
+        let widest = if uses_scale { coarse_diameter.max(h_min) } else { f64::MAX };
+        let h_max = self.limits.h_max.unwrap_or(widest);
+        Transfer { h_min, h_max, shape: self.limits.shape.unwrap_or(1.0) }
+    }
+
+    /// Returns which points of a triangle count where that is not given: the area rule misses no pixel.
+    fn usual_rule<S: Storage<Layer = L>>(&self) -> RefinementRule {
+        match self.layer.iter().all(|layer| S::keys(layer).is_formula()) {
+            true => RefinementRule::Vertex,
+            false => RefinementRule::Area,
+        }
+    }
+
+    /// Returns which triangles stay: the usual ones, unless the text says otherwise.
+    pub fn cleaning(&self, usual: Cleaning) -> Cleaning {
+        Cleaning {
+            parts: self.domain.parts.map_or(usual.parts, Into::into),
+            keeps_pinches: self.domain.keep_pinches || usual.keeps_pinches,
+        }
+    }
+}
+
+impl super::SavedDomain {
+    /// Returns whether it has names or splits of the boundary.
+    pub fn has_marks(&self) -> bool {
+        !(self.splits.is_empty() && self.names.is_empty())
+    }
+
+    fn marks(&self) -> BoundaryMarks {
+        marks_of(&self.splits, &self.names)
+    }
+}
+
+impl SavedTreatment {
+    /// Returns the kind of a treatment.
+    pub fn of(treatment: BoundaryTreatment) -> Self {
+        match treatment {
+            BoundaryTreatment::Report => Self::Report,
+            BoundaryTreatment::Fitted { .. } => Self::Fitted,
+            BoundaryTreatment::OnOutline { .. } => Self::Outline,
+        }
+    }
+
+    /// Returns the treatment of this kind with a diameter at the outline, in world units.
+    pub fn with_diameter(self, diameter: f64) -> BoundaryTreatment {
+        match self {
+            Self::Report => BoundaryTreatment::Report,
+            Self::Fitted => BoundaryTreatment::Fitted { diameter },
+            Self::Outline => BoundaryTreatment::OnOutline { diameter },
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Settings as texts have them: recipes (TOML), projects and recordings (JSON), and the options of the
+//! command line.
+//!
+//! [`SavedSettings`] has a struct for each table; what is missing has its usual value.
+//! [`SavedSettings::load`] makes the settings of a document from it, and [`SavedSettings::of`] is the way
+//! back. A [`Storage`] reads what tables and layers name: files beside a recipe, or parts of a project.
+
+mod check;
+mod load;
+mod of_settings;
+mod overrides;
+mod paths;
+mod tables;
+mod words;
+
+pub use load::{ReadRegion, Storage, Usual};
+pub use tables::{
+    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
+    SavedSettings, SavedTreatment,
+};
+pub use words::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};

@@ -1,0 +1,75 @@
+use glam::DVec2;
+
+use super::{
+    SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedPaths, SavedPins, SavedSettings, SavedTreatment,
+    SavedUnit, saved_marks,
+};
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryTreatment, DomainShape};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{Bytes, LengthUnit};
+
+impl<L> SavedSettings<L> {
+    /// Returns the tables that make the mesh of a document, without outputs.
+    ///
+    /// `region_file` is the name of the file with the polygons of the domain, if it has some: the caller
+    /// writes it. `layers` are from the bottom of the stack to its top, and `keep_out` are the regions that
+    /// paths stay out of: the caller decides which of their data are in files.
+    pub fn of(settings: &Settings, region_file: &str, layers: Vec<L>, keep_out: Vec<SavedKeepOut>) -> Self {
+        let mesh = SavedMesh {
+            spacing: Some(settings.spacing),
+            rule: Some(settings.rule.into()),
+            max_triangles: Some(settings.max_triangles),
+            max_memory: (settings.max_memory != Settings::MAX_MEMORY)
+                .then(|| Bytes(settings.max_memory).exactly()),
+            max_level: None,
+        };
+        let limits = SavedLimits {
+            h_min: Some(settings.transfer.h_min),
+            h_max: Some(settings.transfer.h_max),
+            shape: (settings.transfer.shape != 1.0).then_some(settings.transfer.shape),
+            gradation: settings.gradation,
+        };
+        Self {
+            domain: domain(settings, region_file),
+            mesh,
+            limits,
+            layer: layers,
+            paths: SavedPaths::of(&settings.paths),
+            keep_out,
+            pins: SavedPins { at: settings.pins.iter().map(DVec2::to_array).collect() },
+            output: Vec::new(),
+        }
+    }
+}
+
+fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
+    let Rect { min, max } = settings.domain.bounds;
+    let (splits, names) = saved_marks(&settings.boundary_marks);
+    let rectangle = SavedDomain {
+        unit: (settings.unit != LengthUnit::None).then(|| settings.unit.into()),
+        splits,
+        names,
+        ..SavedDomain::default()
+    };
+    // A mesh that is not fitted is not cleaned, whatever the settings say about parts.
+    let is_fitted = settings.boundary != BoundaryTreatment::Report;
+    match &settings.domain.shape {
+        DomainShape::Whole => SavedDomain { bounds: Some([min.x, min.y, max.x, max.y]), ..rectangle },
+        DomainShape::Formula(formula) => SavedDomain {
+            bounds: Some([min.x, min.y, max.x, max.y]),
+            inside: Some(formula.source().to_owned()),
+            ..rectangle
+        },
+        DomainShape::Region(_) => SavedDomain {
+            region: Some(region_file.into()),
+            bounds: Some([min.x, min.y, max.x, max.y]),
+            unit: Some(rectangle.unit.unwrap_or(SavedUnit::None)),
+            boundary: Some(SavedTreatment::of(settings.boundary)),
+            boundary_diameter: settings.boundary.diameter(),
+            parts: is_fitted.then(|| settings.cleaning.parts.into()),
+            keep_pinches: is_fitted && settings.cleaning.keeps_pinches,
+            ..rectangle
+        },
+    }
+}

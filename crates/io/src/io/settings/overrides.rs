@@ -1,0 +1,70 @@
+//! Values in place of others: options beside a recipe or a project.
+
+use super::{SavedDomain, SavedLimits, SavedMesh, SavedSettings, SavedTreatment};
+use crate::io::KeyFault;
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::BoundaryTreatment;
+use meshbrush_core::field::Transfer;
+
+impl<L> SavedSettings<L> {
+    /// Returns the settings with the values of `options` in place of their own. Domain, layers, paths and
+    /// pins are their own: no option goes with them.
+    pub fn overridden_by<O>(self, options: &SavedSettings<O>) -> Self {
+        let SavedDomain { boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
+        let SavedMesh { spacing, rule, max_triangles, max_level, max_memory } = &options.mesh;
+        let SavedLimits { h_min, h_max, shape, gradation } = options.limits;
+        Self {
+            domain: SavedDomain {
+                boundary: boundary.or(self.domain.boundary),
+                boundary_diameter: boundary_diameter.or(self.domain.boundary_diameter),
+                parts: parts.or(self.domain.parts),
+                keep_pinches: *keep_pinches || self.domain.keep_pinches,
+                ..self.domain
+            },
+            mesh: SavedMesh {
+                spacing: spacing.or(self.mesh.spacing),
+                rule: rule.or(self.mesh.rule),
+                max_triangles: max_triangles.or(self.mesh.max_triangles),
+                max_level: max_level.or(self.mesh.max_level),
+                max_memory: max_memory.clone().or(self.mesh.max_memory),
+            },
+            limits: SavedLimits {
+                h_min: h_min.or(self.limits.h_min),
+                h_max: h_max.or(self.limits.h_max),
+                shape: shape.or(self.limits.shape),
+                gradation: gradation.or(self.limits.gradation),
+            },
+            ..self
+        }
+    }
+}
+
+impl SavedSettings {
+    /// Returns the settings of a document with the values that are given here in place of its own.
+    ///
+    /// # Errors
+    /// Fails when a value cannot be used.
+    pub fn override_settings(&self, settings: Settings) -> Result<Settings, KeyFault> {
+        let Transfer { h_min, h_max, shape } = settings.transfer;
+        let transfer = Transfer {
+            h_min: self.limits.h_min.unwrap_or(h_min),
+            h_max: self.limits.h_max.unwrap_or(h_max),
+            shape: self.limits.shape.unwrap_or(shape),
+        };
+        let spacing = self.mesh.spacing.unwrap_or(settings.spacing);
+        let diameter = self.domain.boundary_diameter.or(settings.boundary.diameter());
+        let diameter = diameter.unwrap_or(BoundaryTreatment::usual_diameter(spacing));
+        let treatment = self.domain.boundary.unwrap_or(SavedTreatment::of(settings.boundary));
+        Ok(Settings {
+            spacing,
+            transfer,
+            boundary: treatment.with_diameter(diameter),
+            cleaning: self.cleaning(settings.cleaning),
+            gradation: self.limits.gradation.or(settings.gradation),
+            rule: self.mesh.rule.map_or(settings.rule, Into::into),
+            max_triangles: self.mesh.max_triangles.unwrap_or(settings.max_triangles),
+            max_memory: self.mesh.memory()?.unwrap_or(settings.max_memory),
+            ..settings
+        })
+    }
+}

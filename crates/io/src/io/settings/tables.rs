@@ -1,0 +1,287 @@
+//! The tables of settings as texts have them.
+
+use std::path::PathBuf;
+
+use serde::de::{Deserializer, Error, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::{SavedName, SavedRule, SavedUnit};
+use crate::io::layers::{SavedLayer, SavedPolygon};
+use meshbrush_mesh::mesh::KeptParts;
+
+/// All tables. `L` is a layer, with what says where its data are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table", bound(deserialize = "L: Deserialize<'de>"))]
+pub struct SavedSettings<L = SavedLayer> {
+    /// Ω and how the mesh meets its boundary.
+    pub domain: SavedDomain,
+    /// The coarse grid, the rule and what the mesh may cost.
+    pub mesh: SavedMesh,
+    /// Bounds of h̄.
+    pub limits: SavedLimits,
+    /// The size field, from the bottom layer to the top one.
+    pub layer: Vec<L>,
+    /// Between which places paths are sought, and what they cost.
+    #[serde(skip_serializing_if = "is_usual")]
+    pub paths: SavedPaths,
+    /// Regions that paths stay out of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub keep_out: Vec<SavedKeepOut>,
+    /// Points whose triangles and values the window follows.
+    #[serde(skip_serializing_if = "is_usual")]
+    pub pins: SavedPins,
+    /// Files to write.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub output: Vec<SavedOutput>,
+}
+
+impl<L> Default for SavedSettings<L> {
+    fn default() -> Self {
+        Self {
+            domain: SavedDomain::default(),
+            mesh: SavedMesh::default(),
+            limits: SavedLimits::default(),
+            layer: Vec::new(),
+            paths: SavedPaths::default(),
+            keep_out: Vec::new(),
+            pins: SavedPins::default(),
+            output: Vec::new(),
+        }
+    }
+}
+
+fn is_usual<T: Default + PartialEq>(table: &T) -> bool {
+    *table == T::default()
+}
+
+/// `[domain]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedDomain {
+    /// What the coarse grid covers: x₀, y₀, x₁, y₁.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<[f64; 4]>,
+    /// The domain is where this formula is not 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inside: Option<String>,
+    /// The domain is what the polygons of this file cover.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub region: Option<PathBuf>,
+    /// The unit of coordinates and lengths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<SavedUnit>,
+    /// How the mesh meets the outline of a region.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub boundary: Option<SavedTreatment>,
+    /// Largest diameter of a triangle on the outline.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub boundary_diameter: Option<f64>,
+    /// The parts of the mesh that stay.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<SavedParts>,
+    /// Whether pinches stay.
+    #[serde(skip_serializing_if = "is_no")]
+    pub keep_pinches: bool,
+    /// Where the boundary is split.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub splits: Vec<[f64; 2]>,
+    /// Names of pieces of the boundary.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<SavedName>,
+}
+
+/// `[mesh]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedMesh {
+    /// Longest side of a coarse cell.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacing: Option<f64>,
+    /// Which points of a triangle count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<SavedRule>,
+    /// Most triangles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_triangles: Option<usize>,
+    /// Deepest level.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_level: Option<u32>,
+    /// Most memory, as in `"2GB"`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_memory: Option<String>,
+}
+
+/// `[limits]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedLimits {
+    /// Smallest target diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_min: Option<f64>,
+    /// Largest target diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_max: Option<f64>,
+    /// The exponent of the curve from risk to diameter.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<f64>,
+    /// How fast h̄ may change with the distance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gradation: Option<f64>,
+}
+
+/// `[paths]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedPaths {
+    /// x and y of each place of each path, in world units, from the start to the goal.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub routes: Vec<Vec<[f64; 2]>>,
+    /// Cost per unit of length, without risk.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_weight: Option<f64>,
+    /// Cost per unit of length where the risk is 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub risk_weight: Option<f64>,
+    /// A formula of x, y and the risk in place of the weights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cost: Option<String>,
+}
+
+/// `[[keep_out]]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedKeepOut {
+    /// What a person calls it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// What it covers, in world units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub polygons: Option<Vec<SavedPolygon>>,
+    /// A file with the polygons, in their place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+}
+
+/// `[pins]`
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default, expecting = "a table")]
+pub struct SavedPins {
+    /// x and y of each, in world units.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at: Vec<[f64; 2]>,
+}
+
+/// `[[output]]`
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
+pub struct SavedOutput {
+    /// The file, whose ending decides the format.
+    pub file: PathBuf,
+    /// Whether a format that is text otherwise is written in its binary form.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub binary: bool,
+    /// Further values at the nodes, as in `"depth = 20 - x"`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub quantities: Vec<String>,
+    /// Width, or width and height, of a picture in pixels, as in `"1600x900"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<String>,
+    /// Whether a picture shows the edges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub edges: Option<bool>,
+    /// Colours of the levels in a picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub colormap: Option<String>,
+    /// Whether the background of a picture is light.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub light: Option<bool>,
+}
+
+/// The boundary treatments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedTreatment {
+    /// As in the report.
+    Report,
+    /// Refined along the outline.
+    Fitted,
+    /// With nodes on the outline.
+    Outline,
+}
+
+/// The parts of the mesh that stay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SavedParts {
+    /// `"all"`
+    All,
+    /// `"largest"`
+    Largest,
+    /// A share of the area.
+    Share(f64),
+}
+
+impl From<KeptParts> for SavedParts {
+    fn from(parts: KeptParts) -> Self {
+        match parts {
+            KeptParts::All => Self::All,
+            KeptParts::Largest => Self::Largest,
+            KeptParts::Share(share) => Self::Share(share),
+        }
+    }
+}
+
+impl From<SavedParts> for KeptParts {
+    fn from(saved: SavedParts) -> Self {
+        match saved {
+            SavedParts::All => Self::All,
+            SavedParts::Largest => Self::Largest,
+            SavedParts::Share(share) => Self::Share(share),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for SavedParts {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(PartsVisitor)
+    }
+}
+
+impl Serialize for SavedParts {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Self::All => to.serialize_str("all"),
+            Self::Largest => to.serialize_str("largest"),
+            Self::Share(share) => to.serialize_f64(share),
+        }
+    }
+}
+
+fn is_no(value: &bool) -> bool {
+    !value
+}
+
+struct PartsVisitor;
+
+impl Visitor<'_> for PartsVisitor {
+    type Value = SavedParts;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("\"largest\", \"all\" or a share of the area such as 0.01")
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<SavedParts, E> {
+        match word {
+            "all" => Ok(SavedParts::All),
+            "largest" => Ok(SavedParts::Largest),
+            _ => Err(E::unknown_variant(word, &["largest", "all"])),
+        }
+    }
+
+    fn visit_f64<E: Error>(self, share: f64) -> Result<SavedParts, E> {
+        Ok(SavedParts::Share(share))
+    }
+
+    fn visit_i64<E: Error>(self, share: i64) -> Result<SavedParts, E> {
+        Ok(SavedParts::Share(share as f64))
+    }
+}

@@ -1,0 +1,111 @@
+//! Words of several tables: units, refinement rules and names of the boundary.
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_core::field::RefinementRule;
+use meshbrush_mesh::text::LengthUnit;
+
+/// The units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SavedUnit {
+    /// Plain numbers.
+    #[default]
+    #[serde(rename = "none")]
+    None,
+    /// Metres.
+    #[serde(rename = "m")]
+    Metre,
+    /// Kilometres.
+    #[serde(rename = "km")]
+    Kilometre,
+    /// Degrees of longitude and latitude.
+    #[serde(rename = "degrees")]
+    Degree,
+}
+
+impl SavedUnit {
+    /// Returns whether numbers have no unit.
+    pub fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+}
+
+impl From<LengthUnit> for SavedUnit {
+    fn from(unit: LengthUnit) -> Self {
+        match unit {
+            LengthUnit::None => Self::None,
+            LengthUnit::Metre => Self::Metre,
+            LengthUnit::Kilometre => Self::Kilometre,
+            LengthUnit::Degree => Self::Degree,
+        }
+    }
+}
+
+impl From<SavedUnit> for LengthUnit {
+    fn from(saved: SavedUnit) -> Self {
+        match saved {
+            SavedUnit::None => Self::None,
+            SavedUnit::Metre => Self::Metre,
+            SavedUnit::Kilometre => Self::Kilometre,
+            SavedUnit::Degree => Self::Degree,
+        }
+    }
+}
+
+/// The refinement rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedRule {
+    /// The three vertices.
+    Vertex,
+    /// The whole triangle.
+    Area,
+}
+
+impl From<RefinementRule> for SavedRule {
+    fn from(rule: RefinementRule) -> Self {
+        match rule {
+            RefinementRule::Vertex => Self::Vertex,
+            RefinementRule::Area => Self::Area,
+        }
+    }
+}
+
+impl From<SavedRule> for RefinementRule {
+    fn from(saved: SavedRule) -> Self {
+        match saved {
+            SavedRule::Vertex => Self::Vertex,
+            SavedRule::Area => Self::Area,
+        }
+    }
+}
+
+/// A name of a piece of the boundary.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { at = [1, 2], name = \"harbour\" }")]
+pub struct SavedName {
+    /// A point of the piece, in world units.
+    pub at: [f64; 2],
+    /// The name.
+    pub name: String,
+}
+
+/// Returns the splits and the names of boundary marks as files have them.
+pub fn saved_marks(marks: &BoundaryMarks) -> (Vec<[f64; 2]>, Vec<SavedName>) {
+    let name = |(at, name): &(DVec2, String)| SavedName { at: at.to_array(), name: name.clone() };
+    (marks.splits.iter().map(DVec2::to_array).collect(), marks.names.iter().map(name).collect())
+}
+
+/// Boundary marks from a file. Names that are not valid are made so, and empty ones are left out.
+pub fn marks_of(splits: &[[f64; 2]], names: &[SavedName]) -> BoundaryMarks {
+    let name = |saved: &SavedName| {
+        let name = BoundaryMarks::valid_name(&saved.name);
+        (!name.is_empty()).then(|| (saved.at.into(), name))
+    };
+    BoundaryMarks {
+        splits: splits.iter().copied().map(DVec2::from).collect(),
+        names: names.iter().filter_map(name).collect(),
+    }
+}

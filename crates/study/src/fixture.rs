@@ -1,0 +1,31 @@
+//! Meshes for the tests of several files.
+
+use crate::build::{BuiltMesh, MeshBuilder, MeshSpec};
+use crate::domain::{BoundaryTreatment, Domain};
+use crate::field::{Formula, RefinementRule, Transfer};
+use crate::geometry::{Lattice, Rect};
+use crate::layers::{Layer, LayerKind, SizeFieldSpec};
+use crate::mesh::{Cleaning, Limits, Progress};
+
+/// Returns the unit square with a target diameter by a formula.
+pub fn built(target: &str, rule: RefinementRule, limits: Limits) -> BuiltMesh {
+    let domain = Domain::rectangle(Rect::UNIT);
+    let field = SizeFieldSpec {
+        layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
+        transfer: Transfer { h_min: 0.001, h_max: 1.0, shape: 1.0 },
+        unasked: 1.0,
+        outline: None,
+        gradation: None,
+    };
+    let mut builder = MeshBuilder::new(MeshSpec {
+        lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),
+        domain,
+        boundary: BoundaryTreatment::usual(0.1),
+        field,
+        rule,
+        cleaning: Cleaning::NONE,
+        limits,
+    });
+    while builder.advance(None, 10_000).unwrap() == Progress::More {}
+    builder.finish()
+}

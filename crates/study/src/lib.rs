@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+#![deny(unsafe_code)]
+
+use meshbrush_core::{build, document, domain, explain, field, layers, raster};
+use meshbrush_mesh::{geometry, mesh, text};
+
+pub mod plot;
+pub mod steps;
+pub mod levels;
+pub mod pixels;
+pub mod report;
+
+#[cfg(test)]
+mod fixture;

@@ -1,0 +1,63 @@
+//! Ways to other triangles in menus and in the palette.
+
+use eframe::egui::{Key, Modifiers};
+
+use super::{ExploreCommand, InspectCommand, TreeStep};
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
+
+/// To neighbours, and through the bisection tree.
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    neighbours(state).chain(trail(state)).chain(tree_steps(state)).collect()
+}
+
+/// The neighbours of the queried triangle. With the query tool they have the numbers on the canvas as keys.
+fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let titles = ["Go to the bisection neighbour", "Go to the second neighbour", "Go to the third neighbour"];
+    let has_keys = state.tools.tool.queries;
+    let is_queried = state.session.queried_triangle().is_some();
+    titles.into_iter().enumerate().map(move |(place, title)| {
+        let item =
+            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::QueryNeighbour(place)))
+                .enabled(is_queried);
+        let item = if has_keys { item.key(DIGITS[place]) } else { item };
+        if place == 0 { item.group() } else { item }
+    })
+}
+
+/// The same, with the triangles on the way kept in sight.
+fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let names = ["bisection", "second", "third"];
+    let has_keys = state.tools.tool.queries;
+    let is_queried = state.session.queried_triangle().is_some();
+    names.into_iter().enumerate().map(move |(place, name)| {
+        let title = format!("Follow the {name} neighbour and keep the trail");
+        let item =
+            CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::FollowNeighbour(place)))
+                .enabled(is_queried);
+        if has_keys { item.keys(Modifiers::SHIFT, DIGITS[place]) } else { item }
+    })
+}
+
+/// Steps in the bisection tree from the queried triangle. They have keys with the tool that explains it.
+fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let steps = [
+        ("Go to the parent triangle", TreeStep::Parent, Modifiers::NONE, Key::PageUp),
+        ("Go to the sibling", TreeStep::Sibling, Modifiers::SHIFT, Key::PageUp),
+        ("Go to the first half", TreeStep::Child(0), Modifiers::NONE, Key::PageDown),
+        ("Go to the second half", TreeStep::Child(1), Modifiers::SHIFT, Key::PageDown),
+        ("Go to the coarse triangle", TreeStep::Coarse, Modifiers::COMMAND, Key::PageUp),
+        ("Go back to the queried triangle", TreeStep::Queried, Modifiers::COMMAND, Key::PageDown),
+        ("Go towards the triangle that required it", TreeStep::PreviousLink, Modifiers::NONE, Key::Comma),
+        ("Go back along the chain", TreeStep::NextLink, Modifiers::NONE, Key::Period),
+    ];
+    let has_keys = state.tools.tool.queries;
+    let leads = steps
+        .map(|(_, step, ..)| state.features.inspection.explore.target(step, state.session.mesh()).is_some());
+    steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
+        let command = Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step)));
+        let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
+        let item = if has_keys { item.keys(modifiers, key) } else { item };
+        if place == 0 { item.group() } else { item }
+    })
+}

@@ -1,0 +1,160 @@
+//! The inspector: the queried point and the triangle around it.
+
+use eframe::egui::Ui;
+
+use super::text::{Inspection, LayerAnswer, NEIGHBOURS, Row};
+use crate::app::command::{Command, InspectCommand, PinsCommand, ShellCommand, ViewCommand};
+use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::readout::{Quantity, Readout, TriangleReadout};
+use crate::app::theme::tokens;
+use crate::app::view::CanvasAid;
+use crate::app::widgets::{
+    ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row, value_row,
+};
+use meshbrush_mesh::mesh::{Location, TriangleId};
+
+/// The queried triangle, its neighbours, and a quantity in it.
+pub static INSPECTOR: Panel =
+    Panel { name: "inspector", group: PanelGroup::Inspect, only_with_tool: false, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let inspection = state.readout.and_then(|readout| Inspection::of(readout, state.session, state.view));
+    let title = inspection.as_ref().map_or("Triangle".into(), Inspection::title);
+    let section = Section::new(&title).id("inspector").reveal(INSPECTOR.is_revealed(state));
+    let section = section.show(ui, |ui| match (state.readout, inspection) {
+        (Some(Readout { triangle: Some(triangle), .. }), Some(inspection)) => {
+            triangle_rows(ui, state, triangle, &inspection, commands)
+        }
+        (Some(readout), _) => {
+            no_triangle(ui, readout);
+            None
+        }
+        (None, _) => {
+            let text = "Click the mesh with the query tool (Q): triangle, neighbours and values appear here.";
+            empty_state(ui, Icon::QUERY, "No query yet", text);
+            None
+        }
+    });
+    let hovered = section.flatten();
+    if hovered != state.view.hovered_neighbour {
+        commands.push(Command::View(ViewCommand::HighlightNeighbour(hovered)));
+    }
+}
+
+/// Everything about a triangle. Returns the neighbour under the pointer.
+fn triangle_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    triangle: &TriangleReadout,
+    inspection: &Inspection<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<TriangleId> {
+    copied_rows(ui, &inspection.place_rows(), commands);
+    if ui.add(ActionButton::new("Pin")).clicked() {
+        commands.push(Command::Pins(PinsCommand::Pin));
+    }
+    let hovered = neighbour_chips(ui, triangle, inspection, commands);
+    let mut quantity = state.view.quantity;
+    let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
+    if segmented(ui, "Quantity", &mut quantity, &choices).changed() {
+        commands.push(Command::Inspect(InspectCommand::Interpolate(quantity)));
+    }
+    copied_rows(ui, &inspection.quantity_rows(), commands);
+    ui.add_space(4.0);
+    layer_rows(ui, inspection, commands);
+    ui.add_space(4.0);
+    copied_rows(ui, &inspection.corner_rows(), commands);
+    walk_rows(ui, state, commands);
+    hovered
+}
+
+/// How many steps point location took, beside their mean and their bound.
+fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(readout) = state.readout else { return };
+    if state.features.inspection.walks.is_due(state.session) {
+        // It is measured only while it is shown.
+        commands.push(Command::Inspect(InspectCommand::MeasureWalks));
+    }
+    let mesh = state.session.mesh();
+    let steps = mesh.walk_path(readout.point).len().saturating_sub(1);
+    let steps = if steps == 1 { "1 step".into() } else { format!("{} steps", format::count(steps as u64)) };
+    let mean =
+        state.features.inspection.walks.mean_steps().map_or("…".into(), |mean| format::fixed(mean, 1));
+    let bound = format::count(mesh.walk_bound() as u64);
+    value_row(ui, "Walk", &format!("{steps} (mean {mean}, bound {bound})"));
+    let mut shown = state.view.aids.walk;
+    if toggle_row(ui, "Show the walk", &mut shown).changed() {
+        commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Walk)));
+    }
+}
+
+/// Shows the target diameter of each visible layer at the point, and marks the layer that decides.
+fn layer_rows(ui: &mut Ui, inspection: &Inspection<'_>, commands: &mut Vec<Command>) {
+    copied_rows(ui, &inspection.decision_rows(), commands);
+    for (number, LayerAnswer { row, decides }) in inspection.layer_answers().iter().enumerate() {
+        ui.push_id(number, |ui| {
+            let value = ValueRow::new(&row.label, &row.shown).stands_out(*decides).copies(&row.exact);
+            if value.help(LAYER_HELP).show(ui).clicked() {
+                commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
+            }
+        });
+    }
+}
+
+const LAYER_HELP: &str = "What this layer alone asks for at the point, before the layers are combined.";
+
+/// Rows that a click copies, in full.
+fn copied_rows(ui: &mut Ui, rows: &[Row], commands: &mut Vec<Command>) {
+    for row in rows {
+        let help = if row.label.starts_with('v') { VERTEX_HELP } else { "" };
+        if ValueRow::new(&row.label, &row.shown).help(help).copies(&row.exact).show(ui).clicked() {
+            commands.push(Command::Shell(ShellCommand::Copy(row.exact.clone())));
+        }
+    }
+}
+
+/// Shows the three neighbours as chips in their colours on the canvas; a click queries one. Returns the one
+/// under the pointer.
+fn neighbour_chips(
+    ui: &mut Ui,
+    triangle: &TriangleReadout,
+    inspection: &Inspection<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<TriangleId> {
+    let colors = tokens(ui).neighbours;
+    ui.add_space(4.0);
+    let mut hovered = None;
+    chips(ui, |ui| {
+        for (i, neighbour) in triangle.neighbours.iter().enumerate() {
+            let id = neighbour.triangle();
+            let text = id.map_or("edge".into(), |id| inspection.number(id.index()));
+            let chip = Chip::new(colors[i], &text, NEIGHBOURS[i]).number(i + 1).help(NEIGHBOUR_HELP[i]);
+            let response = chip.enabled(id.is_some()).show(ui);
+            if response.clicked() {
+                let follows = ui.input(|input| input.modifiers.shift);
+                let follow = Some(Command::Inspect(InspectCommand::FollowNeighbour(i))).filter(|_| follows);
+                commands.extend(follow.or(id.map(|id| Command::Inspect(InspectCommand::QueryTriangle(id)))));
+            }
+            hovered = id.filter(|_| response.hovered()).or(hovered);
+        }
+    });
+    ui.add_space(4.0);
+    hovered
+}
+
+const VERTEX_HELP: &str = "A vertex with its number in files, and its x and y in the unit of the document.";
+
+const NEIGHBOUR_HELP: [&str; 3] = [
+    "The neighbour across the bisection edge. With the query tool, key 1 goes there; Shift keeps the trail.",
+    "The second neighbour, anticlockwise. With the query tool, key 2 goes there; Shift keeps the trail.",
+    "The third neighbour, anticlockwise. With the query tool, key 3 goes there; Shift keeps the trail.",
+];
+
+fn no_triangle(ui: &mut Ui, readout: &Readout) {
+    let text = match readout.location {
+        Location::OutsideDomain => "The point lies in a hole of the domain, or beyond its outline.",
+        Location::Invalid => "The point is not a number.",
+        _ => "The point lies outside the domain.",
+    };
+    empty_state(ui, Icon::QUERY, "No triangle here", text);
+}

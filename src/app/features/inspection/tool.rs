@@ -1,0 +1,41 @@
+//! The query tool.
+
+use eframe::egui::Key;
+
+use super::{INSPECTOR, WHY};
+use crate::app::command::{Command, InspectCommand, PinsCommand};
+use crate::app::kit::{SettingsDrag, ToolSpec};
+use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Icon;
+
+/// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
+pub static QUERY: ToolSpec = ToolSpec {
+    panels: &[INSPECTOR.name, WHY.name, "pins"],
+    hint: |_| HINT,
+    queries: true,
+    menu: |state, _| {
+        let triangle = state.readout.and_then(|readout| readout.triangle.as_ref());
+        let copy = Command::Inspect(InspectCommand::CopyReadout);
+        triangle.map(|_| ("Copy the values of the triangle", copy)).into_iter().collect()
+    },
+    press: |press, pointer, commands| {
+        let at = pointer.world(press.at);
+        commands.push(Command::Pins(PinsCommand::Press { at, reach: pointer.grip_reach() }));
+        Some(Box::new(SettingsDrag::new(press.at, |at| Command::Pins(PinsCommand::DragTo(at)))))
+    },
+    ..ToolSpec::new("Query", Key::Q, Icon::QUERY)
+};
+
+const HINT: &[Hint] = &[
+    Text("Click a triangle to inspect it"),
+    HintKey("Shift+P"),
+    Text("pin"),
+    HintKey("1"),
+    HintKey("2"),
+    HintKey("3"),
+    Text("neighbours"),
+    HintKey("Ctrl+C"),
+    Text("copy values"),
+    HintKey("Esc"),
+    Text("deselect"),
+];

@@ -1,0 +1,29 @@
+//! What can be done while steps are shown.
+
+use std::path::PathBuf;
+
+use meshbrush_study::report::ReportFigure;
+
+/// One thing to do in this mode.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepCommand {
+    /// Begins to step through the refinement: before the first step, or at the one that a figure of the
+    /// report shows.
+    Begin(Option<ReportFigure>),
+    /// Shows the mesh of the document again.
+    Leave,
+    /// Goes to where so many steps are done.
+    GoTo(usize),
+    /// Goes so many steps forwards, or backwards.
+    Move(isize),
+    /// Begins or ends to go forwards by itself.
+    TogglePlay,
+    /// Sets how many steps it goes in a second.
+    Speed(f64),
+    /// Sets the first and the last step to be exported.
+    ExportRange(usize, usize),
+    /// Writes the chosen steps, and asks before other files are replaced.
+    ExportAs(PathBuf),
+    /// Writes the chosen steps, each to a file with its number.
+    Export(PathBuf),
+}

@@ -1,0 +1,32 @@
+//! Entries of the menu View about stepping through the refinement.
+
+use eframe::egui::{Key, Modifiers};
+
+use super::StepCommand;
+use super::files::EXPORT_STEPS;
+use crate::app::command::{Command, FileCommand};
+use crate::app::kit::{CatalogItem, FrameState, Menu};
+
+/// How to begin; and once begun, how to move.
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Steps(command));
+    let title = "Step through the refinement";
+    let Some(steps) = state.features.stepping.steps() else {
+        return vec![item(title, StepCommand::Begin(None)).key(Key::F10).group()];
+    };
+    let (position, count) = steps.player().map_or((0, 0), |player| (player.position(), player.len()));
+    let play = if steps.is_playing() { "Pause the steps" } else { "Play the steps" };
+    vec![
+        item(title, StepCommand::Leave).key(Key::F10).checked(true).group(),
+        item("Next step", StepCommand::Move(1)).key(Key::ArrowRight).enabled(position < count),
+        item("Previous step", StepCommand::Move(-1)).key(Key::ArrowLeft).enabled(position > 0),
+        item("Last step", StepCommand::GoTo(count))
+            .keys(Modifiers::SHIFT, Key::ArrowRight)
+            .enabled(position < count),
+        item("First step", StepCommand::GoTo(0)).keys(Modifiers::SHIFT, Key::ArrowLeft).enabled(position > 0),
+        item(play, StepCommand::TogglePlay).key(Key::Space).enabled(count > 0),
+        CatalogItem::new(Menu::View, "Export steps as SVG…", Command::File(FileCommand::Ask(&EXPORT_STEPS)))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
+            .enabled(count > 0),
+    ]
+}

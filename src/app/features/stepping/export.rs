@@ -1,0 +1,126 @@
+//! Steps as numbered drawings.
+
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use super::Steps;
+use crate::app::background::{Aim, Background, Outcome, not_exported};
+use crate::app::files::listed;
+use crate::app::session::Session;
+use crate::app::view::View;
+use crate::app::widgets::format;
+use meshbrush_io::io;
+use meshbrush_render::colormap::Ground;
+use meshbrush_study::steps::svg as steps;
+
+/// Most steps that are exported at once.
+pub const MOST_FILES: usize = 500;
+/// Letters on a dark and on a light ground.
+const ON_DARK: [u8; 3] = [0xe8; 3];
+const ON_LIGHT: [u8; 3] = [0x20; 3];
+
+impl Steps {
+    /// Returns the first and the last step to be exported.
+    pub fn export_range(&self) -> RangeInclusive<usize> {
+        let last = self.player().map_or(0, |player| player.len());
+        let [from, to] = self.export_range;
+        from.min(last)..=to.min(last)
+    }
+
+    /// Sets the first and the last step to be exported.
+    pub fn set_export_range(&mut self, first: usize, last: usize) {
+        self.export_range = [first, last];
+    }
+
+    /// Returns the files of the steps to be exported.
+    ///
+    /// # Errors
+    /// Fails with a sentence when there are too many of them, or none.
+    pub fn files(&self, path: &Path) -> Result<Vec<PathBuf>, String> {
+        let range = self.export_range();
+        let count = range.clone().count();
+        if count == 0 {
+            return Err("No step was exported: the first one comes after the last one.".into());
+        }
+        if count > MOST_FILES {
+            return Err(format!(
+                "{} steps are too many: at most {MOST_FILES} are exported at once. Choose fewer.",
+                format::count(count as u64)
+            ));
+        }
+        let last = self.player().map_or(0, |player| player.len());
+        Ok(range.map(|position| steps::numbered(path, position, last)).collect())
+    }
+
+    /// Writes the drawings on another thread.
+    ///
+    /// # Errors
+    /// Fails with a sentence when they cannot be written.
+    pub fn export(
+        &self,
+        path: &Path,
+        session: &Session,
+        view: &View,
+        background: &mut Background,
+    ) -> Result<(), String> {
+        let files = self.files(path)?;
+        let blocked = |file: &PathBuf| {
+            Some(format!("{} could not be written: {}.", file.display(), io::obstacle(file)?))
+        };
+        if let Some(problem) = files.iter().find_map(blocked) {
+            return Err(problem);
+        }
+        let Some(mut player) = self.player().cloned() else { return Ok(()) };
+        let colors = view.level_colors(session.follower().settings());
+        let (range, ground, path) = (self.export_range(), view.ground, path.to_owned());
+        background.start(Aim::Export, &path.clone(), move |meter| {
+            let [across, waiting, relinked] = Ground::ON_LEVELS;
+            let colors = steps::StepColors {
+                levels: colors.as_table(),
+                background: ground.canvas(),
+                text: if ground == Ground::Dark { ON_DARK } else { ON_LIGHT },
+                parts: [waiting, relinked, across],
+            };
+            let mut written = Written::default();
+            for (position, file) in range.zip(&files) {
+                player.go_to(position);
+                let (mut drawing, is_new) = (Vec::new(), !io::exists(file));
+                let drawn = steps::write(&mut drawing, &player, &colors)
+                    .and_then(|()| io::write_file_metered(file, meter, |out| out.write_all(&drawing)));
+                match drawn {
+                    Ok(()) => _ = meter.add(drawing.len() as u64),
+                    Err(error) => return written.take_back(not_exported(&error, meter, file)),
+                }
+                if is_new { &mut written.new } else { &mut written.replaced }.push(file.clone());
+            }
+            let count = format::count(files.len() as u64);
+            Outcome::Exported(format!("{count} steps written to {}.", listed(&files)))
+        });
+        Ok(())
+    }
+}
+
+/// The drawings that are written so far.
+#[derive(Default)]
+struct Written {
+    new: Vec<PathBuf>,
+    /// Those in place of other files.
+    replaced: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Removes the new ones, because the export did not come to its end, and says what cannot be taken back.
+    fn take_back(self, outcome: Outcome) -> Outcome {
+        io::remove_new(&self.new);
+        let remains = match &self.replaced[..] {
+            [] => return outcome,
+            [file] => format!("{} was replaced before that.", file.display()),
+            files => format!("{} files were replaced before that: {}.", files.len(), listed(files)),
+        };
+        match outcome {
+            Outcome::NotWritten(problem) => Outcome::NotWritten(format!("{problem} {remains}")),
+            Outcome::Exported(_) => Outcome::Exported(format!("Writing the steps was cancelled. {remains}")),
+            other => other,
+        }
+    }
+}

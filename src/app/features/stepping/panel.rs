@@ -1,0 +1,134 @@
+//! The panel of a step: its data, the rows that it changes and the lines that it runs.
+
+use eframe::egui::{Align, Layout, RichText, Ui};
+
+use super::steps::MOST_TRIANGLES;
+use super::{StepCommand, code, panel_export, rows};
+use crate::app::command::Command;
+use crate::app::kit::FrameState;
+use crate::app::theme::{font, tokens};
+use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips};
+use meshbrush_mesh::mesh::bisection_edge_length;
+use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer};
+
+/// Width of the panel, in points: a line of pseudo-code fits.
+pub const WIDTH: f32 = 470.0;
+
+/// Draws what is known of the step that is shown: its data, the rows that it changes and the lines that it
+/// runs.
+pub fn contents(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(steps) = state.features.stepping.steps() else { return };
+    match steps.player() {
+        Some(player) => {
+            step(ui, player, state);
+            panel_export::section(ui, steps, player.len(), commands);
+        }
+        None => drop(ui.label("The steps are being recorded…")),
+    }
+}
+
+/// Draws the title with the button that leaves the mode.
+pub fn title(ui: &mut Ui, commands: &mut Vec<Command>) {
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        let title = RichText::new("Step through the refinement").font(font::strong());
+        ui.label(title.color(tokens(ui).value));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let leave = ui.add(ActionButton::new("Leave").named("Leave the steps"));
+            if tips::explain(ui, leave, tips::sentence("Leave the steps")).clicked() {
+                commands.push(Command::Steps(StepCommand::Leave));
+            }
+        });
+    });
+    ui.add_space(6.0);
+}
+
+fn step(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
+    ui.label(RichText::new(sentence(player)).size(15.0).color(tokens(ui).value));
+    ui.add_space(6.0);
+    Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
+    if let Some(step) = player.step() {
+        let (algorithm, lines) = step.lines();
+        let title = format!("Algorithm {}", algorithm.number());
+        let section = Section::new(&title).note(algorithm.name()).id("algorithm of the step");
+        section.show(ui, |ui| code::lines(ui, algorithm, lines));
+    }
+    Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
+}
+
+/// Describes the step in a sentence.
+fn sentence(player: &StepPlayer) -> String {
+    let at_end = player.position() == player.len();
+    match player.step() {
+        None => "The coarse grid, before the first step.".into(),
+        Some(step) if at_end && player.recording().is_cut_short => {
+            let limit = format::count(MOST_TRIANGLES as u64);
+            format!("{} The mesh has more than {limit} triangles: the steps end here.", step.sentence())
+        }
+        Some(step) => step.sentence(),
+    }
+}
+
+fn triangle_rows(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
+    // Everything about a step is in sight in a window of the usual height.
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let stack = player.stack_in_words();
+    if let Some(step) = player.step().filter(|step| step.action != StepAction::Finish) {
+        let spacing = player.recording().lattice.spacing();
+        let length = format::length(bisection_edge_length(spacing, step.level.into()), state.unit());
+        let number = match step.visited == step.triangle {
+            true => step.triangle.to_string(),
+            false => format!("{}, for triangle {}", step.triangle, step.visited),
+        };
+        row(ui, "Triangle i", &number, TRIANGLE);
+        let level = format!("{}  ·  ℓ_b = {length}", step.level);
+        row(
+            ui,
+            "L(t_i)",
+            &level,
+            "The level of triangle i before it is bisected, and the length of its longest edge.",
+        );
+        row(ui, "k(t_i), O(t_i)", &format!("{}, {}", step.k, step.orientation), K_AND_O);
+        let across = step.across.map_or("the boundary".into(), |across| across.to_string());
+        row(ui, "i_b", &across, "What lies across the bisection edge of triangle i.");
+        row(ui, "Case", &case(step), "How the neighbours of the halves are found; it follows from k and O.");
+    }
+    row(
+        ui,
+        "Stack S_b",
+        &stack,
+        "Triangles that wait until what lies across their bisection edge is bisected; the top is last.",
+    );
+    let counts = format!(
+        "{}, {}",
+        format::count(player.rows().len() as u64),
+        format::count(player.nodes().len() as u64)
+    );
+    row(ui, "N_t, N_x", &counts, "How many triangles and nodes there are after the step.");
+}
+
+const TRIANGLE: &str =
+    "The triangle that the step is about, and the one that RefineMesh, Algorithm 12, visits meanwhile.";
+const K_AND_O: &str = "k says which vertices end the bisection edge, the first and the one with number k + 1; O is 1 \
+                       where the vertices run anticlockwise. Both are those before the triangle is bisected.";
+
+fn row(ui: &mut Ui, label: &str, value: &str, help: &str) {
+    ValueRow::new(label, value).help(help).show(ui);
+}
+
+/// (k, O, O_b) with the routine that it chooses.
+fn case(step: &Step) -> String {
+    let is_known = matches!(
+        step.action,
+        StepAction::Divisible | StepAction::Bisect | StepAction::Pop | StepAction::UpdateNeighbours(_)
+    );
+    if !is_known {
+        return "–".into();
+    }
+    let routine = NeighbourCase::of(step.k, step.orientation, step.orientation_across);
+    let name = routine.algorithm().name();
+    match step.orientation_across {
+        Some(across) => format!("({}, {}, {across}): {name}", step.k, step.orientation),
+        None => format!("({}, {}): {name}", step.k, step.orientation),
+    }
+}

@@ -1,0 +1,240 @@
+//! Steps through the refinement.
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::StepCommand;
+use super::export::MOST_FILES;
+use super::steps::MOST_TRIANGLES;
+use crate::app::command::{Command, FileCommand};
+use crate::app::tests::pictures::drawn_window;
+use crate::app::tests::{
+    CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles,
+    wait_until, window,
+};
+use crate::app::tools::{BRUSH, PAN};
+use meshbrush_core::document::Setting;
+use meshbrush_mesh::mesh::fingerprint_of;
+use meshbrush_study::steps::{StepAction, StepPlayer};
+
+fn player(window: &Window) -> &StepPlayer {
+    window.state().stepping().expect("the mode is on").player().expect("the steps are recorded")
+}
+
+fn begin(window: &mut Window) {
+    key(window, Modifiers::NONE, Key::F10);
+    wait_until(window, |window| window.state().stepping().is_none_or(|stepping| stepping.player().is_some()));
+}
+
+fn press_button(window: &mut Window, name: &str) {
+    window.get_by_role_and_label(Role::Button, name).click();
+    window.run();
+}
+
+/// A document with few triangles.
+fn coarse(window: &mut Window) {
+    set(window, Setting::SmallestDiameter(0.06));
+    set(window, Setting::Spacing(0.25));
+}
+
+#[test]
+fn the_last_step_has_the_mesh_of_the_document_and_escape_shows_it_again() {
+    let mut window = window();
+    coarse(&mut window);
+    let (before, history) = (fingerprint(&window), entries(&window));
+    begin(&mut window);
+    assert!(window.query_by_label("The coarse grid, before the first step.").is_some());
+    assert!(window.query_by_role_and_label(Role::Button, "Layers").is_none(), "the panel makes room");
+    let coarse = player(&window).rows().to_vec();
+    press_button(&mut window, "Last step");
+    let shown = player(&window);
+    assert_eq!(shown.position(), shown.len());
+    assert!(!shown.recording().is_cut_short && shown.rows().len() > coarse.len());
+    let corners = (1..=shown.rows().len() as u32).map(|number| shown.corners(number));
+    assert_eq!(fingerprint_of(corners), before);
+    assert!(window.query_by_label("No triangle exceeds its target.").is_some());
+    press_button(&mut window, "First step");
+    assert!(player(&window).rows() == coarse);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().stepping().is_none());
+    assert!(window.query_by_role_and_label(Role::Button, "Layers").is_some());
+    assert_eq!((fingerprint(&window), entries(&window)), (before, history));
+}
+
+#[test]
+fn arrows_go_from_step_to_step_and_the_panel_says_what_happens() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    let mut seen = Vec::new();
+    for position in 1..60 {
+        key(&mut window, Modifiers::NONE, Key::ArrowRight);
+        let shown = player(&window);
+        assert_eq!(shown.position(), position);
+        let step = *shown.step().unwrap();
+        let count = shown.len();
+        assert!(window.query_by_label(&step.sentence()).is_some());
+        let of = crate::app::widgets::format::count(count as u64);
+        assert!(window.query_by_label(&format!("Step {position} of {of}")).is_some());
+        let (algorithm, lines) = step.lines();
+        let line = lines.start;
+        let current = format!("Current line {line}: {}", algorithm.lines()[line - 1]);
+        assert!(window.query_by_label(&current).is_some(), "{current}");
+        if let Some(change) = player(&window).changes().first() {
+            let row = format!("T[{}]: ", change.number);
+            assert!(window.query_by_label_contains(&row).is_some(), "{row}");
+        }
+        seen.push(std::mem::discriminant(&step.action));
+    }
+    let bisects = std::mem::discriminant(&StepAction::Bisect);
+    assert!(seen.contains(&bisects));
+    key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(player(&window).position(), 58);
+    key(&mut window, Modifiers::SHIFT, Key::ArrowRight);
+    assert_eq!(player(&window).position(), player(&window).len());
+    key(&mut window, Modifiers::SHIFT, Key::ArrowLeft);
+    assert_eq!(player(&window).position(), 0);
+}
+
+#[test]
+fn it_goes_forwards_by_itself_and_stops_when_asked() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    send(&mut window, Command::Steps(StepCommand::Speed(10.0)));
+    key(&mut window, Modifiers::NONE, Key::Space);
+    assert!(window.state().stepping().unwrap().is_playing());
+    window.run_steps(20);
+    let position = player(&window).position();
+    assert!(position > 2, "{position}");
+    press_button(&mut window, "Pause the steps");
+    let position = player(&window).position();
+    window.run_steps(20);
+    assert_eq!(player(&window).position(), position);
+}
+
+#[test]
+fn the_slider_goes_to_any_step() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    let slider = window.get_by_role_and_label(Role::Slider, "Step").rect();
+    window.drag_at(slider.left_center() + vec2(8.0, 0.0));
+    window.run();
+    window.drop_at(slider.center());
+    window.run();
+    let (position, count) = (player(&window).position(), player(&window).len());
+    assert!(position > count / 3 && position < 2 * count / 3, "{position} of {count}");
+}
+
+#[test]
+fn the_pointer_does_not_paint_and_an_edit_ends_the_mode() {
+    let mut window = window();
+    coarse(&mut window);
+    let history = entries(&window);
+    begin(&mut window);
+    click(&mut window, FREE, Modifiers::NONE);
+    assert_eq!(entries(&window), history);
+    assert!(window.state().stepping().is_some());
+    assert_eq!(window.state().tools().tool, &PAN);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(window.state().stepping().is_none());
+    assert!(notice(&window).contains("was edited"), "{}", notice(&window));
+    assert_eq!(window.state().tools().tool, &BRUSH, "the tool that was selected before");
+    begin(&mut window);
+    key(&mut window, Modifiers::NONE, Key::B);
+    assert!(window.state().stepping().is_none(), "a tool acts on the mesh of the document");
+}
+
+#[test]
+fn a_large_mesh_is_shown_up_to_a_limit() {
+    let mut window = window();
+    set(&mut window, Setting::Spacing(0.02));
+    assert!(triangles(&window) > MOST_TRIANGLES);
+    begin(&mut window);
+    press_button(&mut window, "Last step");
+    let shown = player(&window).rows().len();
+    assert!((MOST_TRIANGLES..MOST_TRIANGLES + 100).contains(&shown), "{shown}");
+    assert!(window.query_by_label_contains("the steps end here").is_some());
+    set(&mut window, Setting::Spacing(0.005));
+    begin(&mut window);
+    assert!(window.state().stepping().is_none());
+    assert!(notice(&window).contains("larger grid spacing"), "{}", notice(&window));
+}
+
+#[test]
+fn the_step_is_seen_on_the_canvas() {
+    let mut window = drawn_window();
+    coarse(&mut window);
+    begin(&mut window);
+    let steps = player(&window).recording().steps();
+    let updates =
+        |step: &meshbrush_study::steps::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
+    let deep = steps.iter().position(|step| updates(step) && step.level >= 3).unwrap();
+    send(&mut window, Command::Steps(StepCommand::GoTo(deep + 1)));
+    let image = window.render().unwrap();
+    if let Some(path) = std::env::var_os("MESHBRUSH_STEP_PICTURE") {
+        image.save(path).unwrap();
+    }
+    let at = on_screen(&window, dvec2(0.999, 0.999));
+    let [r, g, b, _] = image.get_pixel(at.x as u32, at.y as u32).0;
+    assert!(r.max(g).max(b) > 30, "the mesh covers the domain: {r} {g} {b}");
+}
+
+#[test]
+fn chosen_steps_are_written_as_numbered_drawings() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    let folder = crate::app::tests::folder("app-steps", "drawings");
+    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 6)));
+    key(&mut window, CTRL_SHIFT, Key::E);
+    let path = folder.join("lesson.svg");
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    window.event(Event::Text(path.display().to_string()));
+    window.run();
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| notice(window).contains("4 steps written"));
+    let files = || std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut names: Vec<_> = files().map(|name| name.into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["lesson-0003.svg", "lesson-0004.svg", "lesson-0005.svg", "lesson-0006.svg"]);
+    let drawing = std::fs::read_to_string(folder.join(&names[1])).unwrap();
+    assert!(drawing.contains(&format!("Step 4 of {}", player(&window).len())));
+    send(&mut window, Command::Steps(StepCommand::ExportAs(path.clone())));
+    assert!(window.query_by_label("Replace 4 files?").is_some());
+    press_button(&mut window, "Replace");
+    // The message of the first export is still shown.
+    wait_until(&mut window, |window| window.state().background.rows(true).is_empty());
+    assert!(notice(&window).contains("4 steps written"));
+    send(&mut window, Command::Steps(StepCommand::ExportRange(0, 100_000)));
+    if player(&window).len() > MOST_FILES {
+        send(&mut window, Command::Steps(StepCommand::ExportAs(path)));
+        assert!(notice(&window).contains("at most 500"), "{}", notice(&window));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cancelled_export_of_steps_removes_what_it_wrote_and_says_what_it_replaced() {
+    let folder = crate::app::tests::folder("app-steps", "cancelled");
+    let [first, second, last] = [3, 4, 5].map(|step| folder.join(format!("lesson-000{step}.svg")));
+    std::fs::write(&second, "former").unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(&last).status().unwrap().success());
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    send(&mut window, Command::Steps(StepCommand::ExportRange(3, 5)));
+    send(&mut window, Command::Steps(StepCommand::Export(folder.join("lesson.svg"))));
+    let replaced = || std::fs::read_to_string(&second).unwrap().starts_with("<svg");
+    wait_until(&mut window, |_| replaced());
+    // The last drawing waits for somebody who reads it.
+    let work = window.state().background.rows(true)[0].id;
+    send(&mut window, Command::File(FileCommand::CancelWork(work)));
+    std::fs::read(&last).unwrap();
+    wait_until(&mut window, |window| notice(window).contains("lesson-0004.svg"));
+    assert!(notice(&window).contains("was replaced before that"), "{}", notice(&window));
+    assert!(!first.exists() && replaced());
+}

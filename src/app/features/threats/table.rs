@@ -1,0 +1,45 @@
+//! Tables of threats, read and written.
+
+use std::path::Path;
+
+use super::threats_layer;
+use crate::app::background::{Aim, Background, Outcome, exported};
+use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::session::Session;
+use crate::app::widgets::format;
+use meshbrush_core::layers::{LayerKind, Threats};
+use meshbrush_io::io;
+
+/// Reads a table of threats in place of those of the selected layer.
+pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
+    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| {
+        let list = match io::threats::read(&file, meter) {
+            Ok(list) => list,
+            Err(error) => return Outcome::not_read(error),
+        };
+        match Threats::new(list) {
+            Ok(threats) => {
+                let change = LayerCommand::SetKind(layer, Box::new(LayerKind::Threats(threats)));
+                Outcome::PartRead(vec![
+                    Command::Edit(EditCommand::EndGesture),
+                    Command::Layer(change),
+                    Command::Edit(EditCommand::EndGesture),
+                ])
+            }
+            Err((_, error)) => Outcome::NotRead(format!("{}: {error}", file.display())),
+        }
+    });
+}
+
+/// Writes the threats of the selected layer as a table.
+pub fn save_threats(session: &Session, background: &mut Background, path: &Path) {
+    let Some((_, threats)) = threats_layer(session.document()) else { return };
+    let (threats, file) = (threats.clone(), path.to_owned());
+    background.start(Aim::Export, path, move |meter| {
+        let written = io::write_file_metered(&file, meter, |out| io::threats::write(out, threats.list()));
+        let count = format::count(threats.list().len() as u64);
+        exported(written, meter, &file, || format!("{count} threats written to {}.", file.display()))
+    });
+}

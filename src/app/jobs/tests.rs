@@ -1,0 +1,162 @@
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use fastrand::Rng;
+
+use super::*;
+
+/// Goes on until nobody wants it any more.
+fn endless(output: &Output<()>) {
+    while output.is_wanted() {
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn a_frame_waits_for_all_its_jobs_together_no_longer_than_its_patience() {
+    let jobs = Jobs::new(&Context::default());
+    let running: Vec<Job<()>> =
+        (0..Kind::Compute.most()).map(|_| jobs.start(Kind::Compute, endless)).collect();
+    jobs.begin_frame(0.0);
+    assert!(running.iter().all(|job| matches!(job.take(&jobs), Taken::Working)));
+    assert_eq!(jobs.0.inbox.patience(), Duration::ZERO, "the jobs used up one patience together");
+}
+
+/// Sends values until nobody wants them any more, each as soon as the one before.
+fn ceaseless(output: &Output<()>) {
+    while output.send(()) {}
+}
+
+#[test]
+fn three_receivers_of_values_that_never_end_leave_the_frame_when_its_time_is_over() {
+    let jobs = Jobs::new(&Context::default());
+    let running: Vec<Job<()>> = (0..3).map(|_| jobs.start(Kind::Compute, ceaseless)).collect();
+    let one_by_one = |job: &Job<()>| {
+        let mut taken = 0;
+        while matches!(job.take(&jobs), Taken::Value(())) {
+            taken += 1;
+            assert!(taken < 100_000_000, "the frame does not end");
+        }
+        taken
+    };
+    let mut totals = [0; 3];
+    let mut frames = 0;
+    // A thread may begin late: frames go on until each has given something.
+    while totals.contains(&0) {
+        jobs.begin_frame(0.0);
+        totals.iter_mut().zip(&running).for_each(|(total, job)| *total += one_by_one(job));
+        assert_eq!(jobs.0.inbox.patience(), Duration::ZERO, "the receivers use up one patience together");
+        frames += 1;
+    }
+    assert!(frames > 0 && totals.iter().all(|&total| total > 0), "{frames} {totals:?}");
+}
+
+#[test]
+fn values_that_a_frame_leaves_are_taken_by_the_next_one() {
+    let jobs = Jobs::new(&Context::default());
+    let job = jobs.start(Kind::Compute, |output| (0..5).for_each(|n| _ = output.send(n)));
+    jobs.wait_for_threads();
+    let mut taken = Vec::new();
+    for frame in 1.. {
+        jobs.begin_frame(0.0);
+        // No time is left: each frame takes one value.
+        jobs.0.inbox.use_up_patience();
+        let last = loop {
+            match job.take(&jobs) {
+                Taken::Value(value) => taken.push(value),
+                last => break last,
+            }
+        };
+        assert_eq!(taken.len(), frame.min(5), "a value for each frame");
+        if matches!(last, Taken::Ended) {
+            break;
+        }
+    }
+    assert_eq!(taken, [0, 1, 2, 3, 4]);
+}
+
+#[test]
+fn no_more_jobs_of_a_kind_run_at_once_than_it_has_threads() {
+    let jobs = Jobs::new(&Context::default());
+    jobs.wait_for_all();
+    let (running, most) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
+    let started: Vec<Job<usize>> = (0..100)
+        .map(|number| {
+            let (running, most) = (running.clone(), most.clone());
+            jobs.start(Kind::Compute, move |output| {
+                most.fetch_max(running.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+                std::thread::yield_now();
+                running.fetch_sub(1, Ordering::SeqCst);
+                output.send(number);
+            })
+        })
+        .collect();
+    for (number, job) in started.iter().enumerate() {
+        assert!(matches!(job.take(&jobs), Taken::Value(value) if value == number));
+        assert!(matches!(job.take(&jobs), Taken::Ended));
+    }
+    assert!((1..=Kind::Compute.most()).contains(&most.load(Ordering::SeqCst)));
+}
+
+#[test]
+fn a_job_that_nobody_wants_any_more_does_not_begin() {
+    let jobs = Jobs::new(&Context::default());
+    let holding: Vec<Job<()>> = (0..Kind::Ask.most()).map(|_| jobs.start(Kind::Ask, endless)).collect();
+    let begun = Arc::new(AtomicUsize::new(0));
+    let begins = begun.clone();
+    drop(jobs.start(Kind::Ask, move |_: &Output<()>| {
+        begins.fetch_add(1, Ordering::SeqCst);
+    }));
+    drop(holding);
+    jobs.wait_for_threads();
+    assert_eq!(begun.load(Ordering::SeqCst), 0);
+}
+
+#[test]
+fn a_window_that_is_closed_waits_for_writing_and_not_for_reading() {
+    let jobs = Jobs::new(&Context::default());
+    let _reading = jobs.start(Kind::Read, endless);
+    let writing = jobs.start(Kind::Write, |output: &Output<u32>| {
+        output.send(7);
+    });
+    // The reading never ends by itself: waiting for it would take an hour.
+    jobs.wait_for_writing(Duration::from_secs(3600));
+    assert!(matches!(writing.take_ready(), Taken::Value(7)));
+}
+
+#[test]
+fn a_panic_of_each_kind_of_job_ends_it_and_gives_one_message_where_nobody_else_does() {
+    let jobs = Jobs::new(&Context::default());
+    jobs.wait_for_all();
+    for kind in Kind::ALL {
+        let job = jobs.start(kind, |_: &Output<()>| panic!("a job of a test"));
+        assert!(matches!(job.take(&jobs), Taken::Ended), "{kind:?}");
+        let problems = jobs.take_problems();
+        assert_eq!(problems.len(), usize::from(!matches!(kind, Kind::Read | Kind::Write)), "{problems:?}");
+    }
+}
+
+#[test]
+fn values_of_each_job_come_in_their_order_whatever_the_order_of_the_jobs() {
+    for seed in 0..20 {
+        let (jobs, mut random) = (Jobs::new(&Context::default()), Rng::with_seed(seed));
+        jobs.hold();
+        let started: Vec<Job<u32>> = (0..5)
+            .map(|_| jobs.start(Kind::Compute, |output| (0..4).for_each(|value| _ = output.send(value))))
+            .collect();
+        jobs.wait_for_threads();
+        jobs.begin_frame(0.0);
+        assert!(started.iter().all(|job| matches!(job.take(&jobs), Taken::Working)), "nothing is delivered");
+        let mut taken = [0; 5];
+        while jobs.release(|count| random.usize(..count)) {
+            for (job, next) in started.iter().zip(&mut taken) {
+                if let Taken::Value(value) = job.take_ready() {
+                    assert_eq!(value, *next, "seed {seed}");
+                    *next += 1;
+                }
+            }
+        }
+        assert_eq!(taken, [4; 5], "seed {seed}");
+        assert!(started.iter().all(|job| matches!(job.take_ready(), Taken::Ended)), "seed {seed}");
+    }
+}

@@ -1,0 +1,50 @@
+//! The part of the window that a feature sees and changes.
+
+use std::time::Duration;
+
+use eframe::egui::Context;
+
+use crate::app::background::Background;
+use crate::app::command::{Command, FileCommand};
+use crate::app::jobs::Jobs;
+use crate::app::project::ProjectFile;
+use crate::app::session::Session;
+use crate::app::tools::Tools;
+use crate::app::view::View;
+
+/// As much time as the work takes, for pictures that must be the same every time.
+pub const NO_LIMIT: Duration = Duration::from_secs(3600);
+
+/// The data that a feature may read and change while it runs a command, besides its own state.
+pub struct Ctx<'a> {
+    /// The document and its mesh.
+    pub session: &'a mut Session,
+    /// The settings of the view.
+    pub view: &'a mut View,
+    /// The selected tool, and settings of tools.
+    pub tools: &'a mut Tools,
+    /// The document's file.
+    pub project: &'a mut ProjectFile,
+    /// Work on files.
+    pub background: &'a mut Background,
+    /// Work that takes longer than a frame.
+    pub jobs: &'a Jobs,
+    /// Commands that are run after this one, in the same frame.
+    pub commands: &'a mut Vec<Command>,
+    /// The clipboard and the frame.
+    pub egui: &'a Context,
+    /// Whether to leave out what differs from run to run.
+    pub reproducible: bool,
+}
+
+impl Ctx<'_> {
+    /// Sends a command, to be run after this one.
+    pub fn send(&mut self, command: Command) {
+        self.commands.push(command);
+    }
+
+    /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
+    pub fn fail(&mut self, problem: String) {
+        self.send(Command::File(FileCommand::Fail(problem)));
+    }
+}

@@ -1,0 +1,150 @@
+//! An entry of a menu, which the palette and the list of keys offer too.
+
+use eframe::egui::{Key, KeyboardShortcut, Modifiers};
+
+use crate::app::command::Command;
+
+/// The keys of digits, from 1.
+pub const DIGITS: [Key; 10] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+    Key::Num0,
+];
+
+/// The menu that a command is in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Menu {
+    /// Documents and files.
+    File,
+    /// History and paint.
+    Edit,
+    /// Tools and the brush.
+    Tool,
+    /// The layers of the size field.
+    Layer,
+    /// The menu of the view.
+    View,
+    /// Documents that come with the program.
+    Examples,
+    /// Manual, keys and gestures, About.
+    Help,
+}
+
+impl Menu {
+    /// All menus, from left to right, with their names.
+    pub const ALL: [(Self, &'static str); 7] = [
+        (Self::File, "File"),
+        (Self::Edit, "Edit"),
+        (Self::Tool, "Tool"),
+        (Self::Layer, "Layer"),
+        (Self::View, "View"),
+        (Self::Examples, "Examples"),
+        (Self::Help, "Help"),
+    ];
+}
+
+/// A command with its title, its menu and its key.
+#[derive(Clone, Debug)]
+pub struct CatalogItem {
+    /// The menu of the entry.
+    pub menu: Menu,
+    /// The title in menus and in the palette.
+    pub title: String,
+    /// The shortcut, if there is one.
+    pub shortcut: Option<KeyboardShortcut>,
+    /// The pointer gesture that does the same, as shown beside the title.
+    pub gesture: &'static str,
+    /// The command that it sends.
+    pub command: Command,
+    /// Whether it can be run now.
+    pub enabled: bool,
+    /// Whether it is the current choice of several.
+    pub checked: bool,
+    /// Whether a separator is above it.
+    pub begins_group: bool,
+}
+
+impl CatalogItem {
+    /// Creates a command that is enabled, without a key.
+    pub fn new(menu: Menu, title: impl Into<String>, command: Command) -> Self {
+        Self {
+            menu,
+            title: title.into(),
+            shortcut: None,
+            gesture: "",
+            command,
+            enabled: true,
+            checked: false,
+            begins_group: false,
+        }
+    }
+
+    /// Adds a plain key as shortcut.
+    pub fn key(self, key: Key) -> Self {
+        self.keys(Modifiers::NONE, key)
+    }
+
+    /// Adds a key with Ctrl (Cmd on a Mac) as shortcut.
+    pub fn ctrl(self, key: Key) -> Self {
+        self.keys(Modifiers::COMMAND, key)
+    }
+
+    /// Adds a key with modifiers as shortcut.
+    pub fn keys(mut self, modifiers: Modifiers, key: Key) -> Self {
+        self.shortcut = Some(KeyboardShortcut::new(modifiers, key));
+        self
+    }
+
+    /// Done by a pointer gesture.
+    pub fn gesture(mut self, gesture: &'static str) -> Self {
+        self.gesture = gesture;
+        self
+    }
+
+    /// Returns the shortcut or the gesture, as menus and the palette show it; empty if there is none.
+    pub fn keys_text(&self) -> String {
+        self.shortcut.as_ref().map_or_else(|| self.gesture.to_owned(), shortcut_text)
+    }
+
+    /// Sets whether the entry is enabled.
+    pub fn enabled(mut self, enabled: bool) -> Self {
+        self.enabled = enabled;
+        self
+    }
+
+    /// Marked where `checked`.
+    pub fn checked(mut self, checked: bool) -> Self {
+        self.checked = checked;
+        self
+    }
+
+    /// Adds a separator above the entry.
+    pub fn group(mut self) -> Self {
+        self.begins_group = true;
+        self
+    }
+}
+
+/// Returns a shortcut in words.
+fn shortcut_text(shortcut: &KeyboardShortcut) -> String {
+    let mut text = String::new();
+    if shortcut.modifiers.command {
+        text += "Ctrl+";
+    }
+    if shortcut.modifiers.shift {
+        text += "Shift+";
+    }
+    text + match shortcut.logical_key {
+        Key::OpenCurlyBracket => "[",
+        Key::CloseCurlyBracket => "]",
+        Key::Escape => "Esc",
+        key => key.symbol_or_name(),
+    }
+}

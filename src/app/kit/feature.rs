@@ -1,0 +1,46 @@
+//! The interface of the window's features.
+
+use glam::DVec2;
+
+use super::{CatalogItem, Ctx, FrameState, OverMesh, Panel};
+use crate::app::command::Command;
+
+/// A feature of the window: a folder under `features` with its state, its commands and what they do, its
+/// panels, its marks on the canvas, its entries in menus, its kinds of files and its tests.
+pub trait Feature: Default {
+    /// The commands of the feature.
+    type Command;
+
+    /// The parts of the feature that the window shows.
+    const ROW: Row;
+
+    /// Runs one command.
+    fn execute(&mut self, command: Self::Command, ctx: &mut Ctx<'_>);
+
+    /// Takes and starts work that takes longer than a frame, once a frame, when the mesh has followed the
+    /// document. Returns whether some is left.
+    fn follow(&mut self, _ctx: &mut Ctx<'_>) -> bool {
+        false
+    }
+
+    /// Forgets what belongs to the document: another one was opened.
+    fn forget_document(&mut self) {}
+}
+
+/// The parts of a feature that the window shows.
+pub struct Row {
+    /// Sections of the side panel.
+    pub panels: &'static [&'static Panel],
+    /// Draws over the mesh.
+    pub marks: fn(&FrameState<'_>, &OverMesh<'_>),
+    /// Entries of menus, in their order.
+    pub entries: fn(&FrameState<'_>) -> Vec<CatalogItem>,
+    /// Entries of the menu of the canvas at a point, in world units, after those of the tool.
+    pub entries_at: fn(&FrameState<'_>, DVec2) -> Vec<(&'static str, Command)>,
+}
+
+impl Row {
+    /// Nothing yet; use it as the base of a struct update.
+    pub const EMPTY: Self =
+        Self { panels: &[], marks: |_, _| {}, entries: |_| Vec::new(), entries_at: |_, _| Vec::new() };
+}

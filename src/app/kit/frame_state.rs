@@ -1,0 +1,49 @@
+//! The data that a frame shows.
+
+use crate::app::features::Features;
+use crate::app::layer_pictures::LayerPictures;
+use crate::app::paths::PathFinder;
+use crate::app::project::ProjectFile;
+use crate::app::readout::Readout;
+use crate::app::session::Session;
+use crate::app::threads::Threads;
+use crate::app::tools::Tools;
+use crate::app::view::View;
+use glam::DVec2;
+use meshbrush_mesh::text::LengthUnit;
+use meshbrush_study::report::ReportFigure;
+
+/// Everything that a frame shows, to read.
+pub struct FrameState<'a> {
+    /// The document and its mesh.
+    pub session: &'a Session,
+    /// The document's file.
+    pub project: &'a ProjectFile,
+    /// The selected tool and its settings.
+    pub tools: &'a Tools,
+    /// The settings of the view.
+    pub view: &'a View,
+    /// Small pictures of the target diameters of each layer.
+    pub layer_pictures: &'a LayerPictures,
+    /// The paths of the document.
+    pub paths: &'a PathFinder,
+    /// The features. Each reads its own.
+    pub features: &'a Features,
+    /// The figure of the report that is shown.
+    pub report: Option<ReportFigure>,
+    /// The threads on which the window computes.
+    pub threads: &'a Threads,
+    /// The position of the pointer on the canvas, in world units.
+    pub pointer: Option<DVec2>,
+    /// The queried point and the triangle around it.
+    pub readout: Option<&'a Readout>,
+    /// Whether to leave out what differs from run to run.
+    pub reproducible: bool,
+}
+
+impl FrameState<'_> {
+    /// Returns the unit of the document's lengths and coordinates.
+    pub fn unit(&self) -> LengthUnit {
+        self.session.document().settings().unit
+    }
+}

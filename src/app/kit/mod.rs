@@ -1,0 +1,30 @@
+//! The building blocks of a feature of the window, and its view of the window.
+//!
+//! ```text
+//!  Feature ── Row         panels, marks on the canvas, entries of menus
+//!     │
+//!     ├── execute(command, Ctx)      changes its own state, and through the context what all share
+//!     ├── follow(Ctx)                once a frame: work that takes longer than one
+//!     └── panels, marks, entries     read a FrameState and send commands
+//! ```
+
+mod ctx;
+mod entry;
+mod feature;
+mod file_kind;
+mod frame_state;
+mod gesture;
+mod layer_kind;
+pub mod marks;
+mod panel;
+mod tool;
+
+pub use ctx::{Ctx, NO_LIMIT};
+pub use entry::{CatalogItem, DIGITS, Menu};
+pub use feature::{Feature, Row};
+pub use file_kind::{FileAct, FileKind, FileRequest};
+pub use frame_state::FrameState;
+pub use gesture::{CLICK_SLACK, GRIP_POINTS, Gesture, Pointer, Press, SettingsDrag, nearest_within};
+pub use layer_kind::{Addition, LayerKindRow, add_layer, set_kind_once};
+pub use panel::{Panel, PanelGroup, button_rows, end_gesture_when_released, remark, set_once};
+pub use tool::{OverMesh, Tool, ToolSpec};

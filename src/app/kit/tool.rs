@@ -1,0 +1,97 @@
+//! The description of a tool: its names, and its behaviour on the canvas.
+
+use std::fmt;
+
+use eframe::egui::{CursorIcon, Key, Painter, Pos2, Rect, Ui};
+use glam::DVec2;
+
+use super::{FrameState, Gesture, Pointer, Press};
+use crate::app::command::Command;
+use crate::app::tools::Tools;
+use crate::app::widgets::{Hint, Icon};
+use meshbrush_core::paint::Brush;
+
+/// A tool: a static of the feature that it belongs to.
+pub type Tool = &'static ToolSpec;
+
+/// The description of a tool: its names, and its behaviour on the canvas.
+pub struct ToolSpec {
+    /// Name in menus and on the tool strip.
+    pub name: &'static str,
+    /// The key that selects it.
+    pub key: Key,
+    /// The icon of the tool on the tool strip.
+    pub icon: Icon,
+    /// The cursor over the canvas, where no ring is drawn.
+    pub cursor: CursorIcon,
+    /// Names of the panels that stand first while it is selected.
+    pub panels: &'static [&'static str],
+    /// What to do with it next.
+    pub hint: fn(&Tools) -> &'static [Hint<'static>],
+    /// Whether the brush ring is drawn around the pointer.
+    pub has_ring: fn(&Tools) -> bool,
+    /// The brush of its strokes, if it paints.
+    pub brush: Option<fn(&Tools) -> Brush>,
+    /// Whether it queries triangles: the one under the pointer is highlighted, the queried one is explained,
+    /// pins can be moved, and the digits go to neighbours.
+    pub queries: bool,
+    /// Draws over the mesh while the tool is selected.
+    pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
+    /// Begins a gesture when the primary button is pressed.
+    pub press: BeginGesture,
+    /// Reacts to a press of the secondary button. Returns whether it did anything; if not, the menu of the
+    /// canvas opens.
+    pub press_secondary: fn(&Tools, &mut Vec<Command>) -> bool,
+    /// Entries of the canvas's menu at a point, in world units.
+    pub menu: fn(&FrameState<'_>, DVec2) -> Vec<(&'static str, Command)>,
+}
+
+/// Begins a gesture, or acts at once and returns `None`.
+pub type BeginGesture = fn(&Press, &Pointer<'_>, &mut Vec<Command>) -> Option<Box<dyn Gesture>>;
+
+/// The surface on which features and tools draw over the mesh.
+pub struct OverMesh<'a> {
+    /// The canvas, for what takes part in hovering and clicks, and for colours.
+    pub ui: &'a Ui,
+    /// The rectangle of the canvas, in points.
+    pub canvas: Rect,
+    /// Clipped to the canvas.
+    pub painter: &'a Painter,
+    /// Screen points from world coordinates.
+    pub screen_from_world: &'a dyn Fn(DVec2) -> Pos2,
+    /// The pointer in points, while it is over the canvas.
+    pub pointer: Option<Pos2>,
+}
+
+impl ToolSpec {
+    /// Creates a tool that does nothing yet; use it as the base of a struct update.
+    pub const fn new(name: &'static str, key: Key, icon: Icon) -> Self {
+        Self {
+            name,
+            key,
+            icon,
+            cursor: CursorIcon::Crosshair,
+            panels: &[],
+            hint: |_| &[],
+            has_ring: |_| false,
+            brush: None,
+            queries: false,
+            paint: |_, _| {},
+            press: |_, _, _| None,
+            press_secondary: |_, _| false,
+            menu: |_, _| Vec::new(),
+        }
+    }
+}
+
+impl PartialEq for ToolSpec {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl fmt::Debug for ToolSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
