@@ -7,10 +7,9 @@ use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Instant;
 
-use eframe::egui::Context;
-
 use super::Jobs;
 use super::inbox::Parcel;
+use super::waker::Waker;
 use crate::app::document_id::DocumentId;
 
 /// Whether the values of a job are still wanted. Clones know the same.
@@ -116,12 +115,12 @@ impl<T> Job<T> {
 }
 
 impl<T: Send + 'static> Job<T> {
-    /// A job with this number, and its side on the thread, which sends to the window of `ctx`.
+    /// A job with this number, and its side on the thread, which sends and wakes the window.
     pub(super) fn new(
         number: u64,
         document: DocumentId,
         sender: &Sender<Parcel>,
-        ctx: &Context,
+        waker: &Waker,
     ) -> (Self, Output<T>) {
         let values = Arc::new(Values(Mutex::new(Delivered { waiting: VecDeque::new(), has_ended: false })));
         let wanted = Wanted(Arc::new(AtomicBool::new(true)));
@@ -130,7 +129,7 @@ impl<T: Send + 'static> Job<T> {
             values: Arc::downgrade(&values),
             sender: sender.clone(),
             wanted: wanted.clone(),
-            ctx: ctx.clone(),
+            waker: waker.clone(),
         };
         (Self { values, wanted, document, given: Cell::default() }, output)
     }
@@ -149,7 +148,7 @@ pub struct Output<T> {
     values: Weak<Values<T>>,
     sender: Sender<Parcel>,
     wanted: Wanted,
-    ctx: Context,
+    waker: Waker,
 }
 
 impl<T: Send + 'static> Output<T> {
@@ -174,7 +173,7 @@ impl<T: Send + 'static> Output<T> {
 
     /// Wakes the window without a value.
     pub fn wake(&self) {
-        self.ctx.request_repaint();
+        self.waker.wake();
     }
 
     /// Sends the end: the window finds that there are no more values, and the sentence about a panic.
@@ -191,6 +190,6 @@ impl<T: Send + 'static> Output<T> {
         });
         // The receiver is gone when the window is closed.
         let _ = self.sender.send(Parcel { job: self.number, deliver, problem });
-        self.ctx.request_repaint();
+        self.waker.wake();
     }
 }

@@ -33,6 +33,7 @@ mod slot_tests;
 mod succession;
 #[cfg(test)]
 mod tests;
+mod waker;
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -45,6 +46,7 @@ pub use job::{Job, Output, Taken, Wanted};
 use queue::Queue;
 pub use slot::Slot;
 pub use succession::Succession;
+use waker::Waker;
 
 use super::document_id::DocumentId;
 
@@ -89,6 +91,8 @@ pub struct Jobs(Rc<Shared>);
 
 struct Shared {
     ctx: Context,
+    /// The way from the threads to the window.
+    waker: Waker,
     queue: Queue,
     inbox: Inbox,
     /// How many were started.
@@ -101,11 +105,19 @@ struct Shared {
     time: Cell<f64>,
 }
 
+/// Jobs may go on for a moment when their window is closed.
+impl Drop for Shared {
+    fn drop(&mut self) {
+        self.waker.close();
+    }
+}
+
 impl Jobs {
     /// None yet, in the window of `ctx`.
     pub fn new(ctx: &Context) -> Self {
         Self(Rc::new(Shared {
             ctx: ctx.clone(),
+            waker: Waker::new(ctx),
             queue: Queue::default(),
             inbox: Inbox::default(),
             started: Cell::default(),
@@ -164,9 +176,9 @@ impl Jobs {
         kind: Kind,
         work: impl FnOnce(&Output<T>) + Send + 'static,
     ) -> Job<T> {
-        let Shared { ctx, queue, inbox, started, .. } = &*self.0;
+        let Shared { waker, queue, inbox, started, .. } = &*self.0;
         started.set(started.get() + 1);
-        let (job, output) = Job::new(started.get(), self.document(), inbox.sender(), ctx);
+        let (job, output) = Job::new(started.get(), self.document(), inbox.sender(), waker);
         queue.push(kind, move || {
             let done = if output.is_wanted() { failure::caught(|| work(&output)) } else { Ok(()) };
             output.end(done.err().filter(|_| kind.reports_panic()));

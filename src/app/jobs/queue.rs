@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 use super::Kind;
 
 /// Runs work on threads: so many of each kind at once, the others in their order. A thread ends when no work
-/// of its kind waits.
-#[derive(Default)]
+/// of its kind waits. Clones have the same threads.
+#[derive(Clone, Default)]
 pub struct Queue(Arc<Threads>);
 
 type Work = Box<dyn FnOnce() + Send>;

@@ -124,6 +124,43 @@ fn a_window_that_is_closed_waits_for_writing_and_not_for_reading() {
     assert!(matches!(writing.take_ready(), Taken::Value(7)));
 }
 
+/// Part of a context, as the graphics device of a window is.
+struct PartOfContext(Arc<AtomicUsize>);
+
+impl eframe::egui::Plugin for PartOfContext {
+    fn debug_name(&self) -> &'static str {
+        "part of a context"
+    }
+}
+
+impl Drop for PartOfContext {
+    fn drop(&mut self) {
+        self.0.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+#[test]
+fn the_context_ends_with_the_window_while_a_job_still_runs() {
+    let dropped = Arc::new(AtomicUsize::new(0));
+    let ctx = Context::default();
+    ctx.add_plugin(PartOfContext(dropped.clone()));
+    let jobs = Jobs::new(&ctx);
+    let (end, may_end) = std::sync::mpsc::channel::<()>();
+    let (began, has_begun) = std::sync::mpsc::channel();
+    let job = jobs.start(Kind::Compute, move |output: &Output<()>| {
+        began.send(()).expect("the test waits");
+        let _ = may_end.recv();
+        output.wake();
+    });
+    has_begun.recv().expect("the job begins");
+    let queue = jobs.0.queue.clone();
+    drop((job, jobs, ctx));
+    let (dropped, running) = (dropped.load(Ordering::Relaxed), queue.running(Kind::Compute));
+    drop(end);
+    queue.wait(Kind::Compute, Duration::from_secs(60));
+    assert_eq!((dropped, running), (1, 1), "contexts that ended, and jobs that ran at that moment");
+}
+
 #[test]
 fn a_panic_of_each_kind_of_job_ends_it_and_gives_one_message_where_nobody_else_does() {
     let jobs = Jobs::new(&Context::default());
