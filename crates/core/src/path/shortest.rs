@@ -15,16 +15,13 @@
 //! Intervals and corners wait in the order of the least length of a way to the goal by them (A*, as
 //! \[CuiHaraborGrastien2017\]), so that the first way that is complete is the shortest.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
 use glam::DVec2;
 
 use super::Passage;
 use super::path_mesh::{NONE, PathMesh};
 use super::place::Place;
 use super::walls::Walls;
-use crate::geometry::{Side, side_of_points};
+use crate::geometry::{BestFirst, Side, side_of_points};
 
 /// So many intervals are looked through at most.
 const MOST_INTERVALS: usize = 200_000;
@@ -49,16 +46,6 @@ struct Root {
     length: f64,
 }
 
-/// What waits to be looked at.
-#[derive(Clone, Copy)]
-struct Waiting {
-    /// No way by it is shorter.
-    least: f64,
-    root: Root,
-    /// What is seen from the root; `None` for all around it.
-    seen: Option<Interval>,
-}
-
 /// A part of an edge through which a triangle is seen: on the left and on the right, seen from the root.
 #[derive(Clone, Copy)]
 struct Interval {
@@ -69,24 +56,6 @@ struct Interval {
     right: DVec2,
 }
 
-impl Ord for Waiting {
-    /// The greatest comes first: the least length.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.least.total_cmp(&self.least)
-    }
-}
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Waiting {}
-
 impl Shortest<'_> {
     /// The shortest way between two places, as a polyline that the walls admit. `None` where it is not
     /// shorter than `known`, or the search is too long.
@@ -94,7 +63,7 @@ impl Shortest<'_> {
         let mut search = Search::new(self, goal.point, known * (1.0 - LEAST_GAIN));
         search.see_around(Root { at: start.point, node: NONE, length: 0.0 });
         let mut intervals = 0;
-        while let Some(Waiting { least, root, seen }) = search.waiting.pop() {
+        while let Some((least, (root, seen))) = search.waiting.pop() {
             if least >= search.shortest {
                 break;
             }
@@ -149,7 +118,9 @@ struct Search<'a> {
     at_goal: Vec<u32>,
     /// By node.
     corners: Vec<Corner>,
-    waiting: BinaryHeap<Waiting>,
+    /// Roots with the interval through which each looks, `None` for all around. The bound is the least length
+    /// of a way to the goal by them.
+    waiting: BestFirst<(Root, Option<Interval>)>,
     /// The length of the shortest known way to the goal.
     shortest: f64,
     /// The last corner on it.
@@ -162,7 +133,7 @@ impl<'a> Search<'a> {
         let mut corners = vec![blank; over.mesh.node_count()];
         over.walls.bends().into_iter().for_each(|node| corners[node as usize].bends = true);
         let at_goal = over.mesh.open_triangles_at(goal);
-        Self { over, goal, at_goal, corners, waiting: BinaryHeap::new(), shortest: known, last: None }
+        Self { over, goal, at_goal, corners, waiting: BestFirst::default(), shortest: known, last: None }
     }
 
     /// Looks from a root into the triangles around it.
@@ -225,8 +196,7 @@ impl<'a> Search<'a> {
         let Some(edge) = (0..3).find(|&edge| across[edge] == from) else { return };
         let least = root.length + least_by(root.at, [left, right], self.goal);
         if least < self.shortest {
-            let seen = Some(Interval { triangle, edge, left, right });
-            self.waiting.push(Waiting { least, root, seen });
+            self.waiting.push(least, (root, Some(Interval { triangle, edge, left, right })));
         }
     }
 
@@ -238,7 +208,7 @@ impl<'a> Search<'a> {
         let least = length + at.distance(self.goal);
         if corner.bends && length < corner.length && node != root.node && least < self.shortest {
             (corner.length, corner.before) = (length, root.node);
-            self.waiting.push(Waiting { least, root: Root { at, node, length }, seen: None });
+            self.waiting.push(least, (Root { at, node, length }, None));
         }
     }
 
