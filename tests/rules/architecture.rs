@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 
+use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
@@ -48,15 +49,15 @@ fn rank(module: &str) -> Option<usize> {
 }
 
 /// Returns the files of the modules, without `lib.rs`, `main.rs` and [`OTHER_MODULES`].
-fn files() -> Vec<SourceFile> {
-    let ours = |file: &SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
-    read_src().into_iter().filter(ours).collect()
+fn files() -> impl Iterator<Item = &'static SourceFile> {
+    let ours = |file: &&SourceFile| !file.module.is_empty() && !OTHER_MODULES.contains(&file.top_module());
+    read_src().iter().filter(ours)
 }
 
 /// Returns the files of the modules before the given one.
-fn files_before(module: &str) -> impl Iterator<Item = SourceFile> {
+fn files_before(module: &str) -> impl Iterator<Item = &'static SourceFile> + use<> {
     let end = rank(module).unwrap();
-    files().into_iter().filter(move |file| rank(file.top_module()).is_some_and(|rank| rank < end))
+    files().filter(move |file| rank(file.top_module()).is_some_and(|rank| rank < end))
 }
 
 /// Fails with everything found, one per line.
@@ -65,7 +66,7 @@ fn assert_none(found: Vec<String>, rule: &str) {
 }
 
 /// Returns the places where code names a path that begins with one of `beginnings` (segments joined by `::`).
-fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a str]) -> Vec<String> {
+fn named<'a>(files: impl IntoIterator<Item = &'a SourceFile>, beginnings: &[&str]) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
         for path in file.paths() {
@@ -79,7 +80,7 @@ fn named<'a>(files: impl IntoIterator<Item = SourceFile>, beginnings: &'a [&'a s
 }
 
 /// Returns the places where the code contains a word.
-fn with_word(files: impl IntoIterator<Item = SourceFile>, word: &str) -> Vec<String> {
+fn with_word<'a>(files: impl IntoIterator<Item = &'a SourceFile>, word: &str) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {
         let lines = file.tokens.iter().filter(|token| token.text == word).map(|token| token.line);
@@ -108,8 +109,7 @@ fn the_packages_declare_the_modules_in_their_order() {
         [&MODULES[..], &OTHER_MODULES].concat(),
         "each lib.rs declares its modules in order"
     );
-    let strangers =
-        files().into_iter().filter(|file| rank(file.top_module()).is_none()).map(|file| file.path);
+    let strangers = files().filter(|file| rank(file.top_module()).is_none()).map(|file| file.path.clone());
     assert_none(strangers.collect(), "every file is in a listed module:");
 }
 
@@ -135,7 +135,7 @@ fn a_module_imports_only_from_modules_before_it() {
 
 #[test]
 fn the_program_is_one_call_of_the_library() {
-    let main = read_src().into_iter().filter(|file| file.path == "src/main.rs");
+    let main = read_src().iter().filter(|file| file.path == "src/main.rs");
     let allowed = ["meshbrush::run_program", "meshbrush::ProgramAllocator"];
     let inner = named(main, &["meshbrush"])
         .into_iter()
@@ -145,7 +145,7 @@ fn the_program_is_one_call_of_the_library() {
 
 #[test]
 fn the_mesh_knows_only_geometry() {
-    let mesh = files().into_iter().filter(|file| file.top_module() == "mesh");
+    let mesh = files().filter(|file| file.top_module() == "mesh");
     let others: Vec<String> = MODULES[3..].iter().map(|module| format!("crate::{module}")).collect();
     let others: Vec<&str> = others.iter().map(String::as_str).collect();
     assert_none(named(mesh, &others), "the mesh takes rule and domain as closures:");
@@ -155,7 +155,7 @@ fn the_mesh_knows_only_geometry() {
 fn the_parts_of_the_mesh_import_downwards() {
     let parts = ["kernel", "extract", "query"];
     let mut found = Vec::new();
-    for file in files().into_iter().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
+    for file in files().filter(|file| file.module.len() > 1 && file.top_module() == "mesh") {
         let own = parts.iter().position(|part| *part == file.module[1]);
         let allowed = &parts[..=own.unwrap_or_else(|| panic!("{} is in no part of mesh", file.path))];
         for path in file.paths() {
@@ -190,7 +190,7 @@ fn nothing_before_render_reads_clock_environment_or_screen() {
         "the same document must give the same mesh on every machine:",
     );
     let mut up_to_render = files_before("render").collect::<Vec<_>>();
-    up_to_render.extend(files().into_iter().filter(|file| file.top_module() == "render"));
+    up_to_render.extend(files().filter(|file| file.top_module() == "render"));
     for word in ["Instant", "SystemTime"] {
         assert_none(with_word(up_to_render.clone(), word), "no module before cli reads the clock:");
     }
@@ -198,7 +198,7 @@ fn nothing_before_render_reads_clock_environment_or_screen() {
 
 #[test]
 fn only_io_opens_files() {
-    let others = files().into_iter().filter(|file| file.top_module() != "io");
+    let others = files().filter(|file| file.top_module() != "io");
     assert_none(named(others, &["std::fs", "fs", "File"]), "only io opens files:");
 }
 
@@ -234,21 +234,19 @@ fn egui_and_wgpu_meet_in_listed_files_only() {
         "src/app/screenshots/offscreen.rs",
         "src/app/mod.rs",
     ];
-    let window =
-        files().into_iter().filter(|file| file.top_module() == "app" && !joins.contains(&file.path.as_str()));
-    let window: Vec<SourceFile> = window.collect();
+    let window = files().filter(|file| file.top_module() == "app" && !joins.contains(&file.path.as_str()));
+    let window: Vec<&SourceFile> = window.collect();
     for word in ["wgpu", "egui_wgpu"] {
         assert_none(with_word(window.clone(), word), "of the window, only these files use wgpu:");
     }
     let others = files()
-        .into_iter()
         .filter(|file| file.top_module() != "app" && !file.path.starts_with("crates/render/src/render/gpu/"));
     assert_none(with_word(others, "wgpu"), "besides the window, only render/gpu uses wgpu:");
 }
 
 #[test]
 fn only_the_window_uses_egui() {
-    let others: Vec<SourceFile> = files().into_iter().filter(|file| file.top_module() != "app").collect();
+    let others: Vec<&SourceFile> = files().filter(|file| file.top_module() != "app").collect();
     for word in ["egui", "egui_plot", "eframe", "rfd"] {
         assert_none(with_word(others.clone(), word), "only the window uses egui:");
     }
@@ -262,8 +260,8 @@ const WAITS: [(&str, &str); 2] = [
 
 #[test]
 fn only_jobs_start_threads_wait_and_catch_panics() {
-    let window = files().into_iter().filter(|file| file.top_module() == "app");
-    let others: Vec<SourceFile> = window.filter(|file| !file.path.starts_with("src/app/jobs/")).collect();
+    let window = files().filter(|file| file.top_module() == "app");
+    let others: Vec<&SourceFile> = window.filter(|file| !file.path.starts_with("src/app/jobs/")).collect();
     let listed: Vec<String> = WAITS.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
     for word in ["spawn", "catch_unwind", "recv_timeout", "sleep"] {
@@ -307,7 +305,7 @@ const NAMES_A_TOOL: [(&str, &str); 9] = [
 
 #[test]
 fn a_tool_is_one_file_and_one_entry_of_the_table() {
-    let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = files().filter(|file| file.path.starts_with("src/app/"));
     let tools = TOOLS.map(|(module, tool)| (format!("crate::app::{module}"), tool));
     let listed: Vec<String> = NAMES_A_TOOL.iter().map(|(file, _)| (*file).to_owned()).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
@@ -386,8 +384,8 @@ fn part_of_window(module: &str) -> usize {
 fn the_parts_of_the_window_import_downwards() {
     let listed: Vec<String> = AHEAD.iter().map(|(file, module, _)| format!("{file} {module}")).collect();
     let (mut found, mut met) = (Vec::new(), Vec::new());
-    let in_folder = |file: &SourceFile| file.top_module() == "app" && file.module.len() > 1;
-    for file in files().into_iter().filter(in_folder) {
+    let in_folder = |file: &&SourceFile| file.top_module() == "app" && file.module.len() > 1;
+    for file in files().filter(in_folder) {
         // The table of features is what the shell reads: it knows them and the window.
         if file.module == ["app", "features"] {
             continue;
@@ -414,8 +412,8 @@ fn the_parts_of_the_window_import_downwards() {
 fn widgets_know_no_mesh() {
     let known = ["text", "colormap", "plot"];
     let mut found = Vec::new();
-    let widgets = |file: &SourceFile| file.module.len() > 1 && part_of_window(&file.module[1]) == 0;
-    for file in files().into_iter().filter(|file| file.top_module() == "app").filter(widgets) {
+    let widgets = |file: &&SourceFile| file.module.len() > 1 && part_of_window(&file.module[1]) == 0;
+    for file in files().filter(|file| file.top_module() == "app").filter(widgets) {
         for path in file.paths().into_iter().filter(|path| path.segments[0] == "crate") {
             let module = path.segments[1].as_str();
             if module != "app" && !known.contains(&module) {
@@ -431,8 +429,8 @@ const IMPORTS_A_FEATURE: [(&str, &str, &str); 0] = [];
 
 #[test]
 fn features_see_a_context_and_not_each_other() {
-    let is_inside = |file: &SourceFile| file.path.starts_with("src/app/features/") && file.module.len() > 2;
-    let code: Vec<SourceFile> = files().into_iter().filter(is_inside).collect();
+    let is_inside = |file: &&SourceFile| file.path.starts_with("src/app/features/") && file.module.len() > 2;
+    let code: Vec<&SourceFile> = files().filter(is_inside).collect();
     assert!(code.iter().any(|file| file.path.ends_with("/execute.rs")), "there are features");
     assert_none(with_word(code.clone(), "App"), "a feature sees the window through `Ctx`:");
     let listed: Vec<String> =
@@ -465,28 +463,27 @@ const FEATURES: [&str; 3] = ["crate", "app", "features"];
 
 #[test]
 fn every_command_has_an_arm() {
-    let window = files().into_iter().filter(|file| file.path.starts_with("src/app/"));
+    let window = files().filter(|file| file.path.starts_with("src/app/"));
     let window = window.filter(|file| !file.path.contains("/tests"));
     assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 
 #[test]
 fn unsafe_code_is_in_one_file() {
-    let others = read_src().into_iter().filter(|file| file.path != "crates/mesh/src/mesh/kernel/memory.rs");
+    let others = read_src().iter().filter(|file| file.path != "crates/mesh/src/mesh/kernel/memory.rs");
     assert_none(with_word(others, "unsafe"), "unsafe code is in mesh/kernel/memory.rs only:");
 }
 
 #[test]
 fn files_are_short() {
-    let long: Vec<SourceFile> =
-        read_src().into_iter().filter(|file| file.line_count > LONGEST_FILE).collect();
+    let long: Vec<&SourceFile> = read_src().iter().filter(|file| file.line_count > LONGEST_FILE).collect();
     let listed: Vec<String> = LONG_FILES.iter().map(|(file, _)| (*file).to_owned()).collect();
     let found = long.iter().filter(|file| !listed.contains(&file.path));
     assert_none(
         found.map(|file| format!("{} has {}", file.path, file.line_count)).collect(),
         &format!("a file has at most {LONGEST_FILE} lines, or a reason in LONG_FILES:"),
     );
-    assert_needed(&listed, &long.into_iter().map(|file| file.path).collect::<Vec<_>>(), "LONG_FILES");
+    assert_needed(&listed, &long.into_iter().map(|file| file.path.clone()).collect::<Vec<_>>(), "LONG_FILES");
 }
 
 /// Returns a row of a table or a line of a drawing, which cannot be wrapped.
@@ -528,12 +525,12 @@ fn keys(text: &str) -> BTreeSet<String> {
 
 #[test]
 fn every_reference_is_cited_and_every_citation_is_defined() {
-    let list = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/references.md")).unwrap();
+    let list = fs::read_to_string(format!("{ROOT}/docs/references.md")).unwrap();
     let defined =
         list.lines().filter(|line| line.starts_with(r"**\[")).flat_map(keys).collect::<BTreeSet<_>>();
     let mut cited = BTreeSet::new();
     for (path, text) in read_texts() {
-        for key in keys(&text) {
+        for key in keys(text) {
             assert!(defined.contains(&key), "{path} cites [{key}], which docs/references.md does not define");
             cited.insert(key);
         }

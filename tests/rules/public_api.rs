@@ -3,7 +3,7 @@
 //!
 //! Every type in such a signature has a name there too.
 //!
-//! `UPDATE_PUBLIC_API=1 cargo test --test rules` rewrites the file. A change in it is a change for
+//! `UPDATE_PUBLIC_API=1 cargo test -p meshbrush-rules` rewrites the file. A change in it is a change for
 //! users.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use crate::ROOT;
 use crate::source::SOURCES;
 use quote::ToTokens;
 use syn::{Attribute, Fields, ImplItem, Item, ItemImpl, TraitItem, Type, UseTree, Visibility};
@@ -38,7 +39,7 @@ struct Interface {
 
 /// Read once, for all tests.
 static INTERFACE: LazyLock<Interface> = LazyLock::new(|| {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(ROOT);
     let modules: Vec<Module> = SOURCES.iter().flat_map(|folder| modules(&root.join(folder))).collect();
     let described = |export: Export| {
         let lines = description(&export, &modules);
@@ -52,7 +53,7 @@ static INTERFACE: LazyLock<Interface> = LazyLock::new(|| {
 
 #[test]
 fn the_public_interface_is_the_recorded_one() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(ROOT);
     let entries: BTreeMap<&str, &[String]> =
         INTERFACE.exports.iter().map(|(export, lines)| (export.name.as_str(), lines.as_slice())).collect();
     let text: String = entries.into_values().map(|lines| lines.join("\n") + "\n\n").collect();
@@ -64,7 +65,7 @@ fn the_public_interface_is_the_recorded_one() {
     assert!(
         text == recorded,
         "the public interface differs from {RECORD}, first at {difference:?}; if the change is intended, run \
-         UPDATE_PUBLIC_API=1 cargo test --test rules"
+         UPDATE_PUBLIC_API=1 cargo test -p meshbrush-rules"
     );
 }
 

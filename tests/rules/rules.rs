@@ -1,5 +1,8 @@
-//! The rules of the source code. This binary uses nothing of the crate, so it compiles in a moment.
+//! The rules of the source code. This package uses nothing of the program, so it compiles in a moment.
 
 mod architecture;
 mod public_api;
 mod source;
+
+/// The root of the repository.
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

@@ -7,6 +7,9 @@
 use std::fs;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use crate::ROOT;
 
 /// A word or a punctuation character of the code, with its line counted from one.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,9 +59,14 @@ pub const SOURCES: [&str; 7] = [
     "src",
 ];
 
-/// Path and text of all Rust files in [`SOURCES`], with their tests.
-pub fn read_texts() -> Vec<(String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+/// Path and text of all Rust files in [`SOURCES`], with their tests, read once.
+pub fn read_texts() -> &'static [(String, String)] {
+    static TEXTS: LazyLock<Vec<(String, String)>> = LazyLock::new(texts);
+    &TEXTS
+}
+
+fn texts() -> Vec<(String, String)> {
+    let root = Path::new(ROOT);
     let mut paths = Vec::new();
     SOURCES.iter().for_each(|folder| collect(&root.join(folder), &mut paths));
     paths.sort();
@@ -71,7 +79,12 @@ pub fn read_texts() -> Vec<(String, String)> {
 }
 
 /// Returns all Rust files in [`SOURCES`] in the order of their paths, without those that only tests use.
-pub fn read_src() -> Vec<SourceFile> {
+pub fn read_src() -> &'static [SourceFile] {
+    static FILES: LazyLock<Vec<SourceFile>> = LazyLock::new(source_files);
+    &FILES
+}
+
+fn source_files() -> Vec<SourceFile> {
     let files: Vec<SourceFile> =
         read_texts().iter().map(|(path, text)| SourceFile::new(path, text)).collect();
     let for_tests: Vec<Vec<String>> = files.iter().flat_map(|file| file.test_modules.clone()).collect();
