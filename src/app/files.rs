@@ -6,19 +6,19 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled, exported, name_of};
-use super::command::{Command, DomainCommand, FileCommand, Opened, OutlineChange, ShellCommand};
+use super::background::{Aim, Background, Outcome, cancelled, exported};
+use super::command::{Command, FileCommand, Opened, ShellCommand};
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
 use meshbrush_core::document::{Document, Example, Recording, Settings};
-use meshbrush_core::domain::{BoundaryMarks, MeshBoundary, NamedPolygon};
+use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::png::{Behind, decode};
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
-use meshbrush_io::io::{self, MeshData, MeshSource, Meter, Provenance, recording};
+use meshbrush_io::io::{self, MeshData, MeshSource, Provenance, recording};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::ExportFormat;
@@ -54,18 +54,6 @@ pub fn example(example: Example) -> Document {
     example.document(terrain_slope, aegean_sea)
 }
 
-/// Reads polygons, and opens a document with them as its domain.
-pub fn load_domain(background: &mut Background, path: &Path) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match domain_of(&file, meter) {
-        Ok(document) => {
-            let opened = Opened { document: Arc::new(document), home: None };
-            Outcome::Opened { path: file, opened }
-        }
-        Err(problem) => Outcome::NotRead(problem),
-    });
-}
-
 /// Reads a recipe, which is shown as a document without a file once it is read.
 pub fn open_recipe(background: &mut Background, path: &Path) {
     let file = path.to_owned();
@@ -77,27 +65,6 @@ pub fn open_recipe(background: &mut Background, path: &Path) {
             Outcome::Read { path: file, commands }
         }
         Err(error) => Outcome::not_read(error),
-    });
-}
-
-/// Reads polygons, and adds them to the domain of the document.
-pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
-    let (file, settings) = (path.to_owned(), session.document().settings().clone());
-    background.start(Aim::Read, path, move |meter| {
-        let polygons = match io::geojson::read_named_metered(&file, meter) {
-            Ok(polygons) => polygons,
-            Err(error) => return Outcome::not_read(error),
-        };
-        match settings.with_outline(&polygons) {
-            Ok(setting) => {
-                let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
-                Outcome::Read {
-                    path: file,
-                    commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
-                }
-            }
-            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
-        }
     });
 }
 
@@ -207,17 +174,6 @@ pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) 
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
     });
-}
-
-/// Returns a new document on the polygons of a file.
-fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
-    let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
-    let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
-        .map_err(|error| format!("{}: {error}", path.display()))?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
-    let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };
-    Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Returns the names of files, one after the other; of many only the first and the last one.

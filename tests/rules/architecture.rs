@@ -284,20 +284,18 @@ const TOOLS: [(&str, &str); 8] = [
     ("features::inspection", "QUERY"),
     ("features::threats", "THREATS"),
     ("tools", "PATH"),
-    ("tools", "DOMAIN"),
+    ("features::domain", "DOMAIN"),
     ("features::boundary", "BOUNDARY"),
     ("tools", "PAN"),
 ];
 
 /// Files of the window that may name a tool of another module: the file, and why. All others read the table of
 /// tools.
-const NAMES_A_TOOL: [(&str, &str); 9] = [
+const NAMES_A_TOOL: [(&str, &str); 7] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog/tool.rs", "the modes of the tool for the domain are commands"),
-    ("src/app/execute/domain.rs", "commands of the tool for the domain select it"),
+    ("src/app/catalog/tool.rs", "keys and titles depend on the eraser and on the tool for paths"),
     ("src/app/panels/brush.rs", "brush and eraser share a section"),
     ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
-    ("src/app/panels/domain.rs", "the section shows the tool's settings while it is selected"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
     ("src/app/tools/mod.rs", "the table of tools"),
@@ -358,7 +356,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
 ];
 
 /// Files of the window that import from a later part: the file, the module, and why.
-const AHEAD: [(&str, &str, &str); 15] = [
+const AHEAD: [(&str, &str, &str); 14] = [
     ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
     ("src/app/command/shell.rs", "help", "a topic of the help is data"),
     ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
@@ -369,7 +367,6 @@ const AHEAD: [(&str, &str, &str); 15] = [
     ("src/app/project.rs", "replacing", "which files a question is about"),
     ("src/app/project.rs", "report", "opening a figure loses edits too"),
     ("src/app/tools/brush.rs", "panels", "of a feature without a folder"),
-    ("src/app/tools/domain.rs", "panels", "of a feature without a folder"),
     ("src/app/tools/eraser.rs", "panels", "of a feature without a folder"),
     ("src/app/tools/mod.rs", "features", "the table of tools"),
     ("src/app/tools/path.rs", "panels", "of a feature without a folder"),

@@ -25,6 +25,6 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ];
     let of_features = ROWS.iter().flat_map(|row| (row.entries)(state));
     let mut items: Vec<CatalogItem> = of_window.into_iter().flatten().chain(of_features).collect();
-    items.sort_by_key(|item| item.menu);
+    items.sort_by_key(|item| (item.menu, !item.is_above));
     items
 }

@@ -3,12 +3,12 @@
 use eframe::egui::{Key, Modifiers};
 
 use super::{GESTURES, GestureHelp};
-use crate::app::command::{BrushCommand, Command, DomainCommand, FileCommand, ShellCommand};
+use crate::app::command::{BrushCommand, Command, FileCommand, ShellCommand};
 use crate::app::keep_out::KeepOutCommand;
 use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
 use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
-use crate::app::tools::{BrushMode, DOMAIN, DomainToolMode, ERASER, PATH, PaintKind, TOOLS, Tools};
+use crate::app::tools::{BrushMode, ERASER, PATH, PaintKind, TOOLS, Tools};
 
 /// Tools and their settings.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -53,7 +53,7 @@ pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
         harder("Softer brush", -0.1, Key::OpenCurlyBracket),
     ]);
     items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
-    items.extend(domain_tool(state));
+    let mut items: Vec<CatalogItem> = items.into_iter().map(CatalogItem::above).collect();
     items.extend(path_tool(state));
     items.extend(amounts(tools));
     items
@@ -83,27 +83,6 @@ fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
         let item = if has_keys { item.key(key) } else { item };
         if i == 0 { item.group() } else { item }
     })
-}
-
-fn domain_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let tools = state.tools;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Domain(command));
-    let mode = |title: &str, mode| {
-        let current = tools.tool == &DOMAIN && tools.domain.mode == mode;
-        item(title, DomainCommand::Mode(mode)).checked(current)
-    };
-    let adds = tools.domain.adds;
-    let mut items = vec![
-        mode("Cut domain with the brush", DomainToolMode::Brush).group(),
-        mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
-        mode("Cut domain with a polygon", DomainToolMode::Polygon),
-        mode("Draw the frame of the domain", DomainToolMode::Frame),
-        item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
-    ];
-    if !tools.domain.corners.is_empty() {
-        items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
-    }
-    items
 }
 
 /// Returns the key deletes a place of a path only while the tool is selected.

@@ -10,7 +10,7 @@ mod view;
 
 pub use super::features::Command;
 pub use super::features::boundary::BoundaryCommand;
-pub use super::features::domain::{DomainCommand, OutlineChange};
+pub use super::features::domain::DomainCommand;
 pub use super::features::inspection::{ExploreCommand, InspectCommand};
 pub use super::features::layers::LayerCommand;
 pub use super::features::painting::BrushCommand;

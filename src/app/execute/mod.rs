@@ -4,7 +4,6 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod corridor;
-mod domain;
 mod files;
 mod keep_out;
 mod layers;

@@ -1,8 +1,7 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
 //! [`Ctx`], and never another feature: it sends the command of another one instead.
 //!
-//! Boundary, picture, pins, plots and stepping have everything in their folders. Of the others, only
-//! commands and kinds of files are here.
+//! Of layers and painting, only commands and kinds of files are here.
 
 pub mod boundary;
 pub mod domain;
@@ -19,13 +18,12 @@ pub mod threats;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{
-    BrushCommand, DomainCommand, EditCommand, FileCommand, LayerCommand, ShellCommand, ViewCommand,
-};
+use super::command::{BrushCommand, EditCommand, FileCommand, LayerCommand, ShellCommand, ViewCommand};
 use super::kit::{Ctx, Feature, Row};
 use super::paths::PathCommand;
 use super::report::FigureCommand;
 use boundary::Boundary;
+use domain::DomainEditor;
 use inspection::Inspector;
 use picture::BackgroundPicture;
 use pins::Pins;
@@ -89,6 +87,8 @@ macro_rules! features {
 // Menus, side panel, tool strip and canvas show the features in this order.
 features! {
     features {
+        /// The domain.
+        domain: DomainEditor as Domain,
         /// The queried point and its triangle.
         inspection: Inspector as Inspect,
         /// The steps of the refinement.
@@ -115,8 +115,6 @@ features! {
         Brush(BrushCommand) => execute_on_brush,
         /// The layers of the size field.
         Layer(LayerCommand) => execute_on_layers,
-        /// The domain.
-        Domain(DomainCommand) => execute_on_domain,
         /// The paths of the document.
         Path(PathCommand) => execute_on_paths,
         /// The figures of the report.

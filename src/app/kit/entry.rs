@@ -69,6 +69,8 @@ pub struct CatalogItem {
     pub checked: bool,
     /// Whether a separator is above it.
     pub begins_group: bool,
+    /// Whether it stands above the other entries of its menu, as those that set how a tool works.
+    pub is_above: bool,
 }
 
 impl CatalogItem {
@@ -83,6 +85,7 @@ impl CatalogItem {
             enabled: true,
             checked: false,
             begins_group: false,
+            is_above: false,
         }
     }
 
@@ -122,6 +125,12 @@ impl CatalogItem {
     /// Marked where `checked`.
     pub fn checked(mut self, checked: bool) -> Self {
         self.checked = checked;
+        self
+    }
+
+    /// Puts the entry above the others of its menu.
+    pub fn above(mut self) -> Self {
+        self.is_above = true;
         self
     }
 

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{BrushCommand, Command};
-use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::kit::{FrameState, Panel, PanelGroup, radius_row};
 use crate::app::tools::{BrushMode, ERASER, PaintKind, PenEffect, Tools};
 use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
@@ -44,22 +44,6 @@ fn kind_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) 
         sent.push(BrushCommand::Mode(mode));
     }
     ui.add_space(4.0);
-}
-
-/// The radius of the brush, which the domain tool shares.
-pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let extent = state.session.document().settings().domain.bounds.size().max_element();
-    let mut radius = state.tools.radius;
-    let slider = SliderRow::new("Radius", &mut radius, 1e-4 * extent..=0.5 * extent)
-        .logarithmic()
-        .typed_range(1e-4 * extent..=extent)
-        .default(Tools::for_domain(extent, 0.0).radius)
-        .unit(state.unit().symbol());
-    let help =
-        "Radius of the brush, in the unit of the document. [ and ] change it, as does a drag with Shift.";
-    if slider.help(help).show(ui).changed() {
-        commands.push(Command::Brush(BrushCommand::Radius(radius)));
-    }
 }
 
 /// Shows the amount that the brush paints: a strength, a risk or a diameter.

@@ -5,9 +5,6 @@
 
 mod bars;
 mod brush;
-mod domain;
-mod fit;
-mod formula;
 mod layers;
 mod levels;
 mod mesh;
@@ -21,7 +18,6 @@ use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
 
 pub use bars::menu_item;
 pub use brush::BRUSH;
-pub use domain::DOMAIN;
 pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name, kind_of};
 pub use path::{OTHER_PATHS, PATH};
 
@@ -31,7 +27,7 @@ use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
 
 /// The sections of the side panel that belong to no feature, from the top of their groups.
-static PANELS: [&Panel; 10] = [
+static PANELS: [&Panel; 8] = [
     &BRUSH,
     &layers::LAYERS,
     &transfer::TRANSFER,
@@ -39,8 +35,6 @@ static PANELS: [&Panel; 10] = [
     &PATH,
     &OTHER_PATHS,
     &mesh::MESH,
-    &DOMAIN,
-    &fit::FIT,
     &view::VIEW,
 ];
 

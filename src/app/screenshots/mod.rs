@@ -17,10 +17,11 @@ use super::command::{
     LayerCommand, PinsCommand, ShellCommand, ViewCommand,
 };
 use super::features::boundary::BoundaryToolMode;
+use super::features::domain::DomainToolMode;
 use super::features::plots::{PlotKind, PlotsCommand};
 use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::report::FigureCommand;
-use super::tools::{DomainToolMode, PATH, PaintKind};
+use super::tools::{PATH, PaintKind};
 use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;
 pub use manual::write as write_manual;

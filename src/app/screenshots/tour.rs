@@ -9,10 +9,11 @@ use super::{OffscreenWindow, look_at, make_folder, on_screen, point_at, write_pi
 use crate::app::command::{
     BrushCommand, Command, DomainCommand, FileCommand, InspectCommand, ShellCommand, ViewCommand,
 };
+use crate::app::features::domain::DomainToolMode;
 use crate::app::features::inspection::QUERY;
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
-use crate::app::tools::{BrushMode, DomainToolMode, ERASER};
+use crate::app::tools::{BrushMode, ERASER};
 use meshbrush_io::io;
 
 /// Size of the window, in points.

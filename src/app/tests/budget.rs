@@ -12,8 +12,9 @@ use super::{
     price_tag, release, send, set, settings, stroke, triangles, type_into, window, window_of,
 };
 use crate::app::command::{BrushCommand, Command, EditCommand, ShellCommand};
+use crate::app::features::domain::DOMAIN;
 use crate::app::features::inspection::QUERY;
-use crate::app::tools::{BRUSH, DOMAIN, ERASER, PAN};
+use crate::app::tools::{BRUSH, ERASER, PAN};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_mesh::mesh::MemoryLimit;

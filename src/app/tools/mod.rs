@@ -5,7 +5,6 @@
 //! entry.
 
 mod brush;
-mod domain;
 mod eraser;
 mod pan;
 mod path;
@@ -14,13 +13,13 @@ mod pen;
 use glam::DVec2;
 
 pub use brush::{BRUSH, BrushMode, picks};
-pub use domain::{DOMAIN, DomainTool, DomainToolMode};
 pub use eraser::ERASER;
 pub use pan::{PAN, Panning};
 pub use path::{ALTERNATIVE_COLOR, PATH, PATH_COLOR, POINTED_COLOR, PathPlace, PathTool, paint_place};
 pub use pen::{Pen, PenEffect};
 
 use super::features::boundary::{BOUNDARY, BoundaryTool};
+use super::features::domain::{DOMAIN, DomainTool};
 use super::features::inspection::QUERY;
 use super::features::threats::THREATS;
 use super::widgets::Hint;

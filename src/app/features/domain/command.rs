@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use crate::app::tools::DomainToolMode;
+use super::DomainToolMode;
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_mesh::geometry::Rect;

@@ -1,7 +1,23 @@
-//! The domain.
+//! The domain: the tool that cuts it, its outline, its bounds and its formula, and how well the mesh fits it.
 
 mod command;
+mod entries;
+mod execute;
 mod files;
+mod fit;
+mod load;
+mod panel;
+#[cfg(test)]
+mod tests;
+mod tool;
 
-pub use command::{DomainCommand, OutlineChange};
+pub use command::DomainCommand;
+use command::OutlineChange;
 pub use files::{ADD_OUTLINE, OPEN_DOMAIN};
+use fit::FIT;
+use panel::DOMAIN_PANEL;
+pub use tool::{DOMAIN, DomainTool, DomainToolMode};
+
+/// The domain is in the document, and the open polygon in [`DomainTool`].
+#[derive(Default)]
+pub struct DomainEditor;

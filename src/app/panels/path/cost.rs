@@ -5,8 +5,7 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{FrameState, end_gesture_when_released};
-use crate::app::panels::formula::FormulaRow;
+use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
 use crate::app::paths::{CostKind, PathCommand};
 use crate::app::widgets::{NumberRow, SliderRow, segmented};
 use meshbrush_core::document::PathCost;

@@ -4,8 +4,7 @@ use eframe::egui::Ui;
 
 use super::quantity_name;
 use crate::app::command::Command;
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
-use crate::app::panels::formula::FormulaRow;
+use crate::app::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow, segmented};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};

@@ -4,12 +4,12 @@ use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::{
+use crate::app::command::{Command, DomainCommand, FileCommand};
+use crate::app::features::domain::DomainToolMode;
+use crate::app::tests::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
     release_at, send, wait_until, window,
 };
-use crate::app::command::{Command, DomainCommand, FileCommand};
-use crate::app::tools::DomainToolMode;
 
 const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), dvec2(0.2, 0.4)];
 

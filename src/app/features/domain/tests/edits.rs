@@ -5,12 +5,12 @@ use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::{
+use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
+use crate::app::tests::{
     FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, press,
     release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until, window,
     window_of,
 };
-use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_mesh::mesh::Location;

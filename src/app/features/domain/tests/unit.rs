@@ -6,11 +6,11 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use super::{
+use crate::app::command::{Command, DomainCommand, FileCommand, InspectCommand};
+use crate::app::tests::{
     FREE, TALL, Window, entries, fingerprint, folder, key, move_to, open_section, send, set, settings,
     triangles, type_into, value_of, wait_until, window_of,
 };
-use crate::app::command::{Command, DomainCommand, FileCommand, InspectCommand};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -42,7 +42,7 @@ fn every_length_carries_the_unit() {
     let mut window = in_metres();
     send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
     open_section(&mut window, "Mesh");
-    super::select_base(&mut window);
+    crate::app::tests::select_base(&mut window);
     move_to(&mut window, FREE);
     for name in ["Radius value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
         let value = window.get_by_role_and_label(Role::TextInput, name);

@@ -7,11 +7,11 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::{
+use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ShellCommand};
+use crate::app::tests::{
     TALL, Window, area, document, entries, fingerprint, folder, has_raster, level_at, paint, send, settings,
     wait_for_notice, wait_until, window, window_of, window_with,
 };
-use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::layers::RasterReading;
 use meshbrush_mesh::geometry::Rect;
 
@@ -123,7 +123,7 @@ fn a_grid_opens_as_target_diameters_and_is_saved_with_the_document() {
     wait_until(&mut window, |window| has_raster(window, &RasterReading::Diameter));
     wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) == 4);
     assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
-    assert_eq!(super::value_of(&window, Role::Definition, "File"), "lengths.asc");
+    assert_eq!(crate::app::tests::value_of(&window, Role::Definition, "File"), "lengths.asc");
     let before = fingerprint(&window);
     let project = file("grid.meshbrush");
     send(&mut window, Command::File(FileCommand::SaveTo(project.clone())));
@@ -149,6 +149,6 @@ fn a_grid_opens_as_risk_at_its_own_place() {
     wait_until(&mut window, |window| has_raster(window, &RasterReading::Risk));
     wait_until(&mut window, |window| level_at(window, dvec2(0.3, 0.4)) > 5);
     assert_eq!(level_at(&window, dvec2(0.9, 0.9)), 0);
-    super::open_menu(&mut window, "File");
+    crate::app::tests::open_menu(&mut window, "File");
     assert!(window.query_by_label("Open recent risk.asc").is_some());
 }

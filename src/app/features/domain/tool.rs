@@ -3,10 +3,10 @@
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
-use super::Tools;
-use crate::app::command::{Command, DomainCommand, EditCommand};
+use super::{DOMAIN_PANEL, DomainCommand};
+use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, ToolSpec, marks};
-use crate::app::panels;
+use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{CutShape, corners};
@@ -14,7 +14,7 @@ use meshbrush_mesh::geometry::Rect as WorldRect;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
-    panels: &[panels::DOMAIN.name],
+    panels: &[DOMAIN_PANEL.name],
     hint: |_| HINT,
     has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
     paint,

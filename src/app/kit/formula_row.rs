@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use eframe::egui::{Id, Key, Ui};
 
-use crate::app::kit::FrameState;
+use super::FrameState;
 use crate::app::widgets::{TextError, TextRow};
 use meshbrush_core::field::formula::ParseError;
 

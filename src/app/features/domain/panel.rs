@@ -2,12 +2,11 @@
 
 use eframe::egui::{Id, Ui};
 
-use super::brush::radius_row;
-use super::formula::FormulaRow;
-use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
-use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
-use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released, remark, set_once};
-use crate::app::tools::{DOMAIN as DOMAIN_TOOL, DomainToolMode};
+use super::{ADD_OUTLINE, DOMAIN as DOMAIN_TOOL, DomainCommand, DomainToolMode, OPEN_DOMAIN};
+use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::kit::{
+    FormulaRow, FrameState, Panel, PanelGroup, end_gesture_when_released, radius_row, remark, set_once,
+};
 use crate::app::widgets::{
     ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
 };
@@ -21,7 +20,8 @@ use meshbrush_mesh::text::LengthUnit;
 const USUAL_SHARE: f64 = 0.01;
 
 /// The domain. While its tool is selected, it is open and the tool's settings are in it.
-pub static DOMAIN: Panel = Panel { name: "domain", group: PanelGroup::Domain, only_with_tool: false, show };
+pub static DOMAIN_PANEL: Panel =
+    Panel { name: "domain", group: PanelGroup::Domain, only_with_tool: false, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let section = Section::new("Domain");

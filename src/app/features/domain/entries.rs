@@ -1,0 +1,28 @@
+//! The domain tool in menus and in the palette.
+
+use eframe::egui::Key;
+
+use super::{DOMAIN, DomainCommand, DomainToolMode};
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, FrameState, Menu};
+
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let tools = state.tools;
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Domain(command));
+    let mode = |title: &str, mode| {
+        let current = tools.tool == &DOMAIN && tools.domain.mode == mode;
+        item(title, DomainCommand::Mode(mode)).checked(current)
+    };
+    let adds = tools.domain.adds;
+    let mut items = vec![
+        mode("Cut domain with the brush", DomainToolMode::Brush).group(),
+        mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
+        mode("Cut domain with a polygon", DomainToolMode::Polygon),
+        mode("Draw the frame of the domain", DomainToolMode::Frame),
+        item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
+    ];
+    if !tools.domain.corners.is_empty() {
+        items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
+    }
+    items.into_iter().map(CatalogItem::above).collect()
+}

@@ -1,0 +1,75 @@
+//! Runs the commands about the domain.
+
+use super::load::{load_domain, load_outline};
+use super::{DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OutlineChange, entries};
+use crate::app::kit::{Ctx, Feature, Row};
+use meshbrush_core::domain::CutShape;
+
+impl Feature for DomainEditor {
+    type Command = DomainCommand;
+    const ROW: Row = Row { panels: &[&DOMAIN_PANEL, &FIT], entries: entries::entries, ..Row::EMPTY };
+
+    fn execute(&mut self, command: DomainCommand, ctx: &mut Ctx<'_>) {
+        let tool = &mut ctx.tools.domain;
+        match command {
+            DomainCommand::Reshape(cut_shape, adds) => reshape(cut_shape, adds, ctx),
+            DomainCommand::AddCorner(corner) => tool.corners.push(corner),
+            DomainCommand::MoveCorner(index, corner) => {
+                if let Some(place) = tool.corners.get_mut(index) {
+                    *place = corner;
+                }
+            }
+            DomainCommand::RemoveCorner => {
+                tool.corners.pop();
+            }
+            DomainCommand::ClosePolygon => close_polygon(ctx),
+            DomainCommand::Mode(mode) => {
+                ctx.tools.select(&DOMAIN);
+                ctx.tools.domain.mode = mode;
+            }
+            DomainCommand::Adds(adds) => tool.adds = adds,
+            DomainCommand::Open(path) => load_domain(ctx.background, &path),
+            DomainCommand::AddOutline(path) => {
+                load_outline(ctx.session, ctx.background, &path);
+            }
+            DomainCommand::SetOutline(change) => set_outline(*change, ctx),
+            DomainCommand::Bounds(bounds) => {
+                ctx.session.set_bounds(bounds);
+                ctx.tools.note_use(&DOMAIN);
+            }
+        }
+    }
+}
+
+fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
+    let OutlineChange { name, before, setting } = change;
+    let settings = ctx.session.document().settings();
+    if settings.domain != before || ctx.session.is_cutting() {
+        let problem = "was not added, as the domain was edited in the meantime. Add it again.";
+        return ctx.session.report(format!("{name} {problem}"));
+    }
+    ctx.session.end_gesture();
+    ctx.session.set(setting);
+    ctx.session.end_gesture();
+    let settings = ctx.session.document().settings();
+    if settings.domain != before {
+        let grows = settings.domain.bounds != before.bounds;
+        let frame = if grows { " The frame grew to hold it." } else { "" };
+        ctx.session.tell(format!("The outline {name} was added to the domain.{frame}"));
+        ctx.view.camera = ctx.view.camera.filter(|_| !grows);
+    }
+}
+
+fn reshape(cut_shape: CutShape, adds: bool, ctx: &mut Ctx<'_>) {
+    ctx.session.reshape(cut_shape, adds);
+    ctx.tools.note_use(&DOMAIN);
+}
+
+fn close_polygon(ctx: &mut Ctx<'_>) {
+    if ctx.tools.domain.corners.len() < 3 {
+        return ctx.session.tell("A polygon needs three corners: click to set another one.".into());
+    }
+    let ring = std::mem::take(&mut ctx.tools.domain.corners);
+    reshape(CutShape::Ring(ring), ctx.tools.domain.adds, ctx);
+    ctx.session.end_gesture();
+}

@@ -1,0 +1,56 @@
+//! Reads domains and outlines from files.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{DomainCommand, OutlineChange};
+use crate::app::background::{Aim, Background, Outcome, name_of};
+use crate::app::command::{Command, Opened};
+use crate::app::session::Session;
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_io::io::{self, Meter};
+
+/// Reads polygons, and opens a document with them as its domain.
+pub fn load_domain(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| match domain_of(&file, meter) {
+        Ok(document) => {
+            let opened = Opened { document: Arc::new(document), home: None };
+            Outcome::Opened { path: file, opened }
+        }
+        Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads polygons, and adds them to the domain of the document.
+pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
+    let (file, settings) = (path.to_owned(), session.document().settings().clone());
+    background.start(Aim::Read, path, move |meter| {
+        let polygons = match io::geojson::read_named_metered(&file, meter) {
+            Ok(polygons) => polygons,
+            Err(error) => return Outcome::not_read(error),
+        };
+        match settings.with_outline(&polygons) {
+            Ok(setting) => {
+                let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
+                Outcome::Read {
+                    path: file,
+                    commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
+                }
+            }
+            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
+        }
+    });
+}
+
+/// Returns a new document on the polygons of a file.
+fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
+    let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
+    let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
+    let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };
+    Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
+}
