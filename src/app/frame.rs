@@ -20,7 +20,7 @@ use super::App;
 use super::catalog::catalog;
 use super::command::{Command, FileCommand};
 use super::dialogs::FileFacts;
-use super::features::stepping;
+use super::features::{ROWS, stepping};
 use super::journal::JournalKeeper;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, replacing};
@@ -163,9 +163,6 @@ impl App {
     /// The second half of a frame: everything that is drawn.
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
-        if self.view.panels {
-            self.layer_pictures.advance(&self.session, &self.view, &self.jobs, ui.ctx());
-        }
         let mut commands = Vec::new();
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
         self.view.revealed_panel = None;
@@ -226,9 +223,9 @@ impl App {
             project: &self.project,
             tools: &self.tools,
             view: &self.view,
-            layer_pictures: &self.layer_pictures,
             paths: &self.paths,
             features: &self.features,
+            rows: ROWS,
             report: self.report.and_then(|shown| shown.figure(&self.session)),
             threads: &self.threads,
             pointer: self.canvas.pointer(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::background::{Background, name_of};
 use super::command::Command;
-use super::layer_files::with_mask;
+use super::kit::with_mask;
 use super::paths::PathCommand;
 use super::session::Session;
 use meshbrush_core::document::KeepOut;

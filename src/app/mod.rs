@@ -31,8 +31,6 @@ mod keep_out;
 mod keys;
 mod kit;
 mod layer_edits;
-mod layer_files;
-mod layer_pictures;
 mod notices;
 mod panels;
 mod path_export;
@@ -72,7 +70,6 @@ use frame_log::FrameLog;
 use help::HelpTopic;
 use jobs::Jobs;
 use journal::JournalKeeper;
-use layer_pictures::LayerPictures;
 use paths::PathFinder;
 use project::ProjectFile;
 use report::ShownFigure;
@@ -107,7 +104,6 @@ pub struct App {
     tools: Tools,
     view: View,
     canvas: Canvas,
-    layer_pictures: LayerPictures,
     features: Features,
     paths: PathFinder,
     /// The figure of the report that is shown.
@@ -172,7 +168,6 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu, &jobs),
-            layer_pictures: LayerPictures::default(),
             features: Features::default(),
             paths: PathFinder::default(),
             report: None,

@@ -360,7 +360,7 @@ const AHEAD: [(&str, &str, &str); 14] = [
     ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
     ("src/app/command/shell.rs", "help", "a topic of the help is data"),
     ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
-    ("src/app/kit/frame_state.rs", "layer_pictures", "of a feature without a folder"),
+    ("src/app/features/layers/kinds/mod.rs", "paths", "of a feature without a folder"),
     ("src/app/kit/frame_state.rs", "paths", "of a feature without a folder"),
     ("src/app/features/stepping/export.rs", "files", "lists the files written in the words of an export"),
     ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),

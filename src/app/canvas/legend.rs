@@ -4,8 +4,8 @@ use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, Wi
 
 use super::corridor;
 use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
+use crate::app::features::layers::layer_color32;
 use crate::app::kit::FrameState;
-use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::{font, tokens};
 use crate::app::tools::ALTERNATIVE_COLOR;
 use crate::app::view::{FieldOverlay, deepest_level};

@@ -5,8 +5,7 @@ use glam::DVec2;
 
 use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::panels::menu_item;
+use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
 
 /// Identifies the menu, and where it was opened in egui's memory.
 fn id() -> Id {

@@ -2,8 +2,8 @@
 //! longer than a frame.
 
 use super::super::contours::pixels_over;
+use super::super::features::layers::layer_color32;
 use super::super::jobs::{Jobs, Slot, Wanted};
-use super::super::layer_pictures::layer_color32;
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
 use meshbrush_core::build::RefinementCriterion;

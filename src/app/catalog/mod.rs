@@ -4,7 +4,6 @@ mod edit;
 mod file;
 mod gestures;
 mod help;
-mod layer;
 mod tool;
 mod view;
 
@@ -18,7 +17,6 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
         file::file(state),
         edit::edit(state),
         tool::tool(state),
-        layer::layer(state),
         view::view(state),
         help::examples(),
         help::help(),

@@ -6,7 +6,6 @@
 mod corridor;
 mod files;
 mod keep_out;
-mod layers;
 mod painting;
 mod paths;
 mod report;
@@ -16,7 +15,7 @@ use eframe::egui::Context;
 use super::App;
 use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
-use super::features::Features;
+use super::features::{Features, ROWS};
 use crate::app::kit::{Ctx, Tool};
 
 impl App {
@@ -37,6 +36,7 @@ impl App {
             tools: &mut self.tools,
             project: &mut self.project,
             background: &mut self.background,
+            rows: ROWS,
             jobs: &self.jobs,
             commands: &mut self.commands,
             egui,

@@ -4,9 +4,12 @@ use eframe::egui::Context;
 use glam::DVec2;
 
 use crate::app::App;
-use crate::app::command::BrushCommand;
+use crate::app::command::{BrushCommand, Command, LayerCommand};
+use crate::app::notices::Offer;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::tools::{BrushMode, PaintKind};
+use meshbrush_core::document::NoPaintLayer;
+use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
 
 impl App {
     pub(in crate::app) fn execute_on_brush(&mut self, command: BrushCommand, _: &Context) {
@@ -109,5 +112,42 @@ impl App {
         }
         self.tools.mode = BrushMode::Set;
         self.tools.select_brush();
+    }
+
+    /// Selects a layer that the brush can paint a quantity on, if there is one and none is selected: rather
+    /// one that is visible and not locked, the highest of several.
+    fn select_layer_painted_with(&mut self, kind: PaintKind) {
+        let document = self.session.document_mut();
+        let quantity = quantity_of(kind);
+        let takes = |layer: &&Layer| layer.paints() == Some(quantity);
+        if document.active_layer().filter(takes).is_some() {
+            return;
+        }
+        let fitting = || document.settings().layers.iter().rev().filter(takes);
+        let usable = fitting().find(|layer| layer.visible && !layer.locked);
+        if let Some(id) = usable.or_else(|| fitting().next()).map(|layer| layer.id) {
+            document.activate_layer(id);
+        }
+    }
+
+    /// Says why nothing can be painted, and offers what would help.
+    fn offer_paint_layer(&mut self, problem: &NoPaintLayer) {
+        let (label, command) = match problem {
+            NoPaintLayer::Locked { id, .. } => ("Unlock the layer", LayerCommand::Lock(*id, false)),
+            NoPaintLayer::Hidden { id, .. } => ("Show the layer", LayerCommand::Show(*id, true)),
+            NoPaintLayer::Missing(quantity) => {
+                let quantity = quantity.unwrap_or(quantity_of(self.tools.kind));
+                ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::Paint(quantity))))
+            }
+        };
+        let offer = Offer { label, command: Command::Layer(command) };
+        self.session.notices_mut().report_with_offer(problem, offer);
+    }
+}
+
+fn quantity_of(kind: PaintKind) -> PaintedQuantity {
+    match kind {
+        PaintKind::Risk => PaintedQuantity::Risk,
+        PaintKind::Diameter => PaintedQuantity::Diameter,
     }
 }

@@ -32,6 +32,8 @@ impl App {
                     self.change_paths(|plan| plan.routes[route].reverse());
                 }
             }
+            PathCommand::AddCorridor => self.add_corridor(),
+            PathCommand::MoveCorridor(id) => self.take_paths(id),
             PathCommand::Cost(cost) => self.set_paths(|plan| plan.cost = cost),
             PathCommand::CostBy(kind) => self.give_cost_by(kind),
             PathCommand::ShowDistance(distance) => self.tools.path.shown_distance = distance,

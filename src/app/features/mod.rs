@@ -1,7 +1,7 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
 //! [`Ctx`], and never another feature: it sends the command of another one instead.
 //!
-//! Of layers and painting, only commands and kinds of files are here.
+//! Of painting, only commands are here.
 
 pub mod boundary;
 pub mod domain;
@@ -18,13 +18,14 @@ pub mod threats;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{BrushCommand, EditCommand, FileCommand, LayerCommand, ShellCommand, ViewCommand};
+use super::command::{BrushCommand, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::kit::{Ctx, Feature, Row};
 use super::paths::PathCommand;
 use super::report::FigureCommand;
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
+use layers::LayerEditor;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
@@ -87,6 +88,8 @@ macro_rules! features {
 // Menus, side panel, tool strip and canvas show the features in this order.
 features! {
     features {
+        /// The layers of the size field.
+        layers: LayerEditor as Layer,
         /// The domain.
         domain: DomainEditor as Domain,
         /// The queried point and its triangle.
@@ -113,8 +116,6 @@ features! {
         Edit(EditCommand) => execute_on_document,
         /// Strokes and the brush.
         Brush(BrushCommand) => execute_on_brush,
-        /// The layers of the size field.
-        Layer(LayerCommand) => execute_on_layers,
         /// The paths of the document.
         Path(PathCommand) => execute_on_paths,
         /// The figures of the report.

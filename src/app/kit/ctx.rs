@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 
+use super::Row;
 use crate::app::background::Background;
 use crate::app::command::{Command, FileCommand};
 use crate::app::jobs::Jobs;
@@ -27,6 +28,8 @@ pub struct Ctx<'a> {
     pub project: &'a mut ProjectFile,
     /// Work on files.
     pub background: &'a mut Background,
+    /// The parts of all features.
+    pub rows: &'static [Row],
     /// Work that takes longer than a frame.
     pub jobs: &'a Jobs,
     /// Commands that are run after this one, in the same frame.

@@ -1,7 +1,7 @@
 //! The data that a frame shows.
 
+use super::Row;
 use crate::app::features::Features;
-use crate::app::layer_pictures::LayerPictures;
 use crate::app::paths::PathFinder;
 use crate::app::project::ProjectFile;
 use crate::app::readout::Readout;
@@ -23,12 +23,12 @@ pub struct FrameState<'a> {
     pub tools: &'a Tools,
     /// The settings of the view.
     pub view: &'a View,
-    /// Small pictures of the target diameters of each layer.
-    pub layer_pictures: &'a LayerPictures,
     /// The paths of the document.
     pub paths: &'a PathFinder,
     /// The features. Each reads its own.
     pub features: &'a Features,
+    /// The parts of all features.
+    pub rows: &'static [Row],
     /// The figure of the report that is shown.
     pub report: Option<ReportFigure>,
     /// The threads on which the window computes.

@@ -2,13 +2,15 @@
 
 use eframe::egui::Ui;
 
-use super::{FrameState, Tool};
+use super::{FrameState, Row, Tool};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::widgets::Icon;
+use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
 
 /// What the window knows of a kind of layer.
 pub struct LayerKindRow {
+    /// Its place in menus: kinds with a lower number stand first.
+    pub place: u8,
     /// Whether a layer is of this kind.
     pub is_of: fn(&LayerKind) -> bool,
     /// Its sign in the list.
@@ -19,6 +21,13 @@ pub struct LayerKindRow {
     pub tool: Option<Tool>,
     /// Shows the parameters of a layer of this kind.
     pub parameters: fn(&mut Ui, &FrameState<'_>, &Layer, &mut Vec<Command>),
+}
+
+/// Returns the kinds of all features, as menus list them.
+pub fn kinds_of_layers(rows: &'static [Row]) -> Vec<&'static LayerKindRow> {
+    let mut kinds: Vec<_> = rows.iter().flat_map(|row| row.layer_kinds).copied().collect();
+    kinds.sort_by_key(|kind| kind.place);
+    kinds
 }
 
 /// A way to add a layer.
@@ -43,4 +52,16 @@ pub fn set_kind(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
 pub fn set_kind_once(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
     set_kind(layer, kind, commands);
     commands.push(Command::Edit(EditCommand::EndGesture));
+}
+
+/// Shows the distance beyond which a layer asks for nothing. Returns whether it changed.
+pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool {
+    let mut is_limited = range.is_finite();
+    if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
+        let extent = state.session.document().settings().domain.bounds.size().max_element();
+        *range = if is_limited { 0.1 * extent } else { f64::INFINITY };
+        return true;
+    }
+    let row = NumberRow::new("Range", range).range(f64::MIN_POSITIVE..=f64::MAX).unit(state.unit().symbol());
+    is_limited && row.help("Beyond this distance the layer asks for nothing.").show(ui).changed()
 }

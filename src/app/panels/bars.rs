@@ -1,11 +1,10 @@
 //! The menu bar and the tool strip.
 
-use eframe::egui::accesskit::Toggled;
-use eframe::egui::{self, Align, Align2, Button, Layout, MenuBar, Rect, RichText, ScrollArea, Ui, vec2};
+use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use crate::app::catalog::catalog;
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use crate::app::kit::{FrameState, Menu, menu_item};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::tools::TOOLS;
 use crate::app::widgets::{Icon, ToolButton};
@@ -36,32 +35,6 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
             ui.add(egui::Label::new(title).truncate());
         });
     });
-}
-
-/// An entry of a menu.
-pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
-    if item.begins_group {
-        ui.separator();
-    }
-    // A title is one line: the menu is as wide as its longest.
-    let mut button = Button::new(&item.title).wrap_mode(egui::TextWrapMode::Extend);
-    let keys = item.keys_text();
-    if !keys.is_empty() {
-        button = button.shortcut_text(keys);
-    }
-    // Room for the mark of the current choice.
-    ui.spacing_mut().button_padding.x = 26.0;
-    let response = ui.add_enabled(item.enabled, button);
-    if item.checked {
-        let mark = Rect::from_center_size(response.rect.left_center() + vec2(13.0, 0.0), vec2(16.0, 16.0));
-        let color = tokens(ui).accent;
-        ui.painter().text(mark.center(), Align2::CENTER_CENTER, Icon::CHECK.glyph(), font::icon(16.0), color);
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_toggled(Toggled::True));
-    }
-    if response.clicked() {
-        commands.push(item.command.clone());
-        ui.close();
-    }
 }
 
 /// A button for each tool, and below them undo, redo and fit.

@@ -5,20 +5,15 @@
 
 mod bars;
 mod brush;
-mod layers;
-mod levels;
 mod mesh;
 mod path;
 mod report;
 mod status;
-mod transfer;
 mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
 
-pub use bars::menu_item;
 pub use brush::BRUSH;
-pub use layers::{LAYER_KINDS, ask_name as ask_layer_name, combine_name, kind_of};
 pub use path::{OTHER_PATHS, PATH};
 
 use super::command::Command;
@@ -27,16 +22,7 @@ use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
 
 /// The sections of the side panel that belong to no feature, from the top of their groups.
-static PANELS: [&Panel; 8] = [
-    &BRUSH,
-    &layers::LAYERS,
-    &transfer::TRANSFER,
-    &levels::LEVELS,
-    &PATH,
-    &OTHER_PATHS,
-    &mesh::MESH,
-    &view::VIEW,
-];
+static PANELS: [&Panel; 5] = [&BRUSH, &PATH, &OTHER_PATHS, &mesh::MESH, &view::VIEW];
 
 /// Draws all panels, from the rim inwards.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

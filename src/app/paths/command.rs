@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::{AlternativesCommand, FrontCommand};
 use crate::app::keep_out::KeepOutCommand;
 use meshbrush_core::document::PathCost;
+use meshbrush_core::layers::LayerId;
 
 /// Why nothing can be done with a path of a document without one.
 pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool (P).";
@@ -14,6 +15,10 @@ pub const NO_PATH: &str = "There is no path: set its start and goal with the pat
 /// One thing to do with paths. Points and lengths are in world units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathCommand {
+    /// Adds a layer with a corridor along the paths as they are.
+    AddCorridor,
+    /// Moves the corridor of a layer to the paths as they are.
+    MoveCorridor(LayerId),
     /// Takes hold of the place at a point, at most `reach` away, or adds a place there.
     Press {
         /// Where.

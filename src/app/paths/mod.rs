@@ -15,6 +15,7 @@ mod alternatives;
 mod command;
 mod corridor;
 mod files;
+mod layer_kind;
 mod front;
 mod work;
 
@@ -25,6 +26,7 @@ pub use command::{CostKind, NO_PATH, PathCommand};
 pub use corridor::ShownCorridor;
 pub use files::{EXPORT_PATH, OPEN_KEEP_OUT};
 pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
+pub use layer_kind::CORRIDOR;
 pub use work::{FoundPath, ShownPath};
 use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
 

@@ -15,8 +15,6 @@ mod help;
 #[cfg(unix)]
 mod identity;
 mod keys;
-mod layer_data;
-mod layers;
 mod long_work;
 mod menus;
 mod messages;
@@ -34,7 +32,6 @@ mod software_window;
 mod threads;
 pub mod tips;
 mod view;
-mod hidden_levels;
 
 use std::fs;
 use std::path::PathBuf;
@@ -58,7 +55,7 @@ use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use meshbrush_core::document::{Document, Setting, Settings};
-use meshbrush_core::layers::{LayerId, LayerKind, RasterReading};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterReading};
 use meshbrush_mesh::mesh::{Fingerprint, TriangleId};
 
 pub type Window = Harness<'static, App>;
@@ -368,6 +365,17 @@ pub fn paint(window: &mut Window, x: f64) {
     send(window, Command::Brush(BrushCommand::BeginStroke(dvec2(x, 0.5))));
     send(window, Command::Brush(BrushCommand::DrawTo(dvec2(x, 0.6))));
     send(window, Command::Brush(BrushCommand::EndStroke));
+}
+
+/// Returns the selected layer.
+pub fn active(window: &Window) -> &Layer {
+    document(window).active_layer().expect("a selected layer")
+}
+
+/// Clicks on a button of the panel. The window has no other button of that name outside menus.
+pub fn click_button(window: &mut Window, name: &str) {
+    window.get_by_role_and_label(Role::Button, name).click();
+    window.run();
 }
 
 pub fn document(window: &Window) -> &Document {

@@ -30,10 +30,6 @@ pub enum LayerCommand {
     Combine(LayerId, Combine),
     /// Changes what a layer asks for. Further changes join this gesture until [`Command::EndGesture`].
     SetKind(LayerId, Box<LayerKind>),
-    /// Adds a corridor along the paths as they are.
-    AddCorridor,
-    /// Moves a corridor to the paths as they are.
-    TakePaths(LayerId),
     /// Chooses what the distance of a layer is measured to.
     MeasureTo(LayerId, DistanceTo),
     /// Makes a layer count only inside a mask, or everywhere.

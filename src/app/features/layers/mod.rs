@@ -1,7 +1,32 @@
-//! The layers of the size field.
+//! The layers of the size field: the stack, the parameters of the selected layer, and the curve from risk to
+//! diameter.
 
 mod command;
+mod entries;
+mod execute;
 mod files;
+mod kinds;
+mod list;
+mod load;
+mod panel;
+mod pictures;
+mod selected;
+#[cfg(test)]
+pub mod tests;
+mod transfer;
 
 pub use command::LayerCommand;
-pub use files::{OPEN_BAND, OPEN_DIAMETERS, OPEN_MASK, OPEN_RISK, OPEN_SHAPES, OPEN_VALUES, REPLACE_SHAPES};
+use files::{OPEN_BAND, OPEN_MASK, OPEN_SHAPES, OPEN_VALUES, REPLACE_SHAPES};
+pub use files::{OPEN_DIAMETERS, OPEN_RISK};
+use kinds::KINDS;
+use panel::LAYERS;
+use pictures::LayerPictures;
+pub use pictures::layer_color32;
+use transfer::TRANSFER;
+
+/// The small pictures of layers; the layers are in the document.
+#[derive(Default)]
+pub struct LayerEditor {
+    /// Small pictures of the target diameters of each layer.
+    pictures: LayerPictures,
+}

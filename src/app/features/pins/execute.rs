@@ -16,7 +16,7 @@ const TABLE_BUDGET: Duration = Duration::from_millis(3);
 
 impl Feature for Pins {
     type Command = PinsCommand;
-    const ROW: Row = Row { panels: &[&PINS], marks: marks::paint, entries, entries_at };
+    const ROW: Row = Row { panels: &[&PINS], marks: marks::paint, entries, entries_at, ..Row::EMPTY };
 
     fn execute(&mut self, command: PinsCommand, ctx: &mut Ctx<'_>) {
         match command {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Statistics, StatisticsCommand, panel::STATISTICS};
+use super::{Statistics, StatisticsCommand, levels::LEVELS, panel::STATISTICS};
 use crate::app::derivation::MeasuredMesh;
 use crate::app::jobs::{Jobs, Wanted};
 use crate::app::kit::{Ctx, Feature, Row};
@@ -28,7 +28,7 @@ pub struct Measured {
 
 impl Feature for Statistics {
     type Command = StatisticsCommand;
-    const ROW: Row = Row { panels: &[&STATISTICS], ..Row::EMPTY };
+    const ROW: Row = Row { panels: &[&LEVELS, &STATISTICS], ..Row::EMPTY };
 
     fn execute(&mut self, command: StatisticsCommand, ctx: &mut Ctx<'_>) {
         match command {

@@ -1,7 +1,8 @@
-//! The figures of the mesh.
+//! The figures of the mesh, and its triangles by level.
 
 mod command;
 mod figures;
+mod levels;
 mod panel;
 #[cfg(test)]
 mod tests;

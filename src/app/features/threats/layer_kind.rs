@@ -9,7 +9,8 @@ use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
 
 /// Places with a risk around them.
-pub const THREATS_KIND: LayerKindRow = LayerKindRow {
+pub static THREATS_KIND: LayerKindRow = LayerKindRow {
+    place: 3,
     is_of: |kind| matches!(kind, LayerKind::Threats(_)),
     icon: Icon::THREATS,
     tool: Some(&THREATS),

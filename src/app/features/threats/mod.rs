@@ -13,7 +13,7 @@ mod tool;
 pub use command::ThreatsCommand;
 use files::{OPEN_THREATS, SAVE_THREATS};
 use glam::DVec2;
-pub use layer_kind::THREATS_KIND;
+use layer_kind::THREATS_KIND;
 pub use tool::THREATS;
 
 use meshbrush_core::document::Document;

@@ -4,10 +4,11 @@ use eframe::egui::Modifiers;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::super::layers::{active, click_button};
-use super::super::{choose, entries, move_to, notice, press, release, send, settings, triangles};
+use super::super::{
+    active, choose, click_button, entries, move_to, notice, press, release, send, settings, triangles,
+};
 use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand};
 use crate::app::paths::PathCommand;
 use meshbrush_core::layers::{DistanceTo, LayerKind};
 
@@ -62,7 +63,7 @@ fn without_a_current_path_there_is_no_corridor_and_a_sentence() {
     let mut window = window_with_path();
     let edits = entries(&window);
     send(&mut window, Command::Path(PathCommand::DeleteAll));
-    send(&mut window, Command::Layer(LayerCommand::AddCorridor));
+    send(&mut window, Command::Path(PathCommand::AddCorridor));
     assert!(notice(&window).contains("There is no path"), "{}", notice(&window));
     assert_eq!(entries(&window), edits + 1);
     assert!(window.query_by_label("Take the current path again").is_none());

@@ -9,11 +9,10 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use super::super::layers::click_button;
 use super::super::tips::unexplained;
 use super::super::{
-    TALL, Window, folder, key, move_to, notice, open_menu, press, release, send, settings, type_into,
-    wait_for_notice, wait_until, window_of,
+    TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, settings,
+    type_into, wait_for_notice, wait_until, window_of,
 };
 use super::{GOAL, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};

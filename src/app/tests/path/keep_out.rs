@@ -8,10 +8,10 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use super::super::layers::{active, click_button};
 use super::super::tips::unexplained;
 use super::super::{
-    TALL, Window, choose, entries, notice, send, settings, show, type_into, wait_until, window_of,
+    TALL, Window, active, choose, click_button, entries, notice, send, settings, show, type_into, wait_until,
+    window_of,
 };
 use super::{GOAL, START, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand, LayerCommand};

@@ -10,7 +10,8 @@ use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_mesh::text::Bytes;
 
 /// Painted risk and painted diameters.
-pub const PAINT: LayerKindRow = LayerKindRow {
+pub static PAINT: LayerKindRow = LayerKindRow {
+    place: 0,
     is_of: |kind| matches!(kind, LayerKind::Paint(_)),
     icon: Icon::BRUSH,
     tool: None,

@@ -9,12 +9,12 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use super::layers::{active, choose_in, click_button, select};
-use super::{
-    TALL, Window, choose, entries, folder, key, level_at, notice, open_menu, send, settings, triangles,
-    type_into, value_of, wait_for_notice, wait_until, window_of,
-};
+use super::stack::{choose_in, select};
 use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::tests::{
+    TALL, Window, active, choose, click_button, entries, folder, key, level_at, notice, open_menu, send,
+    settings, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
+};
 use meshbrush_core::document::Example;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
 

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::background::{Aim, Background, Outcome, name_of};
-use super::command::{Command, EditCommand, LayerCommand};
-use super::session::Session;
+use crate::app::background::{Aim, Background, Outcome, name_of};
+use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::kit::with_mask;
+use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
-use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{DistanceTo, LayerKind, Mask, RasterReading, RasterSource, Shapes};
+use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, Shapes};
 use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues};
 use meshbrush_io::io::{self, Meter};
 use meshbrush_mesh::geometry::Rect;
@@ -103,26 +103,6 @@ fn load_layer(
 pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
     with_mask(background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
-}
-
-/// Reads polygons as one mask, and sends a command with it.
-pub fn with_mask(
-    background: &mut Background,
-    path: &Path,
-    command: impl FnOnce(Mask) -> Command + Send + 'static,
-) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        let named = match io::geojson::read_named_metered(&file, meter) {
-            Ok(named) => named,
-            Err(error) => return Outcome::not_read(error),
-        };
-        let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
-        match Mask::new(&polygons) {
-            Ok(mask) => Outcome::PartRead(vec![command(mask)]),
-            Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
-        }
-    });
 }
 
 /// The shapes of a file. The distance within a polygon is 0.

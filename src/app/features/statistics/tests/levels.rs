@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{RESTING_PLACE, TALL, Window, button_event, window_of};
+use crate::app::tests::{RESTING_PLACE, TALL, Window, button_event, window_of};
 
 /// A click on the row of a level in the legend.
 fn click_row(window: &mut Window, level: u32, modifiers: Modifiers) {
@@ -30,7 +30,7 @@ fn a_row_of_the_legend_hides_its_level_and_alt_shows_it_alone() {
     let mut window = window_of(TALL);
     let shown = |window: &Window| {
         let view = window.state().view();
-        view.style(super::settings(window), 1.0).shown_levels
+        view.style(crate::app::tests::settings(window), 1.0).shown_levels
     };
     assert_eq!(shown(&window), u64::MAX);
     click_row(&mut window, 2, Modifiers::NONE);

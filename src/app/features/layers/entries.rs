@@ -1,14 +1,15 @@
-//! The menu Layer.
+//! The layers in menus and in the palette.
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::panels::{LAYER_KINDS, combine_name};
+use super::LayerCommand;
+use super::selected::combine_name;
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, FrameState, Menu, kinds_of_layers};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 
 /// Returns the stack of layers, and the selected one.
-pub fn layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let mut items = additions(state);
     items.extend(selected_layer(state));
     items.extend(stack(state));
@@ -23,7 +24,7 @@ fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
 
 /// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let additions = LAYER_KINDS.iter().flat_map(|kind| kind.additions);
+    let additions = kinds_of_layers(state.rows).into_iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
         let title = format!("Add layer: {}", addition.title);
         let item = CatalogItem::new(Menu::Layer, title, (addition.command)(state));

@@ -10,7 +10,8 @@ use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 
 /// A formula in x and y.
-pub const FORMULA: LayerKindRow = LayerKindRow {
+pub static FORMULA: LayerKindRow = LayerKindRow {
+    place: 1,
     is_of: |kind| matches!(kind, LayerKind::Formula { .. }),
     icon: Icon::FORMULA,
     tool: None,

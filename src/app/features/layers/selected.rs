@@ -3,8 +3,8 @@
 use eframe::egui::Ui;
 
 use super::kinds::kind_of;
-use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::features::layers::OPEN_MASK;
+use super::{LayerCommand, OPEN_MASK};
+use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{FrameState, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
 use meshbrush_core::layers::{Combine, Layer};
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.push_id(layer.id.0, |ui| {
             ui.add_enabled_ui(!layer.locked, |ui| {
                 combine_rows(ui, layer, commands);
-                (kind_of(&layer.kind).parameters)(ui, state, layer, commands);
+                (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);
                 mask_rows(ui, state, layer, commands);
             });
         });

@@ -2,11 +2,12 @@
 
 use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2};
 
+use super::LayerCommand;
 use super::kinds::kind_of;
+use super::pictures::layer_color32;
 use super::selected::combine_name;
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::Command;
 use crate::app::kit::FrameState;
-use crate::app::layer_pictures::layer_color32;
 use crate::app::theme::tokens;
 use crate::app::widgets::{LayerRow, LayerRowAnswer};
 use meshbrush_core::layers::{Layer, LayerId};
@@ -69,11 +70,11 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
     let row = LayerRow {
         id: layer.id.0,
         name: &layer.name,
-        icon: kind_of(&layer.kind).icon,
+        icon: kind_of(state.rows, &layer.kind).icon,
         kind: layer.kind.label(),
         combine: combine_name(layer.combine),
         color: layer_color32(layer.id),
-        picture: state.layer_pictures.texture(layer.id),
+        picture: state.features.layers.pictures.texture(layer.id),
         visible: layer.visible,
         locked: layer.locked,
         selected: selected == Some(layer.id),

@@ -6,12 +6,12 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{
-    CTRL_SHIFT, FREE, TALL, Window, button_event, choose, document, entries, key, level_at, move_to, notice,
-    press_at, release_at, send, settings, stroke, triangles, type_into, value_of, wait_until, window,
-    window_of, window_with,
-};
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, InspectCommand, LayerCommand};
+use crate::app::tests::{
+    CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, click_button, document, entries, key,
+    level_at, move_to, notice, press_at, release_at, send, settings, stroke, triangles, type_into, value_of,
+    wait_until, window, window_of, window_with,
+};
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
@@ -25,10 +25,6 @@ fn names(window: &Window) -> Vec<&str> {
     settings(window).layers.iter().rev().map(|layer| layer.name.as_str()).collect()
 }
 
-pub(super) fn active(window: &Window) -> &Layer {
-    document(window).active_layer().expect("a selected layer")
-}
-
 fn row(window: &Window, name: &str) -> Pos2 {
     window.get_by_role_and_label(Role::ListBoxOption, name).rect().center()
 }
@@ -38,13 +34,8 @@ fn click_on(window: &mut Window, role: Role, name: &str) {
     window.run();
 }
 
-/// Clicks on a button of the panel. The window has no other button of that name outside menus.
-pub(super) fn click_button(window: &mut Window, name: &str) {
-    click_on(window, Role::Button, name);
-}
-
 /// Selects a layer by a click on its row.
-pub(super) fn select(window: &mut Window, name: &str) {
+pub fn select(window: &mut Window, name: &str) {
     click_on(window, Role::ListBoxOption, name);
     assert_eq!(active(window).name, name);
 }
@@ -62,7 +53,7 @@ fn drag_row(window: &mut Window, name: &str, down: f32) {
 }
 
 /// Chooses in a group: other groups have choices of the same name.
-pub(super) fn choose_in(window: &mut Window, group: &str, choice: &str) {
+pub fn choose_in(window: &mut Window, group: &str, choice: &str) {
     let group = window.get_by_role_and_label(Role::RadioGroup, group).rect();
     let choices = window.get_all_by_role_and_label(Role::RadioButton, choice);
     let own: Vec<_> = choices.filter(|choice| group.contains(choice.rect().center())).collect();
@@ -135,7 +126,7 @@ fn the_add_menu_adds_every_kind_above_the_selected_layer() {
 
 #[test]
 fn a_mask_from_a_file_limits_a_layer_until_it_is_removed() {
-    let file = super::folder("app-layers", "mask").join("right.geojson");
+    let file = crate::app::tests::folder("app-layers", "mask").join("right.geojson");
     let right = r#"{"type": "Polygon", "coordinates": [[[0.5, 0], [1, 0], [1, 1], [0.5, 1], [0.5, 0]]]}"#;
     std::fs::write(&file, right).unwrap();
     let mut window = window_of(TALL);
@@ -447,7 +438,8 @@ fn the_overlay_of_deciding_layers_has_a_legend_and_a_dot_per_row() {
 #[test]
 fn every_row_gets_a_picture_of_what_its_layer_asks_for() {
     let mut window = window_of(TALL);
-    let has = |window: &Window, id: u32| window.state().layer_pictures.texture(LayerId(id)).is_some();
+    let has =
+        |window: &Window, id: u32| window.state().features.layers.pictures.texture(LayerId(id)).is_some();
     wait_until(&mut window, |window| (0..3).all(|id| has(window, id)));
     add(&mut window, LayerKind::constant(0.1));
     wait_until(&mut window, |window| has(window, 3));

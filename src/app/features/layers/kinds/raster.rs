@@ -14,7 +14,8 @@ use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, Valu
 use meshbrush_io::io;
 
 /// A picture or a grid.
-pub const RASTER: LayerKindRow = LayerKindRow {
+pub static RASTER: LayerKindRow = LayerKindRow {
+    place: 2,
     is_of: |kind| matches!(kind, LayerKind::Raster { .. }),
     icon: Icon::RASTER,
     tool: None,

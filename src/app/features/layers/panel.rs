@@ -1,18 +1,12 @@
 //! The layers of the size field: the stack, and the parameters of the selected layer.
 
-mod kinds;
-mod list;
-mod selected;
-
 use eframe::egui::{Popup, Ui};
 
-pub use kinds::{LAYER_KINDS, kind_of};
-pub use list::ask_name;
-pub use selected::combine_name;
-
-use super::bars::menu_item;
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, PanelGroup, end_gesture_when_released};
+use super::{LayerCommand, list, selected};
+use crate::app::command::{Command, EditCommand};
+use crate::app::kit::{
+    CatalogItem, FrameState, Menu, Panel, PanelGroup, end_gesture_when_released, kinds_of_layers, menu_item,
+};
 use crate::app::widgets::{Icon, Section, SliderRow, ToolButton, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
 
@@ -62,7 +56,7 @@ fn add_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     let response = ToolButton::small(Icon::ADD, "Add layer").show(ui);
     Popup::menu(&response).show(|ui| {
         ui.set_min_width(220.0);
-        for (number, kind) in LAYER_KINDS.iter().enumerate() {
+        for (number, kind) in kinds_of_layers(state.rows).into_iter().enumerate() {
             for (i, addition) in kind.additions.iter().enumerate() {
                 let item = CatalogItem::new(Menu::Layer, addition.title, (addition.command)(state));
                 let item = if i == 0 && number > 0 { item.group() } else { item };

@@ -2,20 +2,21 @@
 
 use eframe::egui::Ui;
 
-use super::distance::range_rows;
-use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, remark, set_kind_once};
+use super::PathCommand;
+use crate::app::command::Command;
+use crate::app::kit::{Addition, FrameState, LayerKindRow, button_rows, range_rows, remark, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// A strip along the paths as they were when they were taken.
-pub const CORRIDOR: LayerKindRow = LayerKindRow {
+pub static CORRIDOR: LayerKindRow = LayerKindRow {
+    place: 5,
     is_of: |kind| matches!(kind, LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. }),
     icon: Icon::PATH,
     tool: None,
     additions: &[Addition {
         title: "corridor along the paths",
-        command: |_| Command::Layer(LayerCommand::AddCorridor),
+        command: |_| Command::Path(PathCommand::AddCorridor),
     }],
     parameters,
 };
@@ -39,6 +40,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         set_kind_once(layer, LayerKind::Distance { to, at_zero, slope, range }, commands);
     }
     remark(ui, "The corridor stays where the paths were when it was made.");
-    let take = Command::Layer(LayerCommand::TakePaths(layer.id));
+    let take = Command::Path(PathCommand::MoveCorridor(layer.id));
     button_rows(ui, [[("Take the current path again", true, take)]], commands);
 }

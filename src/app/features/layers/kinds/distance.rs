@@ -4,13 +4,14 @@ use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, set_kind_once};
+use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
 /// The distance to shapes or to the outline of the domain.
-pub const DISTANCE: LayerKindRow = LayerKindRow {
+pub static DISTANCE: LayerKindRow = LayerKindRow {
+    place: 4,
     is_of: |kind| {
         let LayerKind::Distance { to, .. } = kind else { return false };
         !matches!(to, DistanceTo::Corridor { .. })
@@ -53,18 +54,6 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     if changed {
         set_kind_once(layer, LayerKind::Distance { to: to.clone(), at_zero, slope, range }, commands);
     }
-}
-
-/// Shows the distance beyond which a layer asks for nothing. Returns whether it changed.
-pub fn range_rows(ui: &mut Ui, state: &FrameState<'_>, range: &mut f64) -> bool {
-    let mut is_limited = range.is_finite();
-    if toggle_row(ui, "Limit the range", &mut is_limited).changed() {
-        let extent = state.session.document().settings().domain.bounds.size().max_element();
-        *range = if is_limited { 0.1 * extent } else { f64::INFINITY };
-        return true;
-    }
-    let row = NumberRow::new("Range", range).range(f64::MIN_POSITIVE..=f64::MAX).unit(state.unit().symbol());
-    is_limited && row.help("Beyond this distance the layer asks for nothing.").show(ui).changed()
 }
 
 /// Shows buttons that choose the target of the distance.

@@ -4,7 +4,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Modifiers, OutputCommand};
 use egui_kittest::kittest::Queryable as _;
 
-use super::Measured;
+use super::super::Measured;
 use crate::app::command::{Command, FileCommand};
 use crate::app::tests::{
     FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,

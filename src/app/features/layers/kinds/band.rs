@@ -10,7 +10,8 @@ use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{Layer, LayerKind};
 
 /// A band of the values of a raster.
-pub const BAND: LayerKindRow = LayerKindRow {
+pub static BAND: LayerKindRow = LayerKindRow {
+    place: 6,
     is_of: |kind| matches!(kind, LayerKind::Band { .. }),
     icon: Icon::BAND,
     tool: None,

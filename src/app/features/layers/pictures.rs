@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
-use super::document_id::DocumentId;
-use super::jobs::{Jobs, Slot};
-use super::session::Session;
-use super::view::View;
+use crate::app::document_id::DocumentId;
+use crate::app::jobs::{Jobs, Slot};
+use crate::app::session::Session;
+use crate::app::view::View;
 use meshbrush_core::document::Document;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec};

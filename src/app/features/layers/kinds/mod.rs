@@ -1,0 +1,29 @@
+//! The kinds of layers that belong to no other feature: a file for each.
+
+mod band;
+mod curve;
+mod distance;
+mod formula;
+mod paint;
+mod raster;
+
+use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
+use crate::app::paths::CORRIDOR;
+use meshbrush_core::layers::{LayerKind, Quantity};
+
+/// The kinds of layers of this feature.
+pub static KINDS: [&LayerKindRow; 6] =
+    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &CORRIDOR, &band::BAND];
+
+/// Returns the kind of a layer.
+pub fn kind_of(rows: &'static [Row], kind: &LayerKind) -> &'static LayerKindRow {
+    kinds_of_layers(rows).into_iter().find(|row| (row.is_of)(kind)).unwrap_or(&paint::PAINT)
+}
+
+/// The name of a quantity.
+const fn quantity_name(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Risk => "Risk",
+        Quantity::Diameter => "Diameter",
+    }
+}

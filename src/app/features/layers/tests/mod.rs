@@ -1,0 +1,4 @@
+//! The stack of layers, and layers of data from files.
+
+mod data;
+pub mod stack;

@@ -1,0 +1,4 @@
+//! The figures of the mesh, and the levels that are shown.
+
+mod figures;
+mod levels;
