@@ -279,8 +279,8 @@ fn only_jobs_start_threads_wait_and_catch_panics() {
 
 /// Where the tools are: the module and the name.
 const TOOLS: [(&str, &str); 8] = [
-    ("tools", "BRUSH"),
-    ("tools", "ERASER"),
+    ("features::painting", "BRUSH"),
+    ("features::painting", "ERASER"),
     ("features::inspection", "QUERY"),
     ("features::threats", "THREATS"),
     ("tools", "PATH"),
@@ -291,10 +291,9 @@ const TOOLS: [(&str, &str); 8] = [
 
 /// Files of the window that may name a tool of another module: the file, and why. All others read the table of
 /// tools.
-const NAMES_A_TOOL: [(&str, &str); 7] = [
+const NAMES_A_TOOL: [(&str, &str); 6] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog/tool.rs", "keys and titles depend on the eraser and on the tool for paths"),
-    ("src/app/panels/brush.rs", "brush and eraser share a section"),
+    ("src/app/catalog/tool.rs", "a key depends on the tool for paths"),
     ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
@@ -340,6 +339,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "document_id",
             "home",
             "jobs",
+            "journal",
             "kit",
             "layer_edits",
             "notices",
@@ -356,7 +356,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
 ];
 
 /// Files of the window that import from a later part: the file, the module, and why.
-const AHEAD: [(&str, &str, &str); 14] = [
+const AHEAD: [(&str, &str, &str); 12] = [
     ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
     ("src/app/command/shell.rs", "help", "a topic of the help is data"),
     ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
@@ -366,8 +366,6 @@ const AHEAD: [(&str, &str, &str); 14] = [
     ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),
     ("src/app/project.rs", "replacing", "which files a question is about"),
     ("src/app/project.rs", "report", "opening a figure loses edits too"),
-    ("src/app/tools/brush.rs", "panels", "of a feature without a folder"),
-    ("src/app/tools/eraser.rs", "panels", "of a feature without a folder"),
     ("src/app/tools/mod.rs", "features", "the table of tools"),
     ("src/app/tools/path.rs", "panels", "of a feature without a folder"),
     ("src/app/tools/path.rs", "paths", "of a feature without a folder"),

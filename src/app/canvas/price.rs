@@ -2,10 +2,11 @@
 
 use eframe::egui::{Align2, Color32, Pos2, Rect, Ui, Vec2, vec2};
 
+use crate::app::features::painting::picks;
 use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
-use crate::app::tools::{PaintKind, picks};
+use crate::app::tools::PaintKind;
 use crate::app::widgets::{floating_tag, format, tag_size};
 use meshbrush_core::document::{NoChange, Price, Settings};
 use meshbrush_core::paint::{DiameterChange, Medium};

@@ -1,87 +1,43 @@
 //! Gestures of the pointer. The list of keys shows all of them, the menu Tool those that are hard to find.
 
-/// The tool or control with which a gesture is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// With the brush or the eraser.
-    Painting,
-    /// With the query tool.
-    Querying,
-    /// With the threats tool.
-    Threats,
-    /// On the canvas, with any tool.
-    Canvas,
-    /// On a number or a slider of a panel.
-    Panel,
+use crate::app::features::ROWS;
+use crate::app::kit::{GestureHelp, GesturePlace};
+
+/// Returns all of them, by their places.
+pub fn gestures() -> Vec<&'static GestureHelp> {
+    let of_features = ROWS.iter().flat_map(|row| row.gestures);
+    let mut all: Vec<_> = GESTURES.iter().chain(of_features).collect();
+    all.sort_by_key(|gesture| gesture.place);
+    all
 }
 
-impl Place {
-    /// Returns the heading in the list of keys.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Painting => "Painting with the pointer",
-            Self::Querying => "Inspecting triangles",
-            Self::Threats => "Threats",
-            Self::Canvas => "On the canvas, with any tool",
-            Self::Panel => "In the panels",
-        }
-    }
-}
-
-/// Something done with the pointer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GestureHelp {
-    /// The effect of the gesture.
-    pub title: &'static str,
-    /// The keys and the movement.
-    pub keys: &'static str,
-    /// Where.
-    pub place: Place,
-    /// The text that its entry in the menu Tool shows; empty for a gesture without an entry.
-    pub advice: &'static str,
-}
-
-const fn gesture(place: Place, title: &'static str, keys: &'static str) -> GestureHelp {
-    GestureHelp { title, keys, place, advice: "" }
-}
-
-impl GestureHelp {
-    const fn in_menu(self, advice: &'static str) -> Self {
-        Self { advice, ..self }
-    }
-}
-
-/// All of them.
-pub static GESTURES: [GestureHelp; 27] = [
-    gesture(Place::Painting, "Paint or erase", "drag"),
-    gesture(Place::Painting, "Pick the value under the pointer", "Alt+click")
-        .in_menu("Hold Alt and click on the canvas: the brush takes the value under the pointer."),
-    gesture(Place::Painting, "Straight line from the last point", "Shift+click").in_menu(
-        "Hold Shift and click on the canvas: a straight line is painted from the last painted point.",
+/// Those that belong to no feature.
+static GESTURES: [GestureHelp; 23] = [
+    GestureHelp::new(GesturePlace::Querying, "Inspect a triangle", "click"),
+    GestureHelp::new(GesturePlace::Querying, "Move a pin", "drag it"),
+    GestureHelp::new(GesturePlace::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
+    GestureHelp::new(GesturePlace::Querying, "Follow neighbours and keep the trail", "Shift+1, 2, 3"),
+    GestureHelp::new(GesturePlace::Querying, "Copy a value of the triangle", "click on it"),
+    GestureHelp::new(GesturePlace::Querying, "Copy all its values", "Ctrl+C"),
+    GestureHelp::new(GesturePlace::Threats, "Select or place a threat", "click"),
+    GestureHelp::new(GesturePlace::Threats, "Place a threat on another one", "Ctrl+click"),
+    GestureHelp::new(GesturePlace::Threats, "Place a threat with its range", "drag from a free place"),
+    GestureHelp::new(
+        GesturePlace::Threats,
+        "Move a threat or change its range",
+        "drag its middle or its ring",
     ),
-    gesture(Place::Painting, "Size of the brush", "Shift+drag")
-        .in_menu("Hold Shift and drag sideways on the canvas: the brush becomes larger or smaller."),
-    gesture(Place::Querying, "Inspect a triangle", "click"),
-    gesture(Place::Querying, "Move a pin", "drag it"),
-    gesture(Place::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
-    gesture(Place::Querying, "Follow neighbours and keep the trail", "Shift+1, 2, 3"),
-    gesture(Place::Querying, "Copy a value of the triangle", "click on it"),
-    gesture(Place::Querying, "Copy all its values", "Ctrl+C"),
-    gesture(Place::Threats, "Select or place a threat", "click"),
-    gesture(Place::Threats, "Place a threat on another one", "Ctrl+click"),
-    gesture(Place::Threats, "Place a threat with its range", "drag from a free place"),
-    gesture(Place::Threats, "Move a threat or change its range", "drag its middle or its ring"),
-    gesture(Place::Canvas, "Menu for a point", "right-click"),
-    gesture(Place::Canvas, "Move the view", "Space+drag"),
-    gesture(Place::Canvas, "Move the view", "middle-drag"),
-    gesture(Place::Canvas, "Zoom at the pointer", "wheel"),
-    gesture(Place::Canvas, "Zoom at the pointer", "pinch"),
-    gesture(Place::Panel, "Change a number", "drag"),
-    gesture(Place::Panel, "Change a number ten times finer", "Shift+drag"),
-    gesture(Place::Panel, "Change the number under the pointer", "wheel"),
-    gesture(Place::Panel, "Set the default", "double-click"),
-    gesture(Place::Panel, "Type a number", "click"),
-    gesture(Place::Panel, "Hide or show a level", "click on its row"),
-    gesture(Place::Panel, "Show one level alone", "Alt+click on its row"),
-    gesture(Place::Panel, "Step a number while it is typed", "Up"),
+    GestureHelp::new(GesturePlace::Canvas, "Menu for a point", "right-click"),
+    GestureHelp::new(GesturePlace::Canvas, "Move the view", "Space+drag"),
+    GestureHelp::new(GesturePlace::Canvas, "Move the view", "middle-drag"),
+    GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "wheel"),
+    GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "pinch"),
+    GestureHelp::new(GesturePlace::Panel, "Change a number", "drag"),
+    GestureHelp::new(GesturePlace::Panel, "Change a number ten times finer", "Shift+drag"),
+    GestureHelp::new(GesturePlace::Panel, "Change the number under the pointer", "wheel"),
+    GestureHelp::new(GesturePlace::Panel, "Set the default", "double-click"),
+    GestureHelp::new(GesturePlace::Panel, "Type a number", "click"),
+    GestureHelp::new(GesturePlace::Panel, "Hide or show a level", "click on its row"),
+    GestureHelp::new(GesturePlace::Panel, "Show one level alone", "Alt+click on its row"),
+    GestureHelp::new(GesturePlace::Panel, "Step a number while it is typed", "Up"),
 ];

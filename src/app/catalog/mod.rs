@@ -9,7 +9,7 @@ mod view;
 
 use super::features::ROWS;
 use crate::app::kit::{CatalogItem, FrameState};
-pub use gestures::{GESTURES, GestureHelp};
+pub use gestures::gestures;
 
 /// Returns every command with a title, in menu order, with its present state.
 pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -1,88 +1,27 @@
 //! The menu Tool.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::Key;
 
-use super::{GESTURES, GestureHelp};
-use crate::app::command::{BrushCommand, Command, FileCommand, ShellCommand};
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::keep_out::KeepOutCommand;
-use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
+use crate::app::kit::{CatalogItem, FrameState, Menu};
 use crate::app::paths::OPEN_KEEP_OUT;
 use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
-use crate::app::tools::{BrushMode, ERASER, PATH, PaintKind, TOOLS, Tools};
+use crate::app::tools::{PATH, TOOLS};
 
 /// Tools and their settings.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::Tool as InTool;
     let tools = state.tools;
-    let kind = |title: &str, kind| {
-        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Kind(kind))).checked(tools.kind == kind)
-    };
-    let mode = |mode, title: &str| {
-        let item = CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Mode(mode)));
-        item.checked(tools.mode == mode)
-    };
-    let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
-        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on)
-    };
-    let harder = |title: &str, step: f64, key| {
-        let hardness = (tools.hardness + step).clamp(0.0, 1.0);
-        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
-            .keys(Modifiers::SHIFT, key)
-    };
     let mut items: Vec<CatalogItem> = (TOOLS.iter())
         .map(|tool| {
             let item =
                 CatalogItem::new(InTool, tool.name, Command::Shell(ShellCommand::Use(tool))).key(tool.key);
-            item.checked(tools.tool == *tool)
+            item.checked(tools.tool == *tool).above()
         })
         .collect();
-    items.extend([
-        kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
-        kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
-        mode(BrushMode::BuildUp, "Build up").key(Key::U).group(),
-        mode(BrushMode::Set, "Set the value").key(Key::V),
-        mode(BrushMode::Lower, "Lower").key(Key::L),
-        mirror("Mirror strokes left and right", BrushCommand::MirrorX, tools.mirrored[0]).group(),
-        mirror("Mirror strokes above and below", BrushCommand::MirrorY, tools.mirrored[1]),
-        CatalogItem::new(InTool, "Larger brush", Command::Brush(BrushCommand::Scale(1.15)))
-            .key(Key::CloseBracket)
-            .group(),
-        CatalogItem::new(InTool, "Smaller brush", Command::Brush(BrushCommand::Scale(1.0 / 1.15)))
-            .key(Key::OpenBracket),
-        harder("Harder brush", 0.1, Key::CloseCurlyBracket),
-        harder("Softer brush", -0.1, Key::OpenCurlyBracket),
-    ]);
-    items.extend(GESTURES.iter().filter(|gesture| !gesture.advice.is_empty()).map(gesture_item));
-    let mut items: Vec<CatalogItem> = items.into_iter().map(CatalogItem::above).collect();
     items.extend(path_tool(state));
-    items.extend(amounts(tools));
     items
-}
-
-/// Returns an entry that names a gesture. Chosen, it says how the gesture is made.
-fn gesture_item(gesture: &GestureHelp) -> CatalogItem {
-    let command = Command::Shell(ShellCommand::Tell(gesture.advice.to_owned()));
-    CatalogItem::new(Menu::Tool, gesture.title, command).gesture(gesture.keys)
-}
-
-/// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do
-/// nothing. With the query tool they belong to the neighbours.
-fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
-    let has_keys = !tools.tool.queries;
-    let paints = tools.tool != &ERASER;
-    let sets_risk = paints && tools.kind == PaintKind::Risk && tools.mode == BrushMode::Set;
-    let is_share = !paints || tools.kind == PaintKind::Risk;
-    DIGITS.into_iter().enumerate().map(move |(i, key)| {
-        let share = (i + 1) as f64 / 10.0;
-        let (title, command) = if sets_risk {
-            (format!("Risk {share}"), BrushCommand::Risk(share))
-        } else {
-            (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
-        };
-        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).enabled(is_share);
-        let item = if has_keys { item.key(key) } else { item };
-        if i == 0 { item.group() } else { item }
-    })
 }
 
 /// Returns the key deletes a place of a path only while the tool is selected.

@@ -6,7 +6,6 @@
 mod corridor;
 mod files;
 mod keep_out;
-mod painting;
 mod paths;
 mod report;
 
@@ -35,6 +34,7 @@ impl App {
             view: &mut self.view,
             tools: &mut self.tools,
             project: &mut self.project,
+            journal: self.journal.as_mut(),
             background: &mut self.background,
             rows: ROWS,
             jobs: &self.jobs,
@@ -57,6 +57,18 @@ impl App {
             EditCommand::Set(setting) => self.session.set(setting),
             EditCommand::EndGesture => self.session.end_gesture(),
             EditCommand::CancelUpdate => self.session.cancel_update(),
+        }
+    }
+
+    /// Runs an undo or a redo. Where that changes the domain, the brush keeps its share of it.
+    fn keep_brush_share(&mut self, step: fn(&mut Self)) {
+        let extent = |app: &Self| app.session.document().settings().domain.bounds.size().max_element();
+        let before = extent(self);
+        step(self);
+        let ratio = extent(self) / before;
+        if ratio != 1.0 {
+            self.tools.radius *= ratio;
+            self.tools.diameter *= ratio;
         }
     }
 

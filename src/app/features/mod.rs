@@ -1,7 +1,5 @@
 //! The features of the window, a folder each. A feature sees the rest of the window through a
 //! [`Ctx`], and never another feature: it sends the command of another one instead.
-//!
-//! Of painting, only commands are here.
 
 pub mod boundary;
 pub mod domain;
@@ -18,7 +16,7 @@ pub mod threats;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{BrushCommand, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use super::command::{EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::kit::{Ctx, Feature, Row};
 use super::paths::PathCommand;
 use super::report::FigureCommand;
@@ -26,6 +24,7 @@ use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
 use layers::LayerEditor;
+use painting::Painting;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
@@ -88,6 +87,8 @@ macro_rules! features {
 // Menus, side panel, tool strip and canvas show the features in this order.
 features! {
     features {
+        /// Strokes and the brush.
+        painting: Painting as Brush,
         /// The layers of the size field.
         layers: LayerEditor as Layer,
         /// The domain.
@@ -114,8 +115,6 @@ features! {
         File(FileCommand) => execute_on_files,
         /// History, paint and settings of the document.
         Edit(EditCommand) => execute_on_document,
-        /// Strokes and the brush.
-        Brush(BrushCommand) => execute_on_brush,
         /// The paths of the document.
         Path(PathCommand) => execute_on_paths,
         /// The figures of the report.

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Id, Role, Sense, Ui, WidgetInfo, vec2};
 
-use crate::app::catalog::GESTURES;
+use crate::app::catalog::gestures;
 use crate::app::kit::{CatalogItem, Menu};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{SearchField, key_row, matches};
@@ -54,7 +54,7 @@ pub fn page(catalog: &[CatalogItem]) -> String {
 
 /// Gestures first: they are the hardest to guess.
 fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
-    let gestures = GESTURES.iter().map(|gesture| Entry {
+    let gestures = gestures().into_iter().map(|gesture| Entry {
         group: gesture.place.name(),
         title: gesture.title,
         keys: gesture.keys.to_owned(),

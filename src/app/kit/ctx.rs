@@ -8,6 +8,7 @@ use super::Row;
 use crate::app::background::Background;
 use crate::app::command::{Command, FileCommand};
 use crate::app::jobs::Jobs;
+use crate::app::journal::{self, JournalKeeper};
 use crate::app::project::ProjectFile;
 use crate::app::session::Session;
 use crate::app::tools::Tools;
@@ -26,6 +27,8 @@ pub struct Ctx<'a> {
     pub tools: &'a mut Tools,
     /// The document's file.
     pub project: &'a mut ProjectFile,
+    /// Keeps unsaved work. Absent in tests and screenshots.
+    pub journal: Option<&'a mut JournalKeeper>,
     /// Work on files.
     pub background: &'a mut Background,
     /// The parts of all features.
@@ -44,6 +47,13 @@ impl Ctx<'_> {
     /// Sends a command, to be run after this one.
     pub fn send(&mut self, command: Command) {
         self.commands.push(command);
+    }
+
+    /// Hands finished gestures to the journal.
+    pub fn record_edits(&mut self) {
+        if let Some(keeper) = &mut self.journal {
+            journal::record(keeper, self.session, self.project);
+        }
     }
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.

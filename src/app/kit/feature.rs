@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{CatalogItem, Ctx, FrameState, LayerKindRow, OverMesh, Panel};
+use super::{CatalogItem, Ctx, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel};
 use crate::app::command::Command;
 
 /// A feature of the window: a folder under `features` with its state, its commands and what they do, its
@@ -31,6 +31,8 @@ pub trait Feature: Default {
 pub struct Row {
     /// Sections of the side panel.
     pub panels: &'static [&'static Panel],
+    /// Gestures of the pointer, for the list of keys.
+    pub gestures: &'static [GestureHelp],
     /// Kinds of layers.
     pub layer_kinds: &'static [&'static LayerKindRow],
     /// Draws over the mesh.
@@ -45,6 +47,7 @@ impl Row {
     /// Nothing yet; use it as the base of a struct update.
     pub const EMPTY: Self = Self {
         panels: &[],
+        gestures: &[],
         layer_kinds: &[],
         marks: |_, _| {},
         entries: |_| Vec::new(),

@@ -4,7 +4,6 @@
 //! Values that are being typed or set up in a control, and are not settings yet, are in egui's memory.
 
 mod bars;
-mod brush;
 mod mesh;
 mod path;
 mod report;
@@ -13,7 +12,6 @@ mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
 
-pub use brush::BRUSH;
 pub use path::{OTHER_PATHS, PATH};
 
 use super::command::Command;
@@ -22,7 +20,7 @@ use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
 
 /// The sections of the side panel that belong to no feature, from the top of their groups.
-static PANELS: [&Panel; 5] = [&BRUSH, &PATH, &OTHER_PATHS, &mesh::MESH, &view::VIEW];
+static PANELS: [&Panel; 4] = [&PATH, &OTHER_PATHS, &mesh::MESH, &view::VIEW];
 
 /// Draws all panels, from the rim inwards.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

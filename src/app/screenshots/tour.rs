@@ -11,9 +11,9 @@ use crate::app::command::{
 };
 use crate::app::features::domain::DomainToolMode;
 use crate::app::features::inspection::QUERY;
+use crate::app::features::painting::{BrushMode, ERASER};
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
-use crate::app::tools::{BrushMode, ERASER};
 use meshbrush_io::io;
 
 /// Size of the window, in points.

@@ -14,7 +14,8 @@ use super::{
 use crate::app::command::{BrushCommand, Command, EditCommand, ShellCommand};
 use crate::app::features::domain::DOMAIN;
 use crate::app::features::inspection::QUERY;
-use crate::app::tools::{BRUSH, ERASER, PAN};
+use crate::app::features::painting::{BRUSH, ERASER};
+use crate::app::tools::PAN;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_mesh::mesh::MemoryLimit;

@@ -9,7 +9,8 @@ use super::{
     FREE, TALL, Window, canvas, click, entries, fingerprint, key, level_at, move_to, press, release, stroke,
     wheel, window, window_of,
 };
-use crate::app::tools::{BRUSH, TOOLS};
+use crate::app::features::painting::BRUSH;
+use crate::app::tools::TOOLS;
 
 #[test]
 fn a_tool_is_selected_by_its_key_and_by_its_button() {

@@ -3,7 +3,6 @@
 
 #[cfg(unix)]
 mod background;
-mod brush;
 mod budget;
 mod commands;
 mod derivation;
@@ -21,7 +20,6 @@ mod messages;
 mod numbers;
 mod orientation;
 mod other_window;
-mod painting;
 mod path;
 pub mod pictures;
 mod project;

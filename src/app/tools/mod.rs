@@ -4,23 +4,18 @@
 //! the tool strip, the side panel and the canvas read the table, so that a new tool is one file and one
 //! entry.
 
-mod brush;
-mod eraser;
 mod pan;
 mod path;
-mod pen;
 
 use glam::DVec2;
 
-pub use brush::{BRUSH, BrushMode, picks};
-pub use eraser::ERASER;
 pub use pan::{PAN, Panning};
 pub use path::{ALTERNATIVE_COLOR, PATH, PATH_COLOR, POINTED_COLOR, PathPlace, PathTool, paint_place};
-pub use pen::{Pen, PenEffect};
 
 use super::features::boundary::{BOUNDARY, BoundaryTool};
 use super::features::domain::{DOMAIN, DomainTool};
 use super::features::inspection::QUERY;
+use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
 use super::features::threats::THREATS;
 use super::widgets::Hint;
 use crate::app::kit::Tool;

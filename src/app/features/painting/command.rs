@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use crate::app::tools::{BrushMode, PaintKind, PenEffect};
+use super::{BrushMode, PenEffect};
+use crate::app::tools::PaintKind;
 
 /// One thing to do with strokes and the brush.
 #[derive(Clone, Debug, PartialEq)]

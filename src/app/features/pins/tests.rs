@@ -102,7 +102,7 @@ fn the_table_follows_every_edit() {
         }
     };
     check(&window);
-    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::tools::BRUSH)));
+    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
     stroke(&mut window, FREE, FREE + dvec2(0.0, 0.05));
     send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     assert_ne!(row(&window, 2), before, "paint refines around the second pin");
@@ -142,7 +142,7 @@ fn a_pin_is_dragged_as_one_gesture_and_deleted_by_key() {
 #[test]
 fn the_table_is_copied_and_exported_as_the_command_line_prints_it() {
     let mut window = window_with_pins();
-    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::tools::BRUSH)));
+    send(&mut window, Command::Shell(ShellCommand::Use(&crate::app::features::painting::BRUSH)));
     stroke(&mut window, AT, AT + dvec2(0.1, 0.05));
     send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     let expected = expected_table(&window);

@@ -9,12 +9,13 @@ use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::painting::BRUSH;
 use crate::app::tests::pictures::drawn_window;
 use crate::app::tests::{
     CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles,
     wait_until, window,
 };
-use crate::app::tools::{BRUSH, PAN};
+use crate::app::tools::PAN;
 use meshbrush_core::document::Setting;
 use meshbrush_mesh::mesh::fingerprint_of;
 use meshbrush_study::steps::{StepAction, StepPlayer};

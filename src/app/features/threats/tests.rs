@@ -9,12 +9,12 @@ use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, LayerCommand, ThreatsCommand};
 use crate::app::features::inspection::QUERY;
+use crate::app::features::painting::BRUSH;
 use crate::app::features::threats::THREATS;
 use crate::app::tests::{
     FREE, TALL, Window, click, document, entries, fingerprint, folder, key, level_at, move_to, notice, press,
     release, send, stroke, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
 };
-use crate::app::tools::BRUSH;
 use meshbrush_core::layers::{LayerId, LayerKind, Threat, ThreatLaw};
 
 /// Returns a window with a new, empty layer of threats, added by the menu of the panel.

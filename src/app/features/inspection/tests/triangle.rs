@@ -7,11 +7,11 @@ use glam::dvec2;
 
 use crate::app::command::{Command, InspectCommand, ShellCommand};
 use crate::app::features::inspection::QUERY;
+use crate::app::features::painting::BRUSH;
 use crate::app::tests::{
     FREE, TALL, Window, click, entries, key, notice, on_screen, open_section, press_at, release_at, selected,
     send, settings, window, window_of,
 };
-use crate::app::tools::BRUSH;
 use meshbrush_mesh::mesh::TriangleId;
 
 fn neighbour(window: &Window, id: TriangleId, place: usize) -> Option<TriangleId> {

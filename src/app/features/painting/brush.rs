@@ -3,17 +3,17 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{PaintKind, Tools};
-use crate::app::command::{BrushCommand, Command};
+use super::{BRUSH_PANEL, BrushCommand};
+use crate::app::command::Command;
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, ToolSpec, marks};
-use crate::app::panels;
+use crate::app::tools::{PaintKind, Tools};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
-    panels: &[panels::BRUSH.name],
+    panels: &[BRUSH_PANEL.name],
     hint: |tools| if tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,
     brush: Some(brush),

@@ -6,11 +6,11 @@ use eframe::egui::{self, Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{
+use crate::app::command::{BrushCommand, Command};
+use crate::app::tests::{
     CTRL_SHIFT, FREE, entries, fingerprint, key, level_at, move_to, on_screen, press, release, send, stroke,
     triangles, window,
 };
-use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::PaintKind;
 
 #[test]

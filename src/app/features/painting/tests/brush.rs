@@ -5,12 +5,13 @@ use eframe::egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use super::{
+use crate::app::command::{BrushCommand, Command, EditCommand};
+use crate::app::features::painting::{BRUSH, BrushMode, PenEffect};
+use crate::app::tests::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen,
     open_section, painted, press, price_tag, release, send, stroke, triangles, window, with_base,
 };
-use crate::app::command::{BrushCommand, Command, EditCommand};
-use crate::app::tools::{BRUSH, BrushMode, PaintKind, PenEffect};
+use crate::app::tools::PaintKind;
 use meshbrush_core::layers::LayerKind;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
@@ -58,7 +59,7 @@ fn a_diameter_is_made_smaller_or_larger_as_the_mode_permits() {
         brush(window, BrushCommand::Mode(mode));
         brush(window, BrushCommand::Diameter(diameter));
         stroke(window, FREE, FREE);
-        f64::from(super::painted(window, PAINTED_DIAMETER, FREE))
+        f64::from(crate::app::tests::painted(window, PAINTED_DIAMETER, FREE))
     };
     for (mode, diameter, after) in [
         (BrushMode::BuildUp, 0.01, 0.01),

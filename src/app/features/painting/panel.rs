@@ -2,14 +2,15 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{BrushCommand, Command};
+use super::{BrushCommand, BrushMode, ERASER, PenEffect};
+use crate::app::command::Command;
 use crate::app::kit::{FrameState, Panel, PanelGroup, radius_row};
-use crate::app::tools::{BrushMode, ERASER, PaintKind, PenEffect, Tools};
+use crate::app::tools::{PaintKind, Tools};
 use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// The panel with the brush's paint, radius, strength and hardness, and the drawing of strokes.
-pub static BRUSH: Panel = Panel { name: "brush", group: PanelGroup::Size, only_with_tool: true, show };
+pub static BRUSH_PANEL: Panel = Panel { name: "brush", group: PanelGroup::Size, only_with_tool: true, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut sent = Vec::new();

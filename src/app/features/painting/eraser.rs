@@ -2,17 +2,17 @@
 
 use eframe::egui::Key;
 
-use super::Tools;
+use super::BRUSH_PANEL;
 use super::brush::{line_to_here, press_to_paint};
 use crate::app::kit::ToolSpec;
-use crate::app::panels;
+use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::paint::{Brush, Medium};
 
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {
-    panels: &[panels::BRUSH.name],
+    panels: &[BRUSH_PANEL.name],
     hint: |_| HINT,
     has_ring: |_| true,
     brush: Some(brush),

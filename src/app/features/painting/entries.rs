@@ -1,0 +1,69 @@
+//! The brush in menus and in the palette.
+
+use eframe::egui::{Key, Modifiers};
+
+use super::{BrushCommand, BrushMode, ERASER, GESTURES};
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu};
+use crate::app::tools::{PaintKind, Tools};
+
+/// The brush, gestures that are hard to find, and what the digits set.
+pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let brush = brush(state.tools).into_iter().chain(GESTURES.iter().filter_map(GestureHelp::entry));
+    brush.map(CatalogItem::above).chain(amounts(state.tools)).collect()
+}
+
+fn brush(tools: &Tools) -> Vec<CatalogItem> {
+    use Menu::Tool as InTool;
+    let kind = |title: &str, kind| {
+        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Kind(kind))).checked(tools.kind == kind)
+    };
+    let mode = |mode, title: &str| {
+        let item = CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Mode(mode)));
+        item.checked(tools.mode == mode)
+    };
+    let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
+        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on)
+    };
+    let harder = |title: &str, step: f64, key| {
+        let hardness = (tools.hardness + step).clamp(0.0, 1.0);
+        CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
+            .keys(Modifiers::SHIFT, key)
+    };
+    vec![
+        kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
+        kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
+        mode(BrushMode::BuildUp, "Build up").key(Key::U).group(),
+        mode(BrushMode::Set, "Set the value").key(Key::V),
+        mode(BrushMode::Lower, "Lower").key(Key::L),
+        mirror("Mirror strokes left and right", BrushCommand::MirrorX, tools.mirrored[0]).group(),
+        mirror("Mirror strokes above and below", BrushCommand::MirrorY, tools.mirrored[1]),
+        CatalogItem::new(InTool, "Larger brush", Command::Brush(BrushCommand::Scale(1.15)))
+            .key(Key::CloseBracket)
+            .group(),
+        CatalogItem::new(InTool, "Smaller brush", Command::Brush(BrushCommand::Scale(1.0 / 1.15)))
+            .key(Key::OpenBracket),
+        harder("Harder brush", 0.1, Key::CloseCurlyBracket),
+        harder("Softer brush", -0.1, Key::OpenCurlyBracket),
+    ]
+}
+
+/// What the digits set: the strength, or the risk in the mode *Set*. A diameter is no share, so there they do
+/// nothing. With the query tool they belong to the neighbours.
+fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
+    let has_keys = !tools.tool.queries;
+    let paints = tools.tool != &ERASER;
+    let sets_risk = paints && tools.kind == PaintKind::Risk && tools.mode == BrushMode::Set;
+    let is_share = !paints || tools.kind == PaintKind::Risk;
+    DIGITS.into_iter().enumerate().map(move |(i, key)| {
+        let share = (i + 1) as f64 / 10.0;
+        let (title, command) = if sets_risk {
+            (format!("Risk {share}"), BrushCommand::Risk(share))
+        } else {
+            (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
+        };
+        let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).enabled(is_share);
+        let item = if has_keys { item.key(key) } else { item };
+        if i == 0 { item.group() } else { item }
+    })
+}

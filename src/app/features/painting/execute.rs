@@ -1,0 +1,145 @@
+//! Runs the commands about strokes and the brush.
+
+use glam::DVec2;
+
+use super::{BRUSH_PANEL, BrushCommand, BrushMode, GESTURES, Painting, entries};
+use crate::app::command::{Command, LayerCommand};
+use crate::app::kit::{Ctx, Feature, Row};
+use crate::app::notices::Offer;
+use crate::app::readout::{Quantity, value_at};
+use crate::app::tools::PaintKind;
+use meshbrush_core::document::NoPaintLayer;
+use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
+
+impl Feature for Painting {
+    type Command = BrushCommand;
+    const ROW: Row =
+        Row { panels: &[&BRUSH_PANEL], gestures: &GESTURES, entries: entries::entries, ..Row::EMPTY };
+
+    fn execute(&mut self, command: BrushCommand, ctx: &mut Ctx<'_>) {
+        let tools = &mut *ctx.tools;
+        match command {
+            BrushCommand::BeginStroke(point) => begin_stroke(point, ctx),
+            BrushCommand::DrawTo(point) => draw_to(point, ctx),
+            BrushCommand::EndStroke => ctx.session.document_mut().finish_stroke(),
+            BrushCommand::LineTo(point) => line_to(point, ctx),
+            BrushCommand::Kind(kind) => {
+                tools.kind = kind;
+                tools.select_brush();
+                select_layer_painted_with(kind, ctx);
+            }
+            BrushCommand::Mode(mode) => {
+                tools.mode = mode;
+                tools.select_brush();
+            }
+            BrushCommand::Radius(radius) => set_brush_radius(radius, ctx),
+            BrushCommand::Scale(factor) => set_brush_radius(ctx.tools.radius * factor, ctx),
+            BrushCommand::Hardness(hardness) => tools.hardness = hardness.clamp(0.0, 1.0),
+            BrushCommand::Strength(strength) => tools.set_strength(strength),
+            BrushCommand::Risk(risk) => tools.risk = risk.clamp(0.0, 1.0),
+            BrushCommand::Diameter(diameter) => set_brush_diameter(diameter, ctx),
+            BrushCommand::Pick(point) => pick_value(point, ctx),
+            BrushCommand::Smoothing(smoothing) => tools.smoothing = smoothing.clamp(0.0, 1.0),
+            BrushCommand::MirrorX(mirrored) => tools.mirrored[0] = mirrored,
+            BrushCommand::MirrorY(mirrored) => tools.mirrored[1] = mirrored,
+            BrushCommand::PenEffect(effect) => tools.pen.effect = effect,
+            BrushCommand::Pen(pressure) => tools.pen.set_pressure(pressure),
+        }
+    }
+}
+
+fn begin_stroke(point: DVec2, ctx: &mut Ctx<'_>) {
+    let Some(brush) = ctx.tools.brush() else { return };
+    let mirror = ctx.tools.mirror(ctx.session.document().settings().domain.bounds);
+    ctx.session.notices_mut().dismiss_news();
+    // Record the last stroke before the next begins: both may come in one frame.
+    ctx.session.document_mut().end_stroke();
+    ctx.record_edits();
+    if let Err(problem) = ctx.session.document().layer_for(&brush.medium) {
+        return offer_paint_layer(&problem, ctx);
+    }
+    let document = ctx.session.document_mut();
+    document.begin_mirrored_stroke(brush, mirror);
+    document.extend_stroke(ctx.tools.path_point(point));
+    ctx.tools.last_painted = Some(point);
+    ctx.tools.note_use(ctx.tools.tool);
+}
+
+fn draw_to(point: DVec2, ctx: &mut Ctx<'_>) {
+    ctx.session.document_mut().extend_stroke(ctx.tools.path_point(point));
+    ctx.tools.last_painted = Some(point);
+}
+
+fn line_to(point: DVec2, ctx: &mut Ctx<'_>) {
+    begin_stroke(ctx.tools.last_painted.unwrap_or(point), ctx);
+    draw_to(point, ctx);
+    ctx.session.document_mut().finish_stroke();
+}
+
+fn set_brush_radius(radius: f64, ctx: &mut Ctx<'_>) {
+    let extent = ctx.session.document().settings().domain.bounds.size().max_element();
+    if radius.is_finite() {
+        ctx.tools.radius = radius.clamp(1e-4 * extent, extent);
+    }
+}
+
+fn set_brush_diameter(diameter: f64, ctx: &mut Ctx<'_>) {
+    let transfer = ctx.session.document().settings().transfer;
+    if diameter.is_finite() {
+        ctx.tools.diameter = diameter.clamp(transfer.h_min, transfer.h_max);
+    }
+}
+
+/// Makes a picked risk or diameter the brush's own: painted in the mode *Set*, it is reproduced.
+fn pick_value(point: DVec2, ctx: &mut Ctx<'_>) {
+    let value = |quantity| value_at(point, ctx.session.document(), ctx.session.follower(), quantity);
+    match ctx.tools.kind {
+        PaintKind::Risk => {
+            let risk = value(Quantity::Risk);
+            if risk.is_nan() {
+                return;
+            }
+            ctx.tools.risk = risk;
+        }
+        PaintKind::Diameter => set_brush_diameter(value(Quantity::TargetDiameter), ctx),
+    }
+    ctx.tools.mode = BrushMode::Set;
+    ctx.tools.select_brush();
+}
+
+/// Selects a layer that the brush can paint a quantity on, if there is one and none is selected: rather
+/// one that is visible and not locked, the highest of several.
+fn select_layer_painted_with(kind: PaintKind, ctx: &mut Ctx<'_>) {
+    let document = ctx.session.document_mut();
+    let quantity = quantity_of(kind);
+    let takes = |layer: &&Layer| layer.paints() == Some(quantity);
+    if document.active_layer().filter(takes).is_some() {
+        return;
+    }
+    let fitting = || document.settings().layers.iter().rev().filter(takes);
+    let usable = fitting().find(|layer| layer.visible && !layer.locked);
+    if let Some(id) = usable.or_else(|| fitting().next()).map(|layer| layer.id) {
+        document.activate_layer(id);
+    }
+}
+
+/// Says why nothing can be painted, and offers what would help.
+fn offer_paint_layer(problem: &NoPaintLayer, ctx: &mut Ctx<'_>) {
+    let (label, command) = match problem {
+        NoPaintLayer::Locked { id, .. } => ("Unlock the layer", LayerCommand::Lock(*id, false)),
+        NoPaintLayer::Hidden { id, .. } => ("Show the layer", LayerCommand::Show(*id, true)),
+        NoPaintLayer::Missing(quantity) => {
+            let quantity = quantity.unwrap_or(quantity_of(ctx.tools.kind));
+            ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::Paint(quantity))))
+        }
+    };
+    let offer = Offer { label, command: Command::Layer(command) };
+    ctx.session.notices_mut().report_with_offer(problem, offer);
+}
+
+fn quantity_of(kind: PaintKind) -> PaintedQuantity {
+    match kind {
+        PaintKind::Risk => PaintedQuantity::Risk,
+        PaintKind::Diameter => PaintedQuantity::Diameter,
+    }
+}

@@ -1,0 +1,4 @@
+//! Strokes, the modes of the brush, and undo.
+
+mod brush;
+mod strokes;
