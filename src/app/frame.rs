@@ -132,8 +132,6 @@ impl App {
         let cuts = self.session.advance_cuts(jobs);
         let follows = self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(jobs);
-        let route = self.tools.path.route_in(&self.session.document().settings().paths);
-        self.paths.advance(&self.session, route, jobs);
         let (features, mut of_window) = self.features_in_context(ctx);
         let features_work = features.follow(&mut of_window);
         let bounds = self.session.document().settings().domain.bounds;
@@ -223,7 +221,6 @@ impl App {
             project: &self.project,
             tools: &self.tools,
             view: &self.view,
-            paths: &self.paths,
             features: &self.features,
             rows: ROWS,
             report: self.report.and_then(|shown| shown.figure(&self.session)),

@@ -27,16 +27,12 @@ mod help;
 mod home;
 mod jobs;
 mod journal;
-mod keep_out;
 mod keys;
 mod kit;
 mod layer_edits;
 mod notices;
 mod panels;
-mod path_export;
-mod paths;
 mod project;
-mod prover;
 
 pub mod readout;
 mod replacing;
@@ -70,7 +66,6 @@ use frame_log::FrameLog;
 use help::HelpTopic;
 use jobs::Jobs;
 use journal::JournalKeeper;
-use paths::PathFinder;
 use project::ProjectFile;
 use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
@@ -105,7 +100,6 @@ pub struct App {
     view: View,
     canvas: Canvas,
     features: Features,
-    paths: PathFinder,
     /// The figure of the report that is shown.
     report: Option<ShownFigure>,
     threads: Threads,
@@ -169,7 +163,6 @@ impl App {
             view,
             canvas: Canvas::new(gpu, &jobs),
             features: Features::default(),
-            paths: PathFinder::default(),
             report: None,
             threads: Threads::default(),
             dialogs: Dialogs::default(),

@@ -283,7 +283,7 @@ const TOOLS: [(&str, &str); 8] = [
     ("features::painting", "ERASER"),
     ("features::inspection", "QUERY"),
     ("features::threats", "THREATS"),
-    ("tools", "PATH"),
+    ("features::paths", "PATH"),
     ("features::domain", "DOMAIN"),
     ("features::boundary", "BOUNDARY"),
     ("tools", "PAN"),
@@ -291,9 +291,8 @@ const TOOLS: [(&str, &str); 8] = [
 
 /// Files of the window that may name a tool of another module: the file, and why. All others read the table of
 /// tools.
-const NAMES_A_TOOL: [(&str, &str); 6] = [
+const NAMES_A_TOOL: [(&str, &str); 5] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/catalog/tool.rs", "a key depends on the tool for paths"),
     ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
@@ -356,19 +355,15 @@ const WINDOW: [(&str, &[&str]); 3] = [
 ];
 
 /// Files of the window that import from a later part: the file, the module, and why.
-const AHEAD: [(&str, &str, &str); 12] = [
+const AHEAD: [(&str, &str, &str); 8] = [
     ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
     ("src/app/command/shell.rs", "help", "a topic of the help is data"),
     ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
-    ("src/app/features/layers/kinds/mod.rs", "paths", "of a feature without a folder"),
-    ("src/app/kit/frame_state.rs", "paths", "of a feature without a folder"),
     ("src/app/features/stepping/export.rs", "files", "lists the files written in the words of an export"),
     ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),
     ("src/app/project.rs", "replacing", "which files a question is about"),
     ("src/app/project.rs", "report", "opening a figure loses edits too"),
     ("src/app/tools/mod.rs", "features", "the table of tools"),
-    ("src/app/tools/path.rs", "panels", "of a feature without a folder"),
-    ("src/app/tools/path.rs", "paths", "of a feature without a folder"),
 ];
 
 fn part_of_window(module: &str) -> usize {

@@ -30,7 +30,7 @@ impl Canvas {
     ) -> Vec<Rect> {
         let inner = response.rect.shrink(12.0);
         let mut places = self.draw_progress(ui, inner, state.session, files, commands);
-        let hints = state.tools.hint();
+        let hints = state.tools.hint(state);
         // In a small window only one of them fits.
         if !hints.is_empty() && places.is_empty() && state.session.notices().shown().is_none() {
             let room = if state.view.aids.scale_bar { coordinates::BAR_ROOM } else { 0.0 };

@@ -2,12 +2,11 @@
 
 use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::corridor;
 use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
 use crate::app::features::layers::layer_color32;
+use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR};
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
-use crate::app::tools::ALTERNATIVE_COLOR;
 use crate::app::view::{FieldOverlay, deepest_level};
 use crate::app::widgets::{elided_text, format, paint_floating};
 
@@ -184,11 +183,11 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
 
 /// Shows the legend of the lines that are drawn beside the paths.
 fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
-    let paths = state.paths;
+    let paths = &state.features.paths.finder;
     let mut rows = Vec::new();
     if !paths.corridor.lines().is_empty() {
         let percent = format::digits(100.0 * paths.corridor.share, 3);
-        rows.push((corridor::FILL, format!("within {percent} %"), LAYER_ROW - 6.0));
+        rows.push((CORRIDOR_COLOR, format!("within {percent} %"), LAYER_ROW - 6.0));
     }
     if !paths.alternatives.paths().is_empty() {
         rows.push((ALTERNATIVE_COLOR, "alternatives".into(), 2.0));

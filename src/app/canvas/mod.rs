@@ -2,15 +2,11 @@
 
 mod contours;
 mod coordinates;
-mod corridor;
 mod floats;
 mod gpu;
-mod keep_out;
-mod layer_marks;
 mod legend;
 mod menu;
 mod overlay;
-mod best_paths;
 mod price;
 mod way_back;
 
@@ -362,10 +358,9 @@ impl Canvas {
         let pointer = response.hover_pos();
         let over =
             OverMesh { ui, canvas: rect, painter: &painter, screen_from_world: &screen_from_world, pointer };
-        layer_marks::paint(state, &over);
-        corridor::paint(state, &over);
-        keep_out::paint(state, &over);
-        best_paths::paint(state, &over);
+        for row in ROWS {
+            (row.marks_below)(state, &over);
+        }
         (state.tools.tool.paint)(state, &over);
         for row in ROWS {
             (row.marks)(state, &over);

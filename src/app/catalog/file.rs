@@ -5,10 +5,10 @@ use eframe::egui::{Key, Modifiers};
 use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
+use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::paths::EXPORT_PATH;
 
 /// Documents and files.
 pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -1,61 +1,14 @@
-//! The menu Tool.
+//! The tools in the menu Tool.
 
-use eframe::egui::Key;
-
-use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::keep_out::KeepOutCommand;
+use crate::app::command::{Command, ShellCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::paths::OPEN_KEEP_OUT;
-use crate::app::paths::{AlternativesCommand, CostKind, FrontCommand, PathCommand};
-use crate::app::tools::{PATH, TOOLS};
+use crate::app::tools::TOOLS;
 
-/// Tools and their settings.
+/// Returns an entry for each tool. How they work is set by entries of their features.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    use Menu::Tool as InTool;
-    let tools = state.tools;
-    let mut items: Vec<CatalogItem> = (TOOLS.iter())
-        .map(|tool| {
-            let item =
-                CatalogItem::new(InTool, tool.name, Command::Shell(ShellCommand::Use(tool))).key(tool.key);
-            item.checked(tools.tool == *tool).above()
-        })
-        .collect();
-    items.extend(path_tool(state));
-    items
-}
-
-/// Returns the key deletes a place of a path only while the tool is selected.
-fn path_tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Path(command));
-    let plan = &state.session.document().settings().paths;
-    let has_paths = !plan.routes.is_empty();
-    let is_selected = state.tools.path.selected_in(plan).is_some();
-    let paths = state.paths;
-    let alternatives = AlternativesCommand::Show(!paths.alternatives.is_on);
-    let front = |title: &str, command| item(title, PathCommand::Front(command));
-    let cost =
-        |title: &str, kind| item(title, PathCommand::CostBy(kind)).checked(CostKind::of(&plan.cost) == kind);
-    let delete =
-        item("Delete the selected place of a path", PathCommand::Delete).enabled(is_selected).group();
-    vec![
-        if state.tools.tool == &PATH { delete.key(Key::Delete) } else { delete },
-        item("Swap start and goal", PathCommand::Swap).enabled(has_paths),
-        item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
-        cost("Weigh length and risk of paths", CostKind::Weights).group(),
-        cost("Cost of paths by a formula", CostKind::Formula),
-        CatalogItem::new(Menu::Tool, "Add keep-out region…", Command::File(FileCommand::Ask(&OPEN_KEEP_OUT))),
-        item("Keep paths out of the layer's mask", PathCommand::KeepOut(KeepOutCommand::AddMask))
-            .enabled(KeepOutCommand::mask_to_add(state.session).is_some()),
-        item("Remove all keep-out regions", PathCommand::KeepOut(KeepOutCommand::RemoveAll))
-            .enabled(!plan.keep_out.is_empty()),
-        item("Show the corridor of paths", PathCommand::ShowCorridor(!paths.corridor.is_on))
-            .checked(paths.corridor.is_on)
-            .group(),
-        item("Show alternatives of the path", PathCommand::Alternatives(alternatives))
-            .checked(paths.alternatives.is_on),
-        front("Show the front of length and risk", FrontCommand::Show(!paths.front.is_on))
-            .checked(paths.front.is_on),
-        front("Take the next shorter path", FrontCommand::Shorter).enabled(paths.front.is_on),
-        front("Take the next safer path", FrontCommand::Safer).enabled(paths.front.is_on),
-    ]
+    let items = TOOLS.iter().map(|tool| {
+        let item = CatalogItem::new(Menu::Tool, tool.name, Command::Shell(ShellCommand::Use(tool)));
+        item.key(tool.key).checked(state.tools.tool == *tool).above()
+    });
+    items.collect()
 }

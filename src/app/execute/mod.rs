@@ -3,10 +3,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
-mod corridor;
 mod files;
-mod keep_out;
-mod paths;
 mod report;
 
 use eframe::egui::Context;
@@ -25,6 +22,15 @@ impl App {
             return;
         };
         self.run(command, ctx);
+        if self.tools.take_selection() {
+            self.put_down(ctx);
+        }
+    }
+
+    /// Puts down what was begun with a tool. Returns whether there was something.
+    fn put_down(&mut self, ctx: &Context) -> bool {
+        let (features, mut of_window) = self.features_in_context(ctx);
+        features.put_down(&mut of_window)
     }
 
     /// Returns the features, and what they see.
@@ -75,7 +81,7 @@ impl App {
     pub(super) fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
         match command {
             ShellCommand::Use(tool) => self.use_tool(tool),
-            ShellCommand::Escape => self.escape(),
+            ShellCommand::Escape => self.escape(ctx),
             ShellCommand::Palette => self.dialogs.open(Dialog::Palette),
             ShellCommand::About => self.dialogs.open(Dialog::About),
             ShellCommand::AskPlace => self.dialogs.open(Dialog::GoTo),
@@ -96,7 +102,7 @@ impl App {
 
     /// Ends the steps. Else cancels what is in progress: the stroke, the cut, or the rectangle or polygon.
     /// Else closes the help, or clears query and message.
-    fn escape(&mut self) {
+    fn escape(&mut self, ctx: &Context) {
         if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
             return;
         }
@@ -107,11 +113,7 @@ impl App {
         let in_gesture = self.session.document().is_in_gesture();
         if self.session.is_cutting() || (gesture_ended && in_gesture) {
             self.session.drop_cut();
-        } else if gesture_ended || !self.tools.domain.corners.is_empty() || self.tools.path.pending.is_some()
-        {
-            self.tools.domain.corners.clear();
-            self.tools.path.pending = None;
-        } else if self.help.take().is_none() {
+        } else if !(self.put_down(ctx) || gesture_ended) && self.help.take().is_none() {
             self.session.query(None);
             self.session.notices_mut().dismiss();
         }

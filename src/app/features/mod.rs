@@ -6,6 +6,7 @@ pub mod domain;
 pub mod inspection;
 pub mod layers;
 pub mod painting;
+pub mod paths;
 pub mod picture;
 pub mod pins;
 pub mod plots;
@@ -18,13 +19,13 @@ use eframe::egui::Context;
 use super::App;
 use super::command::{EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::kit::{Ctx, Feature, Row};
-use super::paths::PathCommand;
 use super::report::FigureCommand;
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
 use layers::LayerEditor;
 use painting::Painting;
+use paths::Paths;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
@@ -63,6 +64,13 @@ macro_rules! features {
                 left
             }
 
+            /// Puts down what was begun with a tool. Returns whether there was something.
+            pub fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
+                let mut had_something = false;
+                $( had_something |= self.$field.put_down(ctx); )*
+                had_something
+            }
+
             /// Forgets what belongs to the document: another one was opened.
             pub fn forget_document(&mut self) {
                 $( self.$field.forget_document(); )*
@@ -93,6 +101,8 @@ features! {
         layers: LayerEditor as Layer,
         /// The domain.
         domain: DomainEditor as Domain,
+        /// The paths of the document.
+        paths: Paths as Path,
         /// The queried point and its triangle.
         inspection: Inspector as Inspect,
         /// The steps of the refinement.
@@ -115,8 +125,6 @@ features! {
         File(FileCommand) => execute_on_files,
         /// History, paint and settings of the document.
         Edit(EditCommand) => execute_on_document,
-        /// The paths of the document.
-        Path(PathCommand) => execute_on_paths,
         /// The figures of the report.
         Figure(FigureCommand) => execute_on_report,
         /// Commands about the view.

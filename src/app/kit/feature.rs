@@ -23,6 +23,12 @@ pub trait Feature: Default {
         false
     }
 
+    /// Puts down what was begun with a tool: another tool was selected, or Escape was pressed. Returns
+    /// whether there was something.
+    fn put_down(&mut self, _ctx: &mut Ctx<'_>) -> bool {
+        false
+    }
+
     /// Forgets what belongs to the document: another one was opened.
     fn forget_document(&mut self) {}
 }
@@ -35,6 +41,8 @@ pub struct Row {
     pub gestures: &'static [GestureHelp],
     /// Kinds of layers.
     pub layer_kinds: &'static [&'static LayerKindRow],
+    /// Draws over the mesh, below what the selected tool draws.
+    pub marks_below: fn(&FrameState<'_>, &OverMesh<'_>),
     /// Draws over the mesh.
     pub marks: fn(&FrameState<'_>, &OverMesh<'_>),
     /// Entries of menus, in their order.
@@ -49,6 +57,7 @@ impl Row {
         panels: &[],
         gestures: &[],
         layer_kinds: &[],
+        marks_below: |_, _| {},
         marks: |_, _| {},
         entries: |_| Vec::new(),
         entries_at: |_, _| Vec::new(),

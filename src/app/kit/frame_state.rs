@@ -2,7 +2,6 @@
 
 use super::Row;
 use crate::app::features::Features;
-use crate::app::paths::PathFinder;
 use crate::app::project::ProjectFile;
 use crate::app::readout::Readout;
 use crate::app::session::Session;
@@ -23,8 +22,6 @@ pub struct FrameState<'a> {
     pub tools: &'a Tools,
     /// The settings of the view.
     pub view: &'a View,
-    /// The paths of the document.
-    pub paths: &'a PathFinder,
     /// The features. Each reads its own.
     pub features: &'a Features,
     /// The parts of all features.

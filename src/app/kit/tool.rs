@@ -27,7 +27,7 @@ pub struct ToolSpec {
     /// Names of the panels that stand first while it is selected.
     pub panels: &'static [&'static str],
     /// What to do with it next.
-    pub hint: fn(&Tools) -> &'static [Hint<'static>],
+    pub hint: fn(&FrameState<'_>) -> &'static [Hint<'static>],
     /// Whether the brush ring is drawn around the pointer.
     pub has_ring: fn(&Tools) -> bool,
     /// The brush of its strokes, if it paints.

@@ -5,14 +5,11 @@
 
 mod bars;
 mod mesh;
-mod path;
 mod report;
 mod status;
 mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
-
-pub use path::{OTHER_PATHS, PATH};
 
 use super::command::Command;
 use super::features::{ROWS, stepping};
@@ -20,7 +17,7 @@ use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
 
 /// The sections of the side panel that belong to no feature, from the top of their groups.
-static PANELS: [&Panel; 4] = [&PATH, &OTHER_PATHS, &mesh::MESH, &view::VIEW];
+static PANELS: [&Panel; 2] = [&mesh::MESH, &view::VIEW];
 
 /// Draws all panels, from the rim inwards.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

@@ -18,10 +18,10 @@ use super::command::{
 };
 use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainToolMode;
+use super::features::paths::{AlternativesCommand, FrontCommand, PATH, PathCommand};
 use super::features::plots::{PlotKind, PlotsCommand};
-use super::paths::{AlternativesCommand, FrontCommand, PathCommand};
 use super::report::FigureCommand;
-use super::tools::{PATH, PaintKind};
+use super::tools::PaintKind;
 use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;
 pub use manual::write as write_manual;

@@ -113,7 +113,7 @@ fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
     let mut window = window();
     for tool in TOOLS {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
-        assert!(!window.state().tools().hint().is_empty(), "{tool:?}");
+        assert!(!window.state().tools().hint(&window.state().state(None)).is_empty(), "{tool:?}");
         for panel in tool.panels {
             assert!(panels::all().any(|known| known.name == *panel), "{tool:?}: {panel}");
         }

@@ -12,8 +12,7 @@ use super::{Window, document, notice, paint, send, wait_until, window};
 use crate::app::command::{
     Command, DomainCommand, FileCommand, LayerCommand, PictureCommand, ThreatsCommand,
 };
-use crate::app::keep_out::KeepOutCommand;
-use crate::app::paths::PathCommand;
+use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use meshbrush_io::io::project;
 
 const SQUARE: &str =

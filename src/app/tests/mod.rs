@@ -20,7 +20,6 @@ mod messages;
 mod numbers;
 mod orientation;
 mod other_window;
-mod path;
 pub mod pictures;
 mod project;
 mod recipes;
@@ -47,8 +46,8 @@ use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
 use crate::app::features::Features;
+use crate::app::features::paths::PathFinder;
 use crate::app::features::stepping::Steps;
-use crate::app::paths::PathFinder;
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
@@ -395,7 +394,7 @@ impl App {
     }
 
     pub fn paths(&self) -> &PathFinder {
-        &self.paths
+        &self.features.paths.finder
     }
 
     pub fn features(&self) -> &Features {

@@ -5,20 +5,19 @@
 //! entry.
 
 mod pan;
-mod path;
 
 use glam::DVec2;
 
 pub use pan::{PAN, Panning};
-pub use path::{ALTERNATIVE_COLOR, PATH, PATH_COLOR, POINTED_COLOR, PathPlace, PathTool, paint_place};
 
 use super::features::boundary::{BOUNDARY, BoundaryTool};
 use super::features::domain::{DOMAIN, DomainTool};
 use super::features::inspection::QUERY;
 use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
+use super::features::paths::PATH;
 use super::features::threats::THREATS;
 use super::widgets::Hint;
-use crate::app::kit::Tool;
+use crate::app::kit::{FrameState, Tool};
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
 
@@ -74,8 +73,8 @@ pub struct Tools {
     pub domain: DomainTool,
     /// The boundary tool.
     pub boundary: BoundaryTool,
-    /// The path tool.
-    pub path: PathTool,
+    /// Whether a tool was selected since [`Self::take_selection`].
+    was_selected: bool,
     /// How often each of [`TOOLS`] was used.
     uses: [u32; TOOLS.len()],
 }
@@ -102,7 +101,7 @@ impl Tools {
             last_painted: None,
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
-            path: PathTool::default(),
+            was_selected: false,
             uses: [0; TOOLS.len()],
         }
     }
@@ -111,8 +110,12 @@ impl Tools {
     pub fn select(&mut self, tool: Tool) {
         self.chosen = tool;
         self.put_into_effect();
-        self.domain.corners.clear();
-        self.path.pending = None;
+        self.was_selected = true;
+    }
+
+    /// Returns whether a tool was selected since the last call.
+    pub fn take_selection(&mut self) -> bool {
+        std::mem::take(&mut self.was_selected)
     }
 
     /// Returns the tool that was selected, also while the pointer only moves the view.
@@ -140,7 +143,6 @@ impl Tools {
         let fitting = Self::for_domain(extent, h_min);
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
         self.boundary.selected = None;
-        self.path = PathTool::default();
     }
 
     /// Returns whether the selected tool shows the brush ring.
@@ -189,9 +191,9 @@ impl Tools {
     }
 
     /// Returns the hint for the selected tool; empty after a few uses.
-    pub fn hint(&self) -> &'static [Hint<'static>] {
+    pub fn hint(&self, state: &FrameState<'_>) -> &'static [Hint<'static>] {
         let index = TOOLS.iter().position(|known| *known == self.tool);
         let known = index.is_some_and(|index| self.uses[index] >= USES_WITH_HINT);
-        if known { &[] } else { (self.tool.hint)(self) }
+        if known { &[] } else { (self.tool.hint)(state) }
     }
 }

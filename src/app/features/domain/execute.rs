@@ -39,6 +39,12 @@ impl Feature for DomainEditor {
             }
         }
     }
+
+    fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
+        let had_corners = !ctx.tools.domain.corners.is_empty();
+        ctx.tools.domain.corners.clear();
+        had_corners
+    }
 }
 
 fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {

@@ -1,7 +1,7 @@
 //! Runs the commands about layers.
 
 use super::kinds::kind_of;
-use super::{KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, TRANSFER, entries, list, load};
+use super::{KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, TRANSFER, entries, list, load, marks};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
 use crate::app::tools::PaintKind;
@@ -10,8 +10,13 @@ use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 
 impl Feature for LayerEditor {
     type Command = LayerCommand;
-    const ROW: Row =
-        Row { panels: &[&LAYERS, &TRANSFER], layer_kinds: &KINDS, entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row = Row {
+        panels: &[&LAYERS, &TRANSFER],
+        layer_kinds: &KINDS,
+        marks_below: marks::paint,
+        entries: entries::entries,
+        ..Row::EMPTY
+    };
 
     fn execute(&mut self, command: LayerCommand, ctx: &mut Ctx<'_>) {
         let (session, background) = (&*ctx.session, &mut *ctx.background);

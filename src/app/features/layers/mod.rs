@@ -8,6 +8,7 @@ mod files;
 mod kinds;
 mod list;
 mod load;
+mod marks;
 mod panel;
 mod pictures;
 mod selected;

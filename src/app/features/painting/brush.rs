@@ -14,7 +14,7 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
     panels: &[BRUSH_PANEL.name],
-    hint: |tools| if tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
+    hint: |state| if state.tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,
     brush: Some(brush),
     press: press_to_paint,

@@ -8,12 +8,11 @@ mod paint;
 mod raster;
 
 use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
-use crate::app::paths::CORRIDOR;
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 6] =
-    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &CORRIDOR, &band::BAND];
+pub static KINDS: [&LayerKindRow; 5] =
+    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &band::BAND];
 
 /// Returns the kind of a layer.
 pub fn kind_of(rows: &'static [Row], kind: &LayerKind) -> &'static LayerKindRow {

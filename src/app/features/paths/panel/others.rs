@@ -4,10 +4,10 @@
 use eframe::egui::Ui;
 
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
-use crate::app::paths::{
+use crate::app::features::paths::{
     AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand,
 };
+use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::widgets::{
     ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
 };
@@ -25,8 +25,10 @@ const HEIGHT: f32 = 190.0;
 const FRONT: &str = "Length against risk";
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(route) = state.tools.path.route_in(&state.session.document().settings().paths) else { return };
-    let shown = state.paths.shown().get(route);
+    let Some(route) = state.features.paths.tool.route_in(&state.session.document().settings().paths) else {
+        return;
+    };
+    let shown = state.features.paths.finder.shown().get(route);
     let Some(found) = shown.and_then(|shown| shown.found.as_ref()) else { return };
     let mut sent = Vec::new();
     Section::new("Other paths").show(ui, |ui| {
@@ -38,7 +40,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
-    let corridor = &state.paths.corridor;
+    let corridor = &state.features.paths.finder.corridor;
     let mut is_on = corridor.is_on;
     if toggle_row(ui, "Corridor", &mut is_on).changed() {
         commands.push(PathCommand::ShowCorridor(is_on));
@@ -56,7 +58,7 @@ fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>
 }
 
 fn alternatives(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
-    let finder = &state.paths.alternatives;
+    let finder = &state.features.paths.finder.alternatives;
     let mut is_on = finder.is_on;
     if toggle_row(ui, "Alternatives", &mut is_on).changed() {
         commands.push(PathCommand::Alternatives(AlternativesCommand::Show(is_on)));
@@ -67,7 +69,7 @@ fn alternatives(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathComm
     if !finder.paths().is_empty() {
         remark(ui, "Cost above the best · length · accumulated risk");
     }
-    let is_current = state.paths.is_current(state.session);
+    let is_current = state.features.paths.finder.is_current(state.session);
     let mut pointed = None;
     for (number, path) in finder.paths().iter().enumerate() {
         let row = alternative_row(ui, state, (number, path), is_current);
@@ -98,7 +100,7 @@ fn alternative_row(
     (number, path): (usize, &Solution),
     is_current: bool,
 ) -> eframe::egui::Response {
-    let percent = format::significant(100.0 * state.paths.alternatives.excess(path), 2);
+    let percent = format::significant(100.0 * state.features.paths.finder.alternatives.excess(path), 2);
     let length = format::length(path.length, state.unit());
     let risk = format::significant(path.risk, 3);
     let label = format!("Alternative {}", number + 1);
@@ -109,7 +111,7 @@ fn alternative_row(
 }
 
 fn front(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<PathCommand>) {
-    let finder = &state.paths.front;
+    let finder = &state.features.paths.finder.front;
     let mut send = |command| commands.push(PathCommand::Front(command));
     let mut is_on = finder.is_on;
     if toggle_row(ui, "Front", &mut is_on).changed() {
@@ -158,7 +160,8 @@ fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
 /// Returns the paths of the front, and the path as it is.
 fn front_plot(state: &FrameState<'_>, found: &FoundPath) -> Plot {
     let place = |path: &Solution| [path.length, path.risk];
-    let front = state.paths.front.points().iter().map(|point| place(&point.solution)).collect();
+    let front =
+        state.features.paths.finder.front.points().iter().map(|point| place(&point.solution)).collect();
     Plot {
         title: FRONT.into(),
         x: Axis::new("Length", Scale::Linear).unit(state.unit().symbol()),

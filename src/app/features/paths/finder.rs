@@ -11,45 +11,32 @@
 //!           ShownCorridor, AlternativesFinder, FrontFinder: other paths, while they are shown
 //! ```
 
-mod alternatives;
-mod command;
-mod corridor;
-mod files;
-mod layer_kind;
-mod front;
-mod work;
-
 use std::sync::Arc;
 
-pub use alternatives::{AlternativesCommand, AlternativesFinder, MOST_ALTERNATIVES};
-pub use command::{CostKind, NO_PATH, PathCommand};
-pub use corridor::ShownCorridor;
-pub use files::{EXPORT_PATH, OPEN_KEEP_OUT};
-pub use front::{FRONT_PATHS, FrontCommand, FrontFinder};
-pub use layer_kind::CORRIDOR;
-pub use work::{FoundPath, ShownPath};
-use work::{KnownPlanner, PlannedMesh, Work, WorkResult, find, find_corridor};
-
-use super::derivation::MeasuredMesh;
-use super::document_id::DocumentId;
-use super::jobs::{Jobs, Slot};
+use super::alternatives::AlternativesFinder;
+use super::corridor::ShownCorridor;
+use super::front::FrontFinder;
 use super::prover::{Known, Prover};
-use super::session::Session;
+use super::work::{FoundPath, KnownPlanner, PlannedMesh, ShownPath, Work, WorkResult, find, find_corridor};
+use crate::app::derivation::MeasuredMesh;
+use crate::app::document_id::DocumentId;
+use crate::app::jobs::{Jobs, Slot};
+use crate::app::session::Session;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::PathError;
 
 /// A mesh of one of the documents that were opened.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct MeshKey {
+pub struct MeshKey {
     document_id: DocumentId,
     mesh: MeasuredMesh,
 }
 
 /// The data from which paths were computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Key {
+pub struct Key {
     document: u64,
-    mesh: MeshKey,
+    pub mesh: MeshKey,
     /// Whether the document is being changed.
     is_live: bool,
 }

@@ -5,9 +5,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::super::{click, entries, key, send, settings, tips, type_into, wait_until};
 use super::{Window, is_complete, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
+use crate::app::tests::{click, entries, key, send, settings, tips, type_into, wait_until};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{Solution, Weights};
 
@@ -72,8 +72,8 @@ fn the_slider_goes_from_the_shortest_path_to_the_safest() {
     for share in [0.02, 0.5, 0.98] {
         let steps = entries(&window);
         let at = slider.lerp_inside(eframe::egui::vec2(share, 0.5));
-        super::super::press_at(&mut window, at, eframe::egui::PointerButton::Primary, Modifiers::NONE);
-        super::super::release_at(&mut window, at, eframe::egui::PointerButton::Primary);
+        crate::app::tests::press_at(&mut window, at, eframe::egui::PointerButton::Primary, Modifiers::NONE);
+        crate::app::tests::release_at(&mut window, at, eframe::egui::PointerButton::Primary);
         assert_eq!(entries(&window), steps + 1, "one gesture");
         wait_for_paths(&mut window);
         let PathCost::Weighted(Weights { length, .. }) = settings(&window).paths.cost else { panic!() };

@@ -15,11 +15,11 @@ const OUTDATED: f32 = 0.5;
 /// Draws the corridor.
 pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let place = |line: &Vec<_>| line.iter().map(|&point| (over.screen_from_world)(point)).collect();
-    let lines: Vec<Vec<Pos2>> = state.paths.corridor.lines().iter().map(place).collect();
+    let lines: Vec<Vec<Pos2>> = state.features.paths.finder.corridor.lines().iter().map(place).collect();
     if lines.is_empty() {
         return;
     }
-    let is_current = state.paths.is_current(state.session);
+    let is_current = state.features.paths.finder.is_current(state.session);
     let [fill, line] =
         [FILL, LINE].map(|color| if is_current { color } else { color.gamma_multiply(OUTDATED) });
     let row = 1.0 / over.painter.pixels_per_point();

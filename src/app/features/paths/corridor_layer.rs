@@ -1,47 +1,47 @@
-//! Commands about corridors: layers along the paths as they were when they were taken.
+//! Corridors: layers along the paths as they were when they were taken.
 
-use crate::app::App;
+use super::{NO_PATH, Paths};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::paths::NO_PATH;
+use crate::app::kit::Ctx;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
 
-impl App {
+impl Paths {
     /// Adds a corridor along the paths as they are.
-    pub(super) fn add_corridor(&mut self) {
-        let Some(lines) = self.current_paths() else { return };
-        let settings = self.session.document().settings();
+    pub(super) fn add_corridor(&mut self, ctx: &mut Ctx<'_>) {
+        let Some(lines) = self.current_paths(ctx) else { return };
+        let settings = ctx.session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         let kind = LayerKind::corridor(lines, extent, &settings.transfer, Settings::USUAL_GRADATION);
-        self.send(Command::Layer(LayerCommand::Add(Box::new(kind))));
-        self.send(Command::Edit(EditCommand::EndGesture));
+        ctx.send(Command::Layer(LayerCommand::Add(Box::new(kind))));
+        ctx.send(Command::Edit(EditCommand::EndGesture));
     }
 
     /// Moves a corridor to the paths as they are. Its numbers stay.
-    pub(super) fn take_paths(&mut self, id: LayerId) {
-        let layers = &self.session.document().settings().layers;
+    pub(super) fn take_paths(&mut self, id: LayerId, ctx: &mut Ctx<'_>) {
+        let layers = &ctx.session.document().settings().layers;
         let corridor = layers.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
         let Some(LayerKind::Distance { to: DistanceTo::Corridor { width, .. }, .. }) = corridor else {
             return;
         };
         let width = *width;
-        if let Some(lines) = self.current_paths() {
-            self.send(Command::Layer(LayerCommand::MeasureTo(id, DistanceTo::Corridor { lines, width })));
+        if let Some(lines) = self.current_paths(ctx) {
+            ctx.send(Command::Layer(LayerCommand::MeasureTo(id, DistanceTo::Corridor { lines, width })));
         }
     }
 
     /// Returns the paths of the document as lines. Says why there are none yet.
-    fn current_paths(&mut self) -> Option<Shapes> {
-        let plan = &self.session.document().settings().paths;
+    fn current_paths(&mut self, ctx: &mut Ctx<'_>) -> Option<Shapes> {
+        let plan = &ctx.session.document().settings().paths;
         if plan.routes.is_empty() {
-            self.session.report(NO_PATH);
+            ctx.session.report(NO_PATH);
             return None;
         }
-        let shown = self.paths.shown();
+        let shown = self.finder.shown();
         let is_found = |number: usize| shown.get(number).is_some_and(|path| path.problem.is_none());
-        if !self.paths.is_current(&self.session) || !(0..plan.routes.len()).all(is_found) {
+        if !self.finder.is_current(ctx.session) || !(0..plan.routes.len()).all(is_found) {
             let text = "A corridor needs paths that are up to date; the panel Path says what is missing.";
-            self.session.report(text);
+            ctx.session.report(text);
             return None;
         }
         let lines = shown.iter().filter_map(|path| Some(path.found.as_ref()?.solution.points.clone()));

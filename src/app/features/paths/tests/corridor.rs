@@ -4,12 +4,12 @@ use eframe::egui::Modifiers;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::super::{
-    active, choose, click_button, entries, move_to, notice, press, release, send, settings, triangles,
-};
 use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
-use crate::app::paths::PathCommand;
+use crate::app::features::paths::PathCommand;
+use crate::app::tests::{
+    active, choose, click_button, entries, move_to, notice, press, release, send, settings, triangles,
+};
 use meshbrush_core::layers::{DistanceTo, LayerKind};
 
 const ADD: &str = "Add layer: corridor along the paths";

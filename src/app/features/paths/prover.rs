@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use super::jobs::{Job, Jobs, Kind, Output, Taken};
-use super::paths::FoundPath;
+use super::work::FoundPath;
+use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{

@@ -3,10 +3,10 @@
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::keep_out::KeepOutCommand;
+use crate::app::features::paths::KeepOutCommand;
+use crate::app::features::paths::OPEN_KEEP_OUT;
+use crate::app::features::paths::PathCommand;
 use crate::app::kit::{FrameState, button_rows};
-use crate::app::paths::OPEN_KEEP_OUT;
-use crate::app::paths::PathCommand;
 use crate::app::theme::metrics;
 use crate::app::widgets::{Icon, ToolButton, ValueRow, format};
 

@@ -3,10 +3,9 @@
 use eframe::egui::{Color32, CursorIcon, Key, Pos2, Stroke};
 use glam::DVec2;
 
+use super::{OTHER_PATHS, PATH_PANEL, PathCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec};
-use crate::app::panels;
-use crate::app::paths::PathCommand;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::PathPlan;
@@ -14,8 +13,8 @@ use meshbrush_core::document::PathPlan;
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {
     cursor: CursorIcon::Crosshair,
-    panels: &[panels::PATH.name, panels::OTHER_PATHS.name],
-    hint: |tools| if tools.path.pending.is_some() { GOAL_HINT } else { HINT },
+    panels: &[PATH_PANEL.name, OTHER_PATHS.name],
+    hint: |state| if state.features.paths.tool.pending.is_some() { GOAL_HINT } else { HINT },
     paint,
     press: |press, pointer, commands| {
         let at = pointer.world(press.at);
@@ -26,10 +25,10 @@ pub static PATH: ToolSpec = ToolSpec {
     },
     menu: |state, point| {
         let plan = &state.session.document().settings().paths;
-        let goal = state.tools.path.pending.map(|_| ("Path to here", PathCommand::GoalAt(point)));
+        let goal = state.features.paths.tool.pending.map(|_| ("Path to here", PathCommand::GoalAt(point)));
         let via =
             (!plan.routes.is_empty()).then_some(("Lead the path through here", PathCommand::ViaAt(point)));
-        let selected = state.tools.path.selected_in(plan);
+        let selected = state.features.paths.tool.selected_in(plan);
         let delete = selected.map(|_| ("Delete the selected place", PathCommand::Delete));
         let entries = [Some(("Path from here", PathCommand::StartAt(point))), goal, via, delete];
         entries.into_iter().flatten().map(|(title, command)| (title, Command::Path(command))).collect()
@@ -81,7 +80,7 @@ impl PathTool {
 
 /// Draws the start without a goal. Paths with their places are drawn with every tool.
 fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
-    let Some(pending) = state.tools.path.pending else { return };
+    let Some(pending) = state.features.paths.tool.pending else { return };
     let at = (over.screen_from_world)(pending);
     if let Some(pointer) = over.pointer {
         let ends = [at, pointer];

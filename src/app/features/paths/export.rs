@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use super::background::{Aim, Background, Outcome, not_exported};
-use super::derivation::Derived;
-use super::paths::{NO_PATH, PathFinder};
-use super::session::Session;
-use super::tools::PathTool;
-use super::view::View;
-use super::widgets::format;
+use super::{NO_PATH, PathFinder, PathTool};
+use crate::app::background::{Aim, Background, Outcome, not_exported};
+use crate::app::derivation::Derived;
+use crate::app::session::Session;
+use crate::app::view::View;
+use crate::app::widgets::format;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};

@@ -5,12 +5,12 @@ use eframe::egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
-use super::super::{
-    RESTING_PLACE, key, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
-};
 use super::{Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
-use crate::app::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
+use crate::app::features::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
+use crate::app::tests::{
+    RESTING_PLACE, key, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
+};
 use meshbrush_core::document::PathCost;
 
 fn paths(window: &Window) -> &PathFinder {

@@ -9,14 +9,14 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use super::super::tips::unexplained;
-use super::super::{
+use super::{GOAL, shown, wait_for_paths, window_with_path};
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+use crate::app::features::paths::PathCommand;
+use crate::app::tests::tips::unexplained;
+use crate::app::tests::{
     TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, settings,
     type_into, wait_for_notice, wait_until, window_of,
 };
-use super::{GOAL, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
-use crate::app::paths::PathCommand;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{Solution, Weights};
 
@@ -97,7 +97,7 @@ fn the_panel_asks_for_file_and_tolerance() {
     exported(&mut window, &file);
     let all = lines(&file);
     type_into(&mut window, "Export tolerance", "0.02");
-    assert_eq!(window.state().tools().path.export_tolerance, 0.02);
+    assert_eq!(window.state().features().paths.tool.export_tolerance, 0.02);
     assert_eq!(unexplained(&window), [""; 0]);
     click_button(&mut window, "Export path…");
     // The ending is added.

@@ -8,15 +8,15 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use super::super::tips::unexplained;
-use super::super::{
+use super::{GOAL, START, shown, wait_for_paths, window_with_path};
+use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::features::paths::KeepOutCommand;
+use crate::app::features::paths::PathCommand;
+use crate::app::tests::tips::unexplained;
+use crate::app::tests::{
     TALL, Window, active, choose, click_button, entries, notice, send, settings, show, type_into, wait_until,
     window_of,
 };
-use super::{GOAL, START, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::keep_out::KeepOutCommand;
-use crate::app::paths::PathCommand;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::Mask;
@@ -30,7 +30,7 @@ fn wall() -> Mask {
 }
 
 fn file(name: &str, ring: &[DVec2]) -> PathBuf {
-    let file = super::super::folder("app-keep-out", name).join("wall.geojson");
+    let file = crate::app::tests::folder("app-keep-out", name).join("wall.geojson");
     let corner = |p: &DVec2| format!("[{}, {}]", p.x, p.y);
     let ring: Vec<_> = ring.iter().chain(ring.first()).map(corner).collect();
     fs::write(&file, format!(r#"{{"type": "Polygon", "coordinates": [[{}]]}}"#, ring.join(", "))).unwrap();

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
+use crate::app::features::paths::{CostKind, PathCommand};
 use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
-use crate::app::paths::{CostKind, PathCommand};
 use crate::app::widgets::{NumberRow, SliderRow, segmented};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Key;
+use super::finder::Key;
 
 /// The corridor: whether it is shown, how wide, and its outline.
 #[derive(Clone, Debug)]

@@ -8,8 +8,8 @@ mod others;
 use eframe::egui::{RichText, Ui};
 
 use crate::app::command::Command;
+use crate::app::features::paths::{FoundPath, PathCommand};
 use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
-use crate::app::paths::{FoundPath, PathCommand};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
 use meshbrush_mesh::text::percent_above;
@@ -18,7 +18,7 @@ use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 pub use others::OTHER_PATHS;
 
 /// The path of the selected place, or else the first; with the tool for it, and as long as there are paths.
-pub static PATH: Panel = Panel { name: "path", group: PanelGroup::Paths, only_with_tool: false, show };
+pub static PATH_PANEL: Panel = Panel { name: "path", group: PanelGroup::Paths, only_with_tool: false, show };
 
 /// Height of the profile, in points.
 const HEIGHT: f32 = 150.0;
@@ -30,8 +30,8 @@ const WIDTHS: [(f64, &str); 5] =
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
-    let route = state.tools.path.route_in(plan);
-    let is_tool = state.tools.tool.panels.contains(&PATH.name);
+    let route = state.features.paths.tool.route_in(plan);
+    let is_tool = state.tools.tool.panels.contains(&PATH_PANEL.name);
     if route.is_none() && plan.keep_out.is_empty() && !is_tool {
         return;
     }
@@ -45,7 +45,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             empty_state(ui, Icon::PATH, "No path", text);
             return keep_out::rows(ui, state, commands);
         };
-        let shown = state.paths.shown().get(route);
+        let shown = state.features.paths.finder.shown().get(route);
         if let Some(problem) = shown.and_then(|shown| shown.problem.as_ref()) {
             let text = RichText::new(format!("{problem} The path that is shown is outdated."));
             ui.label(text.font(font::body()).color(tokens(ui).danger));
@@ -57,7 +57,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         cost::rows(ui, state, &plan.cost, commands);
         keep_out::rows(ui, state, commands);
-        let is_selected = state.tools.path.selected_in(plan).is_some();
+        let is_selected = state.features.paths.tool.selected_in(plan).is_some();
         let path = |command| Command::Path(command);
         let rows = [[
             ("Swap start and goal", true, path(PathCommand::Swap)),
@@ -89,21 +89,21 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
     for (label, value, help) in rows {
         ValueRow::new(label, &value).help(help).show(ui);
     }
-    let mut width = state.paths.width();
+    let mut width = state.features.paths.finder.width();
     if dropdown_row(ui, "Prove within", &mut width, &WIDTHS).changed() {
         commands.push(Command::Path(PathCommand::Width(width)));
     }
-    match (state.paths.is_current(state.session), state.paths.is_proving()) {
+    match (state.features.paths.finder.is_current(state.session), state.features.paths.finder.is_proving()) {
         (false, _) => remark(ui, "The path is being found."),
         (true, true) => remark(ui, "The bound is being improved."),
-        (true, false) if solution.gap() > state.paths.width() => {
+        (true, false) if solution.gap() > state.features.paths.finder.width() => {
             remark(ui, &found.end.map_or_else(|| NO_PROOF.to_owned(), |end| end.to_string()));
         }
         (true, false) => remark(ui, "Path and bound are up to date."),
     }
     ui.add_space(4.0);
     let distance = plot_view(ui, "Risk along the path", &profile(state, found), HEIGHT);
-    if distance != state.tools.path.shown_distance {
+    if distance != state.features.paths.tool.shown_distance {
         commands.push(Command::Path(PathCommand::ShowDistance(distance)));
     }
     ui.add_space(4.0);

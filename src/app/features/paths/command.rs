@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec2;
 
-use super::{AlternativesCommand, FrontCommand};
-use crate::app::keep_out::KeepOutCommand;
+use super::{AlternativesCommand, FrontCommand, KeepOutCommand};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::layers::LayerId;
 

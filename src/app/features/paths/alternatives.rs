@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::Key;
+use super::finder::Key;
+use super::prover::Known;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
-use crate::app::prover::Known;
 use meshbrush_core::path::{Alternatives, Difference, Solution};
 use meshbrush_mesh::geometry::nearest_on_segment;
 

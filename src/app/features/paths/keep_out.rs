@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::background::{Background, name_of};
-use super::command::Command;
-use super::kit::with_mask;
-use super::paths::PathCommand;
-use super::session::Session;
+use super::PathCommand;
+use crate::app::background::{Background, name_of};
+use crate::app::command::Command;
+use crate::app::kit::with_mask;
+use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
 
 /// One thing to do with keep-out regions.

@@ -11,12 +11,13 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use super::{
+use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::features::paths::PATH;
+use crate::app::features::paths::PathCommand;
+use crate::app::features::paths::work::ShownPath;
+use crate::app::tests::{
     TALL, Window, click, key, move_to, press, release, send, set, settings, stroke, wait_until, window_of,
 };
-use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::paths::{PathCommand, ShownPath};
-use crate::app::tools::PATH;
 use meshbrush_core::document::{Example, Setting};
 
 const START: DVec2 = dvec2(0.05, 0.1);
@@ -125,9 +126,9 @@ fn escape_forgets_a_start_without_a_goal() {
     let mut window = window_of(TALL);
     key(&mut window, Modifiers::NONE, Key::P);
     click(&mut window, START, Modifiers::NONE);
-    assert!(window.state().tools().path.pending.is_some());
+    assert!(window.state().features().paths.tool.pending.is_some());
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().tools().path.pending.is_none());
+    assert!(window.state().features().paths.tool.pending.is_none());
 }
 
 #[test]

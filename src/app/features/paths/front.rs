@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Key, MeshKey};
+use super::finder::{Key, MeshKey};
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;

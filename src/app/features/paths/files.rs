@@ -1,8 +1,7 @@
 //! Paths and the regions that they stay out of, as files.
 
-use super::PathCommand;
+use super::{KeepOutCommand, PathCommand};
 use crate::app::command::Command;
-use crate::app::keep_out::KeepOutCommand;
 use crate::app::kit::{FileAct, FileKind};
 use meshbrush_render::render::path_export::PathFormat;
 
