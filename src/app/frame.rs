@@ -223,7 +223,6 @@ impl App {
             view: &self.view,
             features: &self.features,
             rows: ROWS,
-            report: self.report.and_then(|shown| shown.figure(&self.session)),
             threads: &self.threads,
             pointer: self.canvas.pointer(),
             readout,

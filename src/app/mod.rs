@@ -36,7 +36,6 @@ mod project;
 
 pub mod readout;
 mod replacing;
-mod report;
 mod screenshots;
 pub mod session;
 mod slices;
@@ -67,7 +66,6 @@ use help::HelpTopic;
 use jobs::Jobs;
 use journal::JournalKeeper;
 use project::ProjectFile;
-use report::ShownFigure;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
 use threads::Threads;
@@ -100,8 +98,6 @@ pub struct App {
     view: View,
     canvas: Canvas,
     features: Features,
-    /// The figure of the report that is shown.
-    report: Option<ShownFigure>,
     threads: Threads,
     dialogs: Dialogs,
     /// The contents of the help window, while it is open.
@@ -163,7 +159,6 @@ impl App {
             view,
             canvas: Canvas::new(gpu, &jobs),
             features: Features::default(),
-            report: None,
             threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
-use super::command::{Command, FileCommand};
+use super::command::{Command, FigureCommand, FileCommand};
 use super::file_kinds::OPENED_BY_ENDING;
 use super::home::{self, Claims, Expected, Home};
 use super::replacing::{Loss, Replacing};
-use super::report::FigureCommand;
 use super::session::Session;
 use super::widgets::Answer;
 use meshbrush_io::io;

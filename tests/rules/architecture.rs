@@ -291,9 +291,8 @@ const TOOLS: [(&str, &str); 8] = [
 
 /// Files of the window that may name a tool of another module: the file, and why. All others read the table of
 /// tools.
-const NAMES_A_TOOL: [(&str, &str); 5] = [
+const NAMES_A_TOOL: [(&str, &str); 4] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
-    ("src/app/execute/report.rs", "Figure 6 of the report is a query"),
     ("src/app/screenshots/mod.rs", "pictures of single tools"),
     ("src/app/screenshots/tour.rs", "pictures of single tools"),
     ("src/app/tools/mod.rs", "the table of tools"),
@@ -355,14 +354,13 @@ const WINDOW: [(&str, &[&str]); 3] = [
 ];
 
 /// Files of the window that import from a later part: the file, the module, and why.
-const AHEAD: [(&str, &str, &str); 8] = [
+const AHEAD: [(&str, &str, &str); 7] = [
     ("src/app/command/mod.rs", "features", "the commands of a feature are data"),
     ("src/app/command/shell.rs", "help", "a topic of the help is data"),
     ("src/app/kit/frame_state.rs", "features", "a frame shows the state of each feature"),
     ("src/app/features/stepping/export.rs", "files", "lists the files written in the words of an export"),
     ("src/app/project.rs", "file_kinds", "what opening a file means depends on the kinds of files"),
     ("src/app/project.rs", "replacing", "which files a question is about"),
-    ("src/app/project.rs", "report", "opening a figure loses edits too"),
     ("src/app/tools/mod.rs", "features", "the table of tools"),
 ];
 
@@ -415,7 +413,11 @@ fn widgets_know_no_mesh() {
 }
 
 /// Features that import from another one: the file, the other feature, and why.
-const IMPORTS_A_FEATURE: [(&str, &str, &str); 0] = [];
+const IMPORTS_A_FEATURE: [(&str, &str, &str); 3] = [
+    ("src/app/features/report/comparison.rs", "plots", "compares the experiment with the report"),
+    ("src/app/features/report/comparison.rs", "stepping", "compares the step that is shown with the report"),
+    ("src/app/features/report/panel.rs", "plots", "shows the experiment of a figure"),
+];
 
 #[test]
 fn features_see_a_context_and_not_each_other() {

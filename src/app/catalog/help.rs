@@ -5,22 +5,14 @@ use eframe::egui::{Key, Modifiers};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::help::HelpTopic;
 use crate::app::kit::{CatalogItem, Menu};
-use crate::app::report::FigureCommand;
 use meshbrush_core::document::Example;
-use meshbrush_study::report::ReportFigure;
 
-/// Documents that come with the program, and those of the figures of the report.
+/// Documents that come with the program.
 pub fn examples() -> Vec<CatalogItem> {
     let item = |example: Example| {
         CatalogItem::new(Menu::Examples, example.name(), Command::File(FileCommand::OpenExample(example)))
     };
-    let figure = |(number, figure): (usize, ReportFigure)| {
-        let open = Command::Figure(FigureCommand::Open(figure));
-        let item = CatalogItem::new(Menu::Examples, format!("The report, {}", figure.name()), open);
-        if number == 0 { item.group() } else { item }
-    };
-    let figures = ReportFigure::ALL.into_iter().enumerate().map(figure);
-    Example::ALL.map(item).into_iter().chain(figures).collect()
+    Example::ALL.map(item).into_iter().collect()
 }
 
 /// Returns the manual, keys and gestures, and what the program is.

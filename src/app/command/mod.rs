@@ -16,6 +16,8 @@ pub use super::features::layers::LayerCommand;
 pub use super::features::painting::BrushCommand;
 pub use super::features::picture::PictureCommand;
 pub use super::features::pins::PinsCommand;
+pub use super::features::plots::{PlotKind, PlotsCommand};
+pub use super::features::report::FigureCommand;
 pub use super::features::statistics::StatisticsCommand;
 pub use super::features::stepping::StepCommand;
 pub use super::features::threats::ThreatsCommand;

@@ -4,7 +4,6 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod files;
-mod report;
 
 use eframe::egui::Context;
 

@@ -10,6 +10,7 @@ pub mod paths;
 pub mod picture;
 pub mod pins;
 pub mod plots;
+pub mod report;
 pub mod statistics;
 pub mod stepping;
 pub mod threats;
@@ -19,7 +20,6 @@ use eframe::egui::Context;
 use super::App;
 use super::command::{EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::kit::{Ctx, Feature, Row};
-use super::report::FigureCommand;
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
@@ -29,6 +29,7 @@ use paths::Paths;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
+use report::Report;
 use statistics::Statistics;
 use stepping::Stepping;
 use threats::ThreatEditor;
@@ -119,14 +120,14 @@ features! {
         statistics: Statistics as Statistics,
         /// Plots of the mesh, and of the time that meshes take.
         plots: Plots as Plots,
+        /// The figures of the report.
+        report: Report as Figure,
     }
     window {
         /// Documents and their files.
         File(FileCommand) => execute_on_files,
         /// History, paint and settings of the document.
         Edit(EditCommand) => execute_on_document,
-        /// The figures of the report.
-        Figure(FigureCommand) => execute_on_report,
         /// Commands about the view.
         View(ViewCommand) => execute_on_view,
         /// Tools, dialogs, help and messages.

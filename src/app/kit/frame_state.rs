@@ -10,7 +10,6 @@ use crate::app::tools::Tools;
 use crate::app::view::View;
 use glam::DVec2;
 use meshbrush_mesh::text::LengthUnit;
-use meshbrush_study::report::ReportFigure;
 
 /// Everything that a frame shows, to read.
 pub struct FrameState<'a> {
@@ -26,8 +25,6 @@ pub struct FrameState<'a> {
     pub features: &'a Features,
     /// The parts of all features.
     pub rows: &'static [Row],
-    /// The figure of the report that is shown.
-    pub report: Option<ReportFigure>,
     /// The threads on which the window computes.
     pub threads: &'a Threads,
     /// The position of the pointer on the canvas, in world units.

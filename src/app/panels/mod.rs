@@ -5,14 +5,13 @@
 
 mod bars;
 mod mesh;
-mod report;
 mod status;
 mod view;
 
 use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
 
 use super::command::Command;
-use super::features::{ROWS, stepping};
+use super::features::{ROWS, report, stepping};
 use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
 

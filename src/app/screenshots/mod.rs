@@ -20,7 +20,7 @@ use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainToolMode;
 use super::features::paths::{AlternativesCommand, FrontCommand, PATH, PathCommand};
 use super::features::plots::{PlotKind, PlotsCommand};
-use super::report::FigureCommand;
+use super::features::report::FigureCommand;
 use super::tools::PaintKind;
 use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;

@@ -23,7 +23,6 @@ mod other_window;
 pub mod pictures;
 mod project;
 mod recipes;
-mod report;
 mod settings;
 mod software_window;
 mod threads;

@@ -4,13 +4,13 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
-use super::{
+use crate::app::command::Command;
+use crate::app::features::plots::PlotsCommand;
+use crate::app::features::report::FigureCommand;
+use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, fingerprint, key, paint, send, settings, tips, triangles, wait_until,
     window_of,
 };
-use crate::app::command::Command;
-use crate::app::features::plots::PlotsCommand;
-use crate::app::report::FigureCommand;
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::StepPlayer;
 
@@ -100,7 +100,7 @@ fn the_experiment_is_made_beside_the_triangles_of_the_report() {
     assert_eq!(tips::unexplained(&window), [""; 0]);
     window.get_by_role_and_label(Role::Button, "Copy the comparison").click();
     window.run();
-    assert_eq!(super::notice(&window), "Copied: the figure with its numbers.");
+    assert_eq!(crate::app::tests::notice(&window), "Copied: the figure with its numbers.");
 }
 
 #[test]

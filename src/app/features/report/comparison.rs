@@ -1,41 +1,9 @@
-//! A figure of the report that is shown, and its numbers beside ours.
+//! The numbers of a figure of the report beside ours.
 
-use super::document_id::DocumentId;
-use super::features::stepping::Steps;
-use super::session::Session;
-use super::widgets::format;
+use crate::app::features::stepping::Steps;
 use crate::app::kit::FrameState;
+use crate::app::widgets::format;
 use meshbrush_study::report::{Comparison, Experiment, ReportFigure};
-
-/// One thing to do with the figures of the report.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FigureCommand {
-    /// Opens the document of a figure, and shows of it what the figure shows.
-    Open(ReportFigure),
-    /// Closes the figure. Its document stays.
-    Close,
-    /// Copies the figure with its numbers.
-    Copy(String),
-}
-
-/// A figure, as long as its document is open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ShownFigure {
-    figure: ReportFigure,
-    document: DocumentId,
-}
-
-impl ShownFigure {
-    /// Creates a figure whose document was just opened.
-    pub fn new(figure: ReportFigure, session: &Session) -> Self {
-        Self { figure, document: session.document_id() }
-    }
-
-    /// Returns the figure, while its document is open.
-    pub fn figure(self, session: &Session) -> Option<ReportFigure> {
-        (self.document == session.document_id()).then_some(self.figure)
-    }
-}
 
 /// Returns the numbers of the report beside those on the screen.
 pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparison> {

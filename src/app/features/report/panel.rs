@@ -2,17 +2,17 @@
 
 use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 
+use super::{FigureCommand, as_text, comparisons};
 use crate::app::command::Command;
 use crate::app::features::plots::{self, PlotKind};
 use crate::app::kit::{FrameState, button_rows, remark};
-use crate::app::report::{FigureCommand, as_text, comparisons};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};
 use meshbrush_study::report::{Comparison, ReportFigure};
 
 /// The figure that is shown, above all other sections.
 pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(figure) = state.report else { return };
+    let Some(figure) = state.features.report.shown else { return };
     ui.add_space(10.0);
     title(ui, figure, commands);
     ui.label(RichText::new(figure.text()).font(font::body()).color(tokens(ui).text));

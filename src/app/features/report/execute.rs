@@ -1,0 +1,63 @@
+//! Runs the commands about the figures of the report.
+
+use std::sync::Arc;
+
+use super::{FigureCommand, Report, entries};
+use crate::app::command::{Command, FileCommand, Opened, PlotKind, PlotsCommand, ShellCommand, StepCommand};
+use crate::app::kit::{Ctx, Feature, Row};
+use crate::app::tools::TOOLS;
+use meshbrush_study::report::ReportFigure;
+
+impl Feature for Report {
+    type Command = FigureCommand;
+    const ROW: Row = Row { entries: entries::entries, ..Row::EMPTY };
+
+    fn execute(&mut self, command: FigureCommand, ctx: &mut Ctx<'_>) {
+        match command {
+            FigureCommand::Open(figure) => open(figure, ctx),
+            FigureCommand::Show(figure) => self.show(figure, ctx),
+            FigureCommand::Close => self.shown = None,
+            FigureCommand::Copy(text) => {
+                ctx.egui.copy_text(text);
+                ctx.session.tell("Copied: the figure with its numbers.".into());
+            }
+        }
+    }
+
+    /// A figure is shown as long as its document is open.
+    fn forget_document(&mut self) {
+        self.shown = None;
+    }
+}
+
+/// Opens the document of a figure, and then shows the figure.
+fn open(figure: ReportFigure, ctx: &mut Ctx<'_>) {
+    let opened = Opened { document: Arc::new(figure.document()), home: None };
+    ctx.send(Command::Steps(StepCommand::Leave));
+    ctx.send(Command::File(FileCommand::Show(opened)));
+    ctx.send(Command::Figure(FigureCommand::Show(figure)));
+}
+
+impl Report {
+    /// Shows of the document what a figure shows.
+    fn show(&mut self, figure: ReportFigure, ctx: &mut Ctx<'_>) {
+        self.shown = Some(figure);
+        ctx.view.panels = true;
+        if figure.is_step() {
+            ctx.send(Command::Steps(StepCommand::Begin(Some(figure))));
+        }
+        if let Some(point) = figure.query() {
+            let tool = TOOLS.iter().find(|tool| tool.queries);
+            ctx.commands.extend(tool.map(|tool| Command::Shell(ShellCommand::Use(tool))));
+            ctx.view.aids.walk = true;
+            ctx.session.query(Some(point));
+        }
+        if figure.is_about_time() {
+            ctx.send(Command::Plots(PlotsCommand::Choose(PlotKind::Figure5)));
+        }
+        // Its entry says that the meshes are made; Figure 5 waits for its button.
+        if figure == ReportFigure::Experiment {
+            ctx.send(Command::Plots(PlotsCommand::Measure));
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! The figures of the report: each opens as a document, with its numbers beside ours.
+
+mod command;
+mod comparison;
+mod entries;
+mod execute;
+mod panel;
+#[cfg(test)]
+mod tests;
+
+pub use command::FigureCommand;
+use comparison::{as_text, comparisons};
+pub use panel::section;
+
+use meshbrush_study::report::ReportFigure;
+
+/// The figure that is shown.
+#[derive(Default)]
+pub struct Report {
+    shown: Option<ReportFigure>,
+}
