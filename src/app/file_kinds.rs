@@ -3,21 +3,23 @@
 use std::path::Path;
 
 use super::command::{Command, FileCommand};
-use super::features::domain::OPEN_DOMAIN;
-use super::features::layers::OPEN_RISK;
-use crate::app::kit::{FileAct, FileKind};
+use super::features::ROWS;
+use crate::app::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_io::io::project::ENDING;
 use meshbrush_io::io::{recipe, recording};
 use meshbrush_render::render::export::ExportFormat;
 
-/// The kinds of files to open by ending: the first row that accepts the ending counts.
-pub static OPENED_BY_ENDING: [&FileKind; 4] = [&OPEN_PROJECT, &OPEN_RECIPE, &OPEN_DOMAIN, &OPEN_RISK];
+/// Returns the kinds of files to open by ending: the first one that accepts the ending counts.
+pub fn opened_by_ending() -> impl Iterator<Item = FileRequest> {
+    let of_features = ROWS.iter().flat_map(|row| row.files);
+    [&OPEN_PROJECT, &OPEN_RECIPE].into_iter().chain(of_features.copied())
+}
 
 /// Any file that can be opened.
 pub static OPEN_ANY: FileKind = FileKind {
     title: "Open",
     act: FileAct::OpenDocument,
-    endings: || OPENED_BY_ENDING.iter().flat_map(|kind| (kind.endings)()).collect(),
+    endings: || opened_by_ending().flat_map(|kind| (kind.endings)()).collect(),
     contents: "Projects, domains, pictures, grids",
     folder: "projects",
     ..FileKind::new(|path| Command::File(FileCommand::Open(path)))

@@ -6,7 +6,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
 use super::command::{Command, FigureCommand, FileCommand};
-use super::file_kinds::OPENED_BY_ENDING;
+use super::file_kinds::opened_by_ending;
 use super::home::{self, Claims, Expected, Home};
 use super::replacing::{Loss, Replacing};
 use super::session::Session;
@@ -402,7 +402,7 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
 /// Fails with a sentence when files with that ending cannot be opened.
 pub fn open_command(path: PathBuf) -> Result<Command, String> {
     let name = path.file_name().unwrap_or_default();
-    match OPENED_BY_ENDING.iter().find(|kind| kind.takes(name)) {
+    match opened_by_ending().find(|kind| kind.takes(name)) {
         Some(kind) => Ok((kind.command)(path)),
         None => Err(format!(
             "{} cannot be opened: a project ends in .{ENDING}, a recipe in .{}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",

@@ -1,14 +1,13 @@
 //! The tools in the menu Tool.
 
 use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
-use crate::app::tools::TOOLS;
+use crate::app::kit::{CatalogItem, FrameState, Menu, all_tools};
 
 /// Returns an entry for each tool. How they work is set by entries of their features.
 pub fn tool(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let items = TOOLS.iter().map(|tool| {
+    let items = all_tools(state.rows).into_iter().map(|tool| {
         let item = CatalogItem::new(Menu::Tool, tool.name, Command::Shell(ShellCommand::Use(tool)));
-        item.key(tool.key).checked(state.tools.tool == *tool).above()
+        item.key(tool.key).checked(state.tools.tool == tool).above()
     });
     items.collect()
 }

@@ -98,10 +98,10 @@ features! {
     features {
         /// Strokes and the brush.
         painting: Painting as Brush,
-        /// The layers of the size field.
-        layers: LayerEditor as Layer,
         /// The domain.
         domain: DomainEditor as Domain,
+        /// The layers of the size field.
+        layers: LayerEditor as Layer,
         /// The paths of the document.
         paths: Paths as Path,
         /// The queried point and its triangle.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{CatalogItem, Ctx, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel};
+use super::{CatalogItem, Ctx, FileKind, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel, Tool};
 use crate::app::command::Command;
 
 /// A feature of the window: a folder under `features` with its state, its commands and what they do, its
@@ -37,6 +37,10 @@ pub trait Feature: Default {
 pub struct Row {
     /// Sections of the side panel.
     pub panels: &'static [&'static Panel],
+    /// Tools.
+    pub tools: &'static [Tool],
+    /// Kinds of files that are opened by their ending.
+    pub files: &'static [&'static FileKind],
     /// Gestures of the pointer, for the list of keys.
     pub gestures: &'static [GestureHelp],
     /// Kinds of layers.
@@ -55,6 +59,8 @@ impl Row {
     /// Nothing yet; use it as the base of a struct update.
     pub const EMPTY: Self = Self {
         panels: &[],
+        tools: &[],
+        files: &[],
         gestures: &[],
         layer_kinds: &[],
         marks_below: |_, _| {},

@@ -37,4 +37,4 @@ pub use mask_file::with_mask;
 pub use menu_item::menu_item;
 pub use panel::{Panel, PanelGroup, button_rows, end_gesture_when_released, remark, set_once};
 pub use radius_row::radius_row;
-pub use tool::{OverMesh, Tool, ToolSpec};
+pub use tool::{OverMesh, Tool, ToolSpec, all_tools};

@@ -5,17 +5,27 @@ use std::fmt;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Rect, Ui};
 use glam::DVec2;
 
-use super::{FrameState, Gesture, Pointer, Press};
+use super::{FrameState, Gesture, Pointer, Press, Row};
 use crate::app::command::Command;
-use crate::app::tools::Tools;
+use crate::app::tools::{PAN, Tools};
 use crate::app::widgets::{Hint, Icon};
 use meshbrush_core::paint::Brush;
 
 /// A tool: a static of the feature that it belongs to.
 pub type Tool = &'static ToolSpec;
 
+/// Returns the tools of all features, and the one that moves the view, in the order of the tool strip.
+pub fn all_tools(rows: &'static [Row]) -> Vec<Tool> {
+    let of_features = rows.iter().flat_map(|row| row.tools).copied();
+    let mut tools: Vec<Tool> = of_features.chain([&PAN]).collect();
+    tools.sort_by_key(|tool| tool.place);
+    tools
+}
+
 /// The description of a tool: its names, and its behaviour on the canvas.
 pub struct ToolSpec {
+    /// Its place on the tool strip and in menus: tools with a lower number stand first.
+    pub place: u8,
     /// Name in menus and on the tool strip.
     pub name: &'static str,
     /// The key that selects it.
@@ -67,6 +77,7 @@ impl ToolSpec {
     /// Creates a tool that does nothing yet; use it as the base of a struct update.
     pub const fn new(name: &'static str, key: Key, icon: Icon) -> Self {
         Self {
+            place: u8::MAX,
             name,
             key,
             icon,

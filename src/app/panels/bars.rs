@@ -4,9 +4,8 @@ use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use crate::app::catalog::catalog;
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{FrameState, Menu, menu_item};
+use crate::app::kit::{FrameState, Menu, all_tools, menu_item};
 use crate::app::theme::{font, metrics, tokens};
-use crate::app::tools::TOOLS;
 use crate::app::widgets::{Icon, ToolButton};
 
 /// Height that a menu cannot use: that of the bar and its margins.
@@ -40,7 +39,7 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
 /// A button for each tool, and below them undo, redo and fit.
 pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 6.0;
-    for tool in TOOLS {
+    for tool in all_tools(state.rows) {
         let button = ToolButton::new(tool.icon, tool.name).key(tool.key.symbol_or_name());
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
             commands.push(Command::Shell(ShellCommand::Use(tool)));

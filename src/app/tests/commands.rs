@@ -12,8 +12,9 @@ use super::{
     window, window_of,
 };
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use crate::app::features::ROWS;
+use crate::app::kit::all_tools;
 use crate::app::panels;
-use crate::app::tools::TOOLS;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Example;
 use meshbrush_mesh::mesh::Location;
@@ -42,13 +43,13 @@ fn a_hidden_window_runs_commands_and_takes_its_last_input_once() {
     window.step();
     let ctx = window.ctx.clone();
     // eframe calls only `logic` then, with the input of the last frame.
-    window.state_mut().send(Command::Shell(ShellCommand::Use(TOOLS[0])));
+    window.state_mut().send(Command::Shell(ShellCommand::Use(all_tools(ROWS)[0])));
     window.state_mut().send(Command::Edit(EditCommand::Undo));
     for _ in 0..50 {
         window.state_mut().advance(&ctx);
     }
     assert_eq!((fingerprint(&window), entries(&window)), (before, 0));
-    assert_eq!(window.state().tools().tool, TOOLS[0]);
+    assert_eq!(window.state().tools().tool, all_tools(ROWS)[0]);
 }
 
 #[test]
@@ -107,11 +108,11 @@ fn parts_and_holes_are_counted_for_every_boundary_treatment() {
 
 #[test]
 fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
-    let names: BTreeSet<_> = TOOLS.iter().map(|tool| tool.name).collect();
-    let keys: BTreeSet<_> = TOOLS.iter().map(|tool| tool.key.name()).collect();
-    assert_eq!((names.len(), keys.len()), (TOOLS.len(), TOOLS.len()));
+    let names: BTreeSet<_> = all_tools(ROWS).iter().map(|tool| tool.name).collect();
+    let keys: BTreeSet<_> = all_tools(ROWS).iter().map(|tool| tool.key.name()).collect();
+    assert_eq!((names.len(), keys.len()), (all_tools(ROWS).len(), all_tools(ROWS).len()));
     let mut window = window();
-    for tool in TOOLS {
+    for tool in all_tools(ROWS) {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert!(!window.state().tools().hint(&window.state().state(None)).is_empty(), "{tool:?}");
         for panel in tool.panels {

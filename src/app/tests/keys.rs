@@ -9,17 +9,18 @@ use super::{
     FREE, TALL, Window, canvas, click, entries, fingerprint, key, level_at, move_to, press, release, stroke,
     wheel, window, window_of,
 };
+use crate::app::features::ROWS;
 use crate::app::features::painting::BRUSH;
-use crate::app::tools::TOOLS;
+use crate::app::kit::all_tools;
 
 #[test]
 fn a_tool_is_selected_by_its_key_and_by_its_button() {
     let mut window = window();
-    for tool in TOOLS.into_iter().rev() {
+    for tool in all_tools(ROWS).into_iter().rev() {
         key(&mut window, Modifiers::NONE, tool.key);
         assert_eq!(window.state().tools().tool, tool);
     }
-    for tool in TOOLS {
+    for tool in all_tools(ROWS) {
         let buttons = window.get_all_by_role_and_label(Role::Button, tool.name);
         let leftmost = buttons.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
         leftmost.click();

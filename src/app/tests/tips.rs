@@ -10,7 +10,8 @@ use glam::DVec2;
 use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
 use crate::app::command::StepCommand;
 use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, ShellCommand, ThreatsCommand};
-use crate::app::tools::TOOLS;
+use crate::app::features::ROWS;
+use crate::app::kit::all_tools;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
@@ -76,7 +77,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     assert!(window.query_by_label("Selected threat").is_some());
     assert_eq!(unexplained(&window), [""; 0]);
     send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(5.0)))));
-    for tool in TOOLS {
+    for tool in all_tools(ROWS) {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
     }
@@ -87,7 +88,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     choose(&mut window, "Examples", "Aegean Sea");
     open_section(&mut window, "Fit to outline");
     wait_until(&mut window, |window| window.query_by_label("Misclassified").is_some());
-    for tool in TOOLS {
+    for tool in all_tools(ROWS) {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{} in a domain of polygons", tool.name);
     }

@@ -1,28 +1,25 @@
-//! The tools: one file each, listed in [`TOOLS`].
+//! The selected tool, and the settings of tools that several parts of the window read.
 //!
-//! Name, key, icon, hint, panel sections and gestures of a tool are fields of its [`ToolSpec`]. Menus, keys,
-//! the tool strip, the side panel and the canvas read the table, so that a new tool is one file and one
-//! entry.
+//! Name, key, icon, hint, panel sections and gestures of a tool are fields of its
+//! [`ToolSpec`](crate::app::kit::ToolSpec), a static of its feature. Menus, keys, the tool strip, the side
+//! panel and the canvas read the tools of all features, so that a new tool is one file and one entry of a
+//! row.
 
 mod pan;
+
+use std::collections::BTreeMap;
 
 use glam::DVec2;
 
 pub use pan::{PAN, Panning};
 
-use super::features::boundary::{BOUNDARY, BoundaryTool};
-use super::features::domain::{DOMAIN, DomainTool};
-use super::features::inspection::QUERY;
+use super::features::boundary::BoundaryTool;
+use super::features::domain::DomainTool;
 use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
-use super::features::paths::PATH;
-use super::features::threats::THREATS;
 use super::widgets::Hint;
 use crate::app::kit::{FrameState, Tool};
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
-
-/// All tools, in the order of the tool strip.
-pub static TOOLS: [Tool; 8] = [&BRUSH, &ERASER, &QUERY, &THREATS, &PATH, &DOMAIN, &BOUNDARY, &PAN];
 
 /// How often a tool is used before its hint goes away.
 const USES_WITH_HINT: u32 = 6;
@@ -75,8 +72,8 @@ pub struct Tools {
     pub boundary: BoundaryTool,
     /// Whether a tool was selected since [`Self::take_selection`].
     was_selected: bool,
-    /// How often each of [`TOOLS`] was used.
-    uses: [u32; TOOLS.len()],
+    /// How often each tool was used, by its name.
+    uses: BTreeMap<&'static str, u32>,
 }
 
 impl Tools {
@@ -102,7 +99,7 @@ impl Tools {
             domain: DomainTool::default(),
             boundary: BoundaryTool::default(),
             was_selected: false,
-            uses: [0; TOOLS.len()],
+            uses: BTreeMap::new(),
         }
     }
 
@@ -185,15 +182,13 @@ impl Tools {
 
     /// Counts a use of a tool.
     pub fn note_use(&mut self, tool: Tool) {
-        if let Some(index) = TOOLS.iter().position(|known| *known == tool) {
-            self.uses[index] = self.uses[index].saturating_add(1);
-        }
+        let uses = self.uses.entry(tool.name).or_default();
+        *uses = uses.saturating_add(1);
     }
 
     /// Returns the hint for the selected tool; empty after a few uses.
     pub fn hint(&self, state: &FrameState<'_>) -> &'static [Hint<'static>] {
-        let index = TOOLS.iter().position(|known| *known == self.tool);
-        let known = index.is_some_and(|index| self.uses[index] >= USES_WITH_HINT);
+        let known = self.uses.get(self.tool.name).is_some_and(|&uses| uses >= USES_WITH_HINT);
         if known { &[] } else { (self.tool.hint)(state) }
     }
 }

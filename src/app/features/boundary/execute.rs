@@ -8,7 +8,7 @@ use meshbrush_core::domain::BoundaryPieces;
 
 impl Feature for Boundary {
     type Command = BoundaryCommand;
-    const ROW: Row = Row { panels: &[&PIECES], entries, ..Row::EMPTY };
+    const ROW: Row = Row { tools: &[&BOUNDARY], panels: &[&PIECES], entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: BoundaryCommand, ctx: &mut Ctx<'_>) {
         match command {

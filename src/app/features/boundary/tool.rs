@@ -13,6 +13,7 @@ use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
+    place: 6,
     cursor: CursorIcon::PointingHand,
     panels: &[PIECES.name],
     hint: |_| HINT,

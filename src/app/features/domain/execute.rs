@@ -1,13 +1,19 @@
 //! Runs the commands about the domain.
 
 use super::load::{load_domain, load_outline};
-use super::{DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OutlineChange, entries};
+use super::{DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, entries};
 use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
 
 impl Feature for DomainEditor {
     type Command = DomainCommand;
-    const ROW: Row = Row { panels: &[&DOMAIN_PANEL, &FIT], entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row = Row {
+        tools: &[&DOMAIN],
+        files: &[&OPEN_DOMAIN],
+        panels: &[&DOMAIN_PANEL, &FIT],
+        entries: entries::entries,
+        ..Row::EMPTY
+    };
 
     fn execute(&mut self, command: DomainCommand, ctx: &mut Ctx<'_>) {
         let tool = &mut ctx.tools.domain;

@@ -14,6 +14,7 @@ use meshbrush_mesh::geometry::Rect as WorldRect;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
+    place: 5,
     panels: &[DOMAIN_PANEL.name],
     hint: |_| HINT,
     has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,

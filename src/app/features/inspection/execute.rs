@@ -15,6 +15,7 @@ const TRIANGLE_PX: f64 = 60.0;
 impl Feature for Inspector {
     type Command = InspectCommand;
     const ROW: Row = Row {
+        tools: &[&QUERY],
         panels: &[&INSPECTOR, &WHY],
         marks: |state, over| {
             cause_marks::paint(state, over);

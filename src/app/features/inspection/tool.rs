@@ -10,6 +10,7 @@ use crate::app::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
 pub static QUERY: ToolSpec = ToolSpec {
+    place: 2,
     panels: &[INSPECTOR.name, WHY.name, "pins"],
     hint: |_| HINT,
     queries: true,

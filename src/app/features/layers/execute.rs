@@ -1,7 +1,9 @@
 //! Runs the commands about layers.
 
 use super::kinds::kind_of;
-use super::{KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, TRANSFER, entries, list, load, marks};
+use super::{
+    KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, TRANSFER, entries, list, load, marks,
+};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
 use crate::app::tools::PaintKind;
@@ -11,6 +13,7 @@ use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
 impl Feature for LayerEditor {
     type Command = LayerCommand;
     const ROW: Row = Row {
+        files: &[&OPEN_RISK],
         panels: &[&LAYERS, &TRANSFER],
         layer_kinds: &KINDS,
         marks_below: marks::paint,

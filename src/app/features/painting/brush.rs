@@ -13,6 +13,7 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
+    place: 0,
     panels: &[BRUSH_PANEL.name],
     hint: |state| if state.tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,

@@ -12,6 +12,7 @@ use meshbrush_core::paint::{Brush, Medium};
 
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {
+    place: 1,
     panels: &[BRUSH_PANEL.name],
     hint: |_| HINT,
     has_ring: |_| true,

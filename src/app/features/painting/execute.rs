@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{BRUSH_PANEL, BrushCommand, BrushMode, GESTURES, Painting, entries};
+use super::{BRUSH, BRUSH_PANEL, BrushCommand, BrushMode, ERASER, GESTURES, Painting, entries};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::notices::Offer;
@@ -13,8 +13,13 @@ use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
 
 impl Feature for Painting {
     type Command = BrushCommand;
-    const ROW: Row =
-        Row { panels: &[&BRUSH_PANEL], gestures: &GESTURES, entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row = Row {
+        tools: &[&BRUSH, &ERASER],
+        panels: &[&BRUSH_PANEL],
+        gestures: &GESTURES,
+        entries: entries::entries,
+        ..Row::EMPTY
+    };
 
     fn execute(&mut self, command: BrushCommand, ctx: &mut Ctx<'_>) {
         let tools = &mut *ctx.tools;

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::front::FrontFinder;
 use super::keep_out::load;
 use super::{
-    AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH_PANEL,
+    AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_PANEL,
     PathCommand, PathTool, Paths, entries, export, marks,
 };
 use crate::app::command::Command;
@@ -21,6 +21,7 @@ use meshbrush_render::render::path_export::PathFormat;
 impl Feature for Paths {
     type Command = PathCommand;
     const ROW: Row = Row {
+        tools: &[&PATH],
         panels: &[&PATH_PANEL, &OTHER_PATHS],
         layer_kinds: &[&CORRIDOR],
         marks_below: marks::paint,

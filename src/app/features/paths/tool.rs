@@ -12,6 +12,7 @@ use meshbrush_core::document::PathPlan;
 
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {
+    place: 4,
     cursor: CursorIcon::Crosshair,
     panels: &[PATH_PANEL.name, OTHER_PATHS.name],
     hint: |state| if state.features.paths.tool.pending.is_some() { GOAL_HINT } else { HINT },

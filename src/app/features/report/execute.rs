@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::{FigureCommand, Report, entries};
 use crate::app::command::{Command, FileCommand, Opened, PlotKind, PlotsCommand, ShellCommand, StepCommand};
-use crate::app::kit::{Ctx, Feature, Row};
-use crate::app::tools::TOOLS;
+use crate::app::kit::{Ctx, Feature, Row, all_tools};
 use meshbrush_study::report::ReportFigure;
 
 impl Feature for Report {
@@ -47,7 +46,7 @@ impl Report {
             ctx.send(Command::Steps(StepCommand::Begin(Some(figure))));
         }
         if let Some(point) = figure.query() {
-            let tool = TOOLS.iter().find(|tool| tool.queries);
+            let tool = all_tools(ctx.rows).into_iter().find(|tool| tool.queries);
             ctx.commands.extend(tool.map(|tool| Command::Shell(ShellCommand::Use(tool))));
             ctx.view.aids.walk = true;
             ctx.session.query(Some(point));

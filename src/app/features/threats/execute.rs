@@ -17,7 +17,8 @@ const USUAL_PEAK: f64 = 0.8;
 
 impl Feature for ThreatEditor {
     type Command = ThreatsCommand;
-    const ROW: Row = Row { layer_kinds: &[&THREATS_KIND], entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row =
+        Row { tools: &[&THREATS], layer_kinds: &[&THREATS_KIND], entries: entries::entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: ThreatsCommand, ctx: &mut Ctx<'_>) {
         match command {

@@ -12,6 +12,7 @@ use meshbrush_core::layers::Threat;
 
 /// Edits the threats of the selected layer.
 pub static THREATS: ToolSpec = ToolSpec {
+    place: 3,
     cursor: CursorIcon::Crosshair,
     hint: |_| HINT,
     paint,
