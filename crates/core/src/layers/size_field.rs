@@ -44,8 +44,6 @@ pub struct SizeField {
     square_bits: Box<[u8; LEVELS]>,
     /// Visible layers, from the bottom to the top.
     layers: Vec<CompiledLayer>,
-    /// Whether h̄ is the minimum over the layers, so that each can be asked alone.
-    is_minimum: bool,
 }
 
 /// What is known of all triangles in a square.
@@ -70,7 +68,7 @@ impl SizeField {
             layers.iter_mut().for_each(|layer| layer.grade(gradation, spec.transfer.h_min, most, lattice));
         }
         let (lengths, square_bits) = (lengths(lattice.spacing()), Box::new(settled::square_bits(lattice)));
-        Self { lattice: *lattice, lengths, square_bits, layers, is_minimum, spec }
+        Self { lattice: *lattice, lengths, square_bits, layers, spec }
     }
 
     /// Returns the field of some layers alone.
@@ -99,7 +97,6 @@ impl SizeField {
             lengths: self.lengths.clone(),
             square_bits: self.square_bits.clone(),
             layers: above.iter().filter(|layer| is_one(layer)).cloned().collect(),
-            is_minimum: true,
         })
     }
 
@@ -196,17 +193,24 @@ impl SizeField {
     }
 
     /// Returns whether a cell that touches the triangle asks for more than the level, before gradation.
+    ///
+    /// From the top down, a layer is tested alone as long as no floor and no replacement above it counts in
+    /// the cells around the triangle: the search then divides them for this layer only. Those from the first
+    /// floor or replacement that counts down to the bottom are tested together.
     fn any_below(&self, paint: &PaintLayers, triangle: &Octagon, around: Cells, level: usize) -> bool {
-        if self.is_minimum {
-            // The top layers are painted: they decide most triangles.
-            return self
-                .layers
-                .iter()
-                .rev()
-                .any(|layer| layer.any_below(paint, triangle, around, level, &self.lattice));
+        let mut count = self.layers.len();
+        while let Some(layer) = count.checked_sub(1).map(|top| &self.layers[top]) {
+            if layer.is_plain() {
+                if layer.any_below(paint, triangle, around, level, &self.lattice) {
+                    return true;
+                }
+            } else if !layer.is_masked_out(&around, &self.lattice) {
+                let mut ask = |cells: &Cells| self.asks(count, paint, cells, level);
+                return any_cell(triangle, around, &mut ask);
+            }
+            count -= 1;
         }
-        let mut ask = |cells: &Cells| self.asks(self.layers.len(), paint, cells, level);
-        any_cell(triangle, around, &mut ask)
+        false
     }
 
     /// Returns the share of the cells in which the lowest `count` layers together require more than a level,

@@ -179,6 +179,11 @@ impl CompiledLayer {
         any_cell(triangle, around, &mut ask)
     }
 
+    /// Returns whether the mask certainly covers none of some cells.
+    pub fn is_masked_out(&self, cells: &Cells, lattice: &Lattice) -> bool {
+        self.mask.is_some() && self.coverage(cells, lattice).0 == Share::None
+    }
+
     /// Returns how many of some cells the mask covers, and where to divide them to know more.
     fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
         let Some(mask) = &self.mask else { return (Share::All, None) };
