@@ -9,7 +9,7 @@
 
 use std::time::Instant;
 
-use meshbrush_benches::window::{FRAME_BUDGET, SLICE, wave};
+use meshbrush_benches::window::{FRAME_BUDGET, MESH_SLICE, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings};
 use meshbrush_core::layers::Layer;
 
@@ -32,7 +32,7 @@ fn drag(document: &mut Document, follower: &mut Follower, setting: impl Fn(f64) 
         document.set(setting(step as f64 / MOVES as f64)).expect("it can be met");
         let deadline = Instant::now() + FRAME_BUDGET;
         while Instant::now() < deadline {
-            if follower.advance(document, SLICE).expect("the budget is far").is_settled() {
+            if follower.advance(document, MESH_SLICE).expect("the budget is far").is_settled() {
                 break;
             }
         }

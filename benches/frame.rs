@@ -21,7 +21,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, MESH_SLICE, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::Layer;
@@ -140,7 +140,7 @@ impl Bench {
     /// Follows the document as `Session::follow` does.
     fn follow(&mut self, deadline: Instant) -> Stage {
         loop {
-            let stage = self.follower.advance(&mut self.document, SLICE).expect("the budget is far");
+            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
             if stage == Stage::InStep || Instant::now() >= deadline {
                 return stage;
             }

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, SLICE, wave};
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, MESH_SLICE, wave};
 use meshbrush_core::document::{Document, Follower, Readings, Setting, Settings, Stage};
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
@@ -130,7 +130,7 @@ impl Bench {
         edit(&mut self.document);
         loop {
             let slice = Instant::now();
-            let stage = self.follower.advance(&mut self.document, SLICE).expect("the budget is far");
+            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
             times.slice = times.slice.max(slice.elapsed());
             if !has_changed && self.follower.take_change().is_some() {
                 (times.first, has_changed) = (began.elapsed(), true);
@@ -150,7 +150,7 @@ impl Bench {
         edit(&mut self.document);
         let deadline = Instant::now() + FRAME_BUDGET;
         loop {
-            let stage = self.follower.advance(&mut self.document, SLICE).expect("the budget is far");
+            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
             if stage == Stage::InStep || Instant::now() >= deadline {
                 self.follower.take_change();
                 return (began.elapsed(), stage);

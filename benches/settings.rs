@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use meshbrush_benches::window::{FRAME_BUDGET, SLICE};
+use meshbrush_benches::window::{FRAME_BUDGET, MESH_SLICE};
 use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -55,7 +55,7 @@ fn change(document: &Document, follower: &Follower, setting: &Setting) -> Times 
         let deadline = Instant::now() + FRAME_BUDGET;
         let stage = loop {
             let slice = Instant::now();
-            let stage = follower.advance(&mut document, SLICE).expect("the budget is far");
+            let stage = follower.advance(&mut document, MESH_SLICE).expect("the budget is far");
             longest_slice = longest_slice.max(slice.elapsed());
             if stage == Stage::InStep || Instant::now() >= deadline {
                 break stage;

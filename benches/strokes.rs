@@ -7,7 +7,7 @@
 use std::time::{Duration, Instant};
 
 use glam::dvec2;
-use meshbrush_benches::window::{BRUSH, SLICE, wave};
+use meshbrush_benches::window::{BRUSH, MESH_SLICE, SLICE, wave};
 use meshbrush_core::document::{Document, Follower, Settings};
 use meshbrush_core::layers::Layer;
 use meshbrush_mesh::mesh::Progress;
@@ -39,7 +39,7 @@ fn settle(document: &mut Document, follower: &mut Follower) -> Duration {
     let start = Instant::now();
     loop {
         if document.advance_stroke(SLICE) == Progress::Done
-            && follower.advance(document, SLICE).expect("the budget is far").is_settled()
+            && follower.advance(document, MESH_SLICE).expect("the budget is far").is_settled()
         {
             return start.elapsed();
         }

@@ -10,6 +10,8 @@ use meshbrush_core::paint::{Brush, Medium};
 pub const FRAME_BUDGET: Duration = Duration::from_millis(7);
 /// `SLICE` in `app/slices.rs`.
 pub const SLICE: usize = 2048;
+/// `MESH_SLICE` in `app/slices.rs`.
+pub const MESH_SLICE: usize = 256;
 /// The default brush on the unit square.
 pub const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 

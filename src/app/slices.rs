@@ -6,8 +6,12 @@ use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_mesh::mesh::Progress;
 
-/// Pixels or triangles in one slice of work: well below a millisecond.
+/// Pixels of a stroke, or triangles of its price, in one slice of work: well below a millisecond.
 pub const SLICE: usize = 2048;
+
+/// Triangles in one slice of work on the mesh. Few, because a question to a stack of layers with a limit of
+/// gradation can take 20 µs.
+const MESH_SLICE: usize = 256;
 
 /// Draws the current stroke and brings the follower closer to the document. Returns whether work is left.
 pub fn follow_document(
@@ -19,7 +23,7 @@ pub fn follow_document(
         if document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
             continue;
         }
-        if follower.advance(document, SLICE)?.is_settled() {
+        if follower.advance(document, MESH_SLICE)?.is_settled() {
             return Ok(false);
         }
         if Instant::now() >= deadline {

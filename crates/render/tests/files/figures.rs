@@ -20,9 +20,9 @@ use meshbrush_io::io::png::{self as pictures, Behind};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_mesh::geometry::Rect;
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `SLICE` in `app/session.rs`.
+/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `MESH_SLICE` in `app/slices.rs`.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
-const SLICE: usize = 2048;
+const MESH_SLICE: usize = 256;
 /// The window's default brush on the unit square.
 const BRUSH: Brush = Brush { medium: Medium::Risk(1.0), radius: 0.06, hardness: 0.35, strength: 0.8 };
 
@@ -124,7 +124,7 @@ fn stroke_frames(document: &mut Document, follower: &mut Follower, zoom: f64) ->
 }
 
 fn advance(document: &mut Document, follower: &mut Follower) -> Stage {
-    follower.advance(document, SLICE).unwrap()
+    follower.advance(document, MESH_SLICE).unwrap()
 }
 
 fn project_bytes(document: &Document) -> usize {
