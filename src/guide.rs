@@ -9,6 +9,9 @@ pub mod paint {}
 #[doc = include_str!("../docs/locate.md")]
 pub mod locate {}
 
+#[doc = include_str!("../docs/path.md")]
+pub mod path {}
+
 #[doc = include_str!("../docs/export.md")]
 pub mod export {}
 

@@ -2,7 +2,7 @@
 //!
 //! A coarse grid of right-angled triangles is refined by bisecting triangles until each satisfies a local
 //! condition. All public types are at the root of the crate. The [`guide`] shows how to build, paint, query
-//! and export a mesh. Points and vectors are those of [`glam`], which is re-exported.
+//! and export a mesh, and how to find a path. Points and vectors are those of [`glam`], which is re-exported.
 //!
 //! # Sources
 //!
