@@ -24,7 +24,7 @@ impl Default for Threads {
 }
 
 impl Threads {
-    /// So many, or [`Self::most`] where that is less.
+    /// Uses `count` threads, or [`Self::most`] where that is less.
     pub fn new(count: NonZeroUsize) -> Self {
         let count = count.min(Self::most());
         Self { count, pool: ThreadPoolBuilder::new().num_threads(count.get()).build().ok() }

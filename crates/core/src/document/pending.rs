@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::layers::{LayerId, PaintChange, SettledSquares, SizeField};
 use crate::mesh::TargetChange;
 
-/// What has changed since the shown mesh was in step, and what the fields that decide about it have answered.
+/// The changes since the shown mesh was up to date, and the answers of the fields that decide about them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending {
     /// `Some` if nothing has changed but that these layers ask for smaller diameters in places. Without
@@ -14,7 +14,7 @@ pub(super) struct Pending {
     finer: Option<Vec<LayerId>>,
     /// [`SizeField::of_layers_alone`] of the layers that asked for less the last time.
     alone: Option<Alone>,
-    /// Of the field of all layers.
+    /// The squares settled by the field of all layers.
     squares: Option<SettledSquares>,
 }
 

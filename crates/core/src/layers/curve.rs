@@ -30,7 +30,7 @@ pub enum CurveError {
     Value {
         /// The number of the knot, counted from one.
         knot: usize,
-        /// As given.
+        /// The number as it was given.
         value: f64,
     },
     /// A target diameter is not positive.
@@ -38,7 +38,7 @@ pub enum CurveError {
     Diameter {
         /// The number of the knot, counted from one.
         knot: usize,
-        /// As given.
+        /// The number as it was given.
         diameter: f64,
     },
     /// The values do not increase.
@@ -48,7 +48,7 @@ pub enum CurveError {
     Order {
         /// The number of the knot, counted from one.
         knot: usize,
-        /// As given.
+        /// The number as it was given.
         value: f64,
         /// The value of the knot before.
         before: f64,

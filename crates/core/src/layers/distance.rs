@@ -67,9 +67,9 @@ pub enum ShapesError {
     /// A coordinate is not finite.
     #[error("A shape has a point at {x}, {y}; both must be finite numbers.")]
     Place {
-        /// As given.
+        /// The number as it was given.
         x: f64,
-        /// As given.
+        /// The number as it was given.
         y: f64,
     },
     /// The polygons cannot be filled.

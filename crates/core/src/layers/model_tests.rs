@@ -1,6 +1,6 @@
 use glam::{DVec2, dvec2};
 
-use super::models::{MADE, Place};
+use super::models::{MADE, ModelPlace};
 use super::{
     Combine, Layer, LayerKind, Mask, PaintLayers, SettledSquares, SizeField, SizeFieldSpec, Threat,
     ThreatLaw, Threats,
@@ -18,11 +18,11 @@ fn threats(random: &mut fastrand::Rng, count: usize, ranges: &[f64]) -> Threats 
     Threats::new((0..count).map(|_| threat()).collect()).unwrap()
 }
 
-fn place(middle: DVec2, half: DVec2) -> Place {
+fn place(middle: DVec2, half: DVec2) -> ModelPlace {
     let rest = f64::EPSILON * (middle.abs() + half);
     let coordinates =
         [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
-    Place { coordinates, middle, half, rest }
+    ModelPlace { coordinates, middle, half, rest }
 }
 
 #[test]

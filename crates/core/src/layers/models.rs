@@ -22,7 +22,7 @@ impl ModelId {
 }
 
 /// The part of the plane that a model is for, in world units.
-pub struct Place {
+pub struct ModelPlace {
     /// Models of x and y. They include what rounding changes in the coordinates of points.
     pub coordinates: [Quadratic; 2],
     /// The middle, and half of the sides.
@@ -32,7 +32,7 @@ pub struct Place {
     pub rest: DVec2,
 }
 
-impl Place {
+impl ModelPlace {
     /// Returns a rectangle that holds all points of the place.
     pub fn rect(&self) -> Rect {
         let half = self.half * (1.0 + 1e-12) + 1e-15 * self.middle.abs();
@@ -102,7 +102,7 @@ pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
-    model: impl Fn(&Place) -> Quadratic,
+    model: impl Fn(&ModelPlace) -> Quadratic,
     bounds: impl FnOnce(Bounds) -> Bounds,
 ) -> Bounds {
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
@@ -178,7 +178,7 @@ impl Square {
         fits.then(|| (from.map(|v| v / reach), half.map(|v| rounded_up(v / reach))))
     }
 
-    fn place(&self, lattice: &Lattice) -> Place {
+    fn place(&self, lattice: &Lattice) -> ModelPlace {
         let side = (1u64 << self.bits) as f64;
         let (origin, step) = (lattice.bounds().min, lattice.step());
         let middle = origin + (DVec2::from(self.at.map(|v| v as f64)) + 0.5) * side * step;
@@ -186,6 +186,6 @@ impl Square {
         let rest = 4.0 * f64::EPSILON * (origin.abs() + middle.abs() + half);
         let coordinates =
             [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
-        Place { coordinates, middle, half, rest }
+        ModelPlace { coordinates, middle, half, rest }
     }
 }

@@ -46,7 +46,7 @@ pub struct SizeField {
     layers: Vec<CompiledLayer>,
 }
 
-/// What is known of all triangles in a square.
+/// Facts that hold for all triangles in a square.
 #[derive(Clone, Copy)]
 pub(super) struct Nearby<'a> {
     /// No point of a cell that touches one of them asks for less, in world units.

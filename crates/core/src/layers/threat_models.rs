@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 
 use super::Threats;
-use super::models::Place;
+use super::models::ModelPlace;
 use super::threat_series::{Series, Squared};
 use super::threats::NO_SURVIVAL;
 use crate::field::{Bounds, Quadratic};
 
 impl Threats {
     /// Returns a model of the combined risk.
-    pub(super) fn model(&self, place: &Place) -> Quadratic {
+    pub(super) fn model(&self, place: &ModelPlace) -> Quadratic {
         let (mut survival, mut is_felt) = (Survival::default(), false);
         let certain = self.visit_meeting(&place.rect(), |threat| {
             let squared = Squared::new(threat, place);

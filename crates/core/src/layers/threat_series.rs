@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::models::Place;
+use super::models::ModelPlace;
 use super::{Threat, ThreatLaw};
 use crate::field::Quadratic;
 
@@ -37,7 +37,7 @@ pub(super) struct Series {
 }
 
 impl Squared {
-    pub fn new(threat: &Threat, place: &Place) -> Self {
+    pub fn new(threat: &Threat, place: &ModelPlace) -> Self {
         let inverse = 1.0 / threat.range;
         let offset = (place.middle - threat.at) * inverse;
         let half = place.half * inverse;

@@ -79,9 +79,9 @@ pub enum ThreatError {
     /// The place is not finite.
     #[error("A threat lies at {x}, {y}; both must be finite numbers.")]
     Place {
-        /// As given.
+        /// The number as it was given.
         x: f64,
-        /// As given.
+        /// The number as it was given.
         y: f64,
     },
     /// The range is not positive, or reaches too far.

@@ -18,7 +18,7 @@ pub enum PathError {
     #[error(
         "The cost at {} is {}. A cost per unit of length must be positive and finite everywhere; \
          change the formula, or give the length a weight above 0.",
-        Place(*at), Number(*value)
+        PointInWords(*at), Number(*value)
     )]
     InvalidCost {
         /// A place with this cost, in world units.
@@ -30,7 +30,7 @@ pub enum PathError {
     #[error(
         "The cost near {} has no positive, finite bounds. Write the formula so that it stays positive and \
          finite there, for example max(0.01, …) or min(1000, …).",
-        Place(*at)
+        PointInWords(*at)
     )]
     UnboundedCost {
         /// The place, in world units.
@@ -49,7 +49,7 @@ pub enum PathError {
         risk: f64,
     },
     /// A coordinate is NaN or infinite.
-    #[error("The {which} {} is not a place: its coordinates must be finite numbers.", Place(*at))]
+    #[error("The {which} {} is not a place: its coordinates must be finite numbers.", PointInWords(*at))]
     NotAPlace {
         /// Which place.
         which: Waypoint,
@@ -57,7 +57,7 @@ pub enum PathError {
         at: DVec2,
     },
     /// The start, the goal or a via point is not in the domain.
-    #[error("The {which} {} lies outside the domain. Choose a place inside it.", Place(*at))]
+    #[error("The {which} {} lies outside the domain. Choose a place inside it.", PointInWords(*at))]
     Outside {
         /// Which place.
         which: Waypoint,
@@ -69,7 +69,7 @@ pub enum PathError {
     #[error(
         "No bound is proved from the {which} {}: it lies outside the outline of the domain or in a keep-out \
          region, though a triangle of the mesh holds it. Choose a place inside the outline.",
-        Place(*at)
+        PointInWords(*at)
     )]
     BeyondOutline {
         /// Which place.
@@ -82,7 +82,7 @@ pub enum PathError {
     #[error(
         "The {which} {} lies in a keep-out region, or in a triangle that one touches. Choose a place farther \
          away, or make the mesh finer there.",
-        Place(*at)
+        PointInWords(*at)
     )]
     KeptOut {
         /// Which place.
@@ -94,7 +94,7 @@ pub enum PathError {
     #[error(
         "The cost near {} is {}. Only costs from {} to {} can be added up along paths: scale the formula or \
          the weights.",
-        Place(*at), Number(*value), Number(LEAST_COST), Number(GREATEST_COST)
+        PointInWords(*at), Number(*value), Number(LEAST_COST), Number(GREATEST_COST)
     )]
     CostOutOfRange {
         /// A place with such a cost, in world units.
@@ -241,9 +241,9 @@ impl fmt::Display for Waypoint {
 }
 
 /// A point for a sentence.
-struct Place(DVec2);
+struct PointInWords(DVec2);
 
-impl fmt::Display for Place {
+impl fmt::Display for PointInWords {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({}, {})", Number(self.0.x), Number(self.0.y))
     }

@@ -23,7 +23,7 @@ impl Effort {
     pub const FULL: Self = Self { pieces: &[32, 128, 512], steps: 25 };
     /// The effort for a path that is shown during a drag.
     pub const LIVE: Self = Self { pieces: &[32, 128], steps: 8 };
-    /// For a path that is compared with another one.
+    /// The effort for a path that is only compared with another one.
     pub(super) const SKETCH: Self = Self { pieces: &[32], steps: 8 };
 }
 

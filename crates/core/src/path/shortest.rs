@@ -23,7 +23,7 @@ use super::place::Place;
 use super::walls::Walls;
 use crate::geometry::{BestFirst, Side, side_of_points};
 
-/// So many intervals are looked through at most.
+/// The most intervals that a search looks at.
 const MOST_INTERVALS: usize = 200_000;
 /// A way is shorter than a known one by this share at least.
 const LEAST_GAIN: f64 = 1e-9;
@@ -60,7 +60,7 @@ impl Shortest<'_> {
     /// The shortest way between two places, as a polyline that the walls admit. `None` where it is not
     /// shorter than `known`, or the search is too long.
     pub fn way(&self, [start, goal]: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
-        let mut search = Search::new(self, goal.point, known * (1.0 - LEAST_GAIN));
+        let mut search = CornerSearch::new(self, goal.point, known * (1.0 - LEAST_GAIN));
         search.see_around(Root { at: start.point, node: NONE, length: 0.0 });
         let mut intervals = 0;
         while let Some((least, (root, seen))) = search.waiting.pop() {
@@ -100,7 +100,7 @@ impl Shortest<'_> {
     }
 }
 
-/// What is known of a corner of the walls.
+/// The state of a corner of the walls during a search.
 #[derive(Clone, Copy)]
 struct Corner {
     /// Whether a shortest way can bend there.
@@ -111,7 +111,7 @@ struct Corner {
     before: u32,
 }
 
-struct Search<'a> {
+struct CornerSearch<'a> {
     over: &'a Shortest<'a>,
     goal: DVec2,
     /// The triangles that hold the goal.
@@ -127,7 +127,7 @@ struct Search<'a> {
     last: Option<u32>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> CornerSearch<'a> {
     fn new(over: &'a Shortest<'a>, goal: DVec2, known: f64) -> Self {
         let blank = Corner { bends: false, length: f64::INFINITY, before: NONE };
         let mut corners = vec![blank; over.mesh.node_count()];

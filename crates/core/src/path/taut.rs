@@ -6,7 +6,7 @@ use super::CostDensity;
 use super::walls::Walls;
 use crate::geometry::{Rect, Side, side_of_points};
 
-/// So many times the number of points of a path are looked at at most.
+/// The most points that are looked at, as a multiple of the number of points of the path.
 const MOST_VISITS: usize = 16;
 
 /// A polyline that the walls admit, pulled taut: where the cost around a point and its two neighbours is

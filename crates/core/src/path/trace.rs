@@ -17,7 +17,7 @@ enum Stand {
 }
 
 /// A step of the descent, and the distance that it leads to.
-struct Step {
+struct DescentStep {
     /// The distance at its end and its own cost.
     total: f64,
     /// The distance at its end.
@@ -27,7 +27,7 @@ struct Step {
     stand: Option<Stand>,
 }
 
-impl Step {
+impl DescentStep {
     /// Returns the value and the number of its node: what falls from step to step.
     fn height(&self) -> (f64, u32) {
         (self.value, if let Some(Stand::OnNode(node)) = self.stand { node } else { NONE })
@@ -88,7 +88,7 @@ pub(super) fn trace_by_nodes(
 
 /// Adds the end of a step to the points from the goal on, and returns where the descent stands then. `None`
 /// at the start: then the points are those of the path, from the start on.
-fn take(step: Step, points: &mut Vec<DVec2>) -> Option<(Stand, DVec2)> {
+fn take(step: DescentStep, points: &mut Vec<DVec2>) -> Option<(Stand, DVec2)> {
     let stays = points.last() == Some(&step.to);
     if !stays || step.stand.is_none() && points.len() == 1 {
         points.push(step.to);
@@ -156,19 +156,19 @@ impl<'a> Descent<'a> {
     }
 
     /// Returns the best step; `None` where no node nearby has a distance.
-    fn best(&self, stand: Stand, at: DVec2) -> Option<Step> {
+    fn best(&self, stand: Stand, at: DVec2) -> Option<DescentStep> {
         let steps = self.triangles(stand).into_iter().flat_map(|t| self.steps(t, stand, at));
         steps.reduce(|best, step| if step.total < best.total { step } else { best })
     }
 
     /// Returns the best steps to the start and to each edge of a triangle that holds a point, but for edges
     /// that the point is on: rounding would lead along them by tiny steps.
-    fn steps(&self, t: u32, stand: Stand, at: DVec2) -> impl Iterator<Item = Step> {
+    fn steps(&self, t: u32, stand: Stand, at: DVec2) -> impl Iterator<Item = DescentStep> {
         let cost = self.costs[t as usize];
         let corners = self.mesh.triangles[t as usize].corners;
         let to_start = (t == self.start.triangle).then(|| {
             let to = self.start.point;
-            Step { total: cost * at.distance(to), value: 0.0, to, stand: None }
+            DescentStep { total: cost * at.distance(to), value: 0.0, to, stand: None }
         });
         let to_edges = (0..3).filter_map(move |k| {
             let ends = [corners[k], corners[(k + 1) % 3]];
@@ -190,7 +190,7 @@ impl<'a> Descent<'a> {
                 Stand::OnNode(node) => self.value(node),
                 _ => at_a + foot * (at_b - at_a),
             };
-            (to != at).then_some(Step {
+            (to != at).then_some(DescentStep {
                 total: value + cost * at.distance(to),
                 value,
                 to,
@@ -234,13 +234,13 @@ impl<'a> Descent<'a> {
     /// Returns a step to a node that is lower: from a node to the lowest corner of the triangle that its
     /// value came from, or to the start if it has none; from elsewhere to the lowest corner of the triangles
     /// there.
-    fn down_to_node(&self, stand: Stand, at: DVec2) -> Option<Step> {
+    fn down_to_node(&self, stand: Stand, at: DVec2) -> Option<DescentStep> {
         let triangles = match stand {
             Stand::OnNode(node) => match self.march.nodes[node as usize].from {
                 NONE => {
                     let to = self.start.point;
                     let total = self.costs[self.start.triangle as usize] * at.distance(to);
-                    return Some(Step { total, value: 0.0, to, stand: None });
+                    return Some(DescentStep { total, value: 0.0, to, stand: None });
                 }
                 from => vec![from],
             },
@@ -253,6 +253,6 @@ impl<'a> Descent<'a> {
             .min_by(|a, b| self.value(a.0).total_cmp(&self.value(b.0)).then(a.0.cmp(&b.0)))?;
         let (to, value) = (self.mesh.nodes[node as usize], self.value(node));
         let total = value + self.costs[t as usize] * at.distance(to);
-        Some(Step { total, value, to, stand: Some(Stand::OnNode(node)) })
+        Some(DescentStep { total, value, to, stand: Some(Stand::OnNode(node)) })
     }
 }

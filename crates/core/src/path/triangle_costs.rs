@@ -35,7 +35,7 @@ const GAUSS: [[f64; 3]; 3] = {
 /// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
 /// most, is above this part of the longer side of all triangles.
 const COARSEST: f64 = 1.0 / 250.0;
-/// So many triangles are added to a mesh at most.
+/// The most triangles that bisection adds to a mesh.
 const MOST_ADDED: usize = 50_000;
 
 impl TriangleCosts {

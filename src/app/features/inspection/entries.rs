@@ -25,7 +25,7 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     })
 }
 
-/// The same, with the triangles on the way kept in sight.
+/// Returns the entries that go to a neighbour and keep the triangles on the way highlighted.
 fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     let names = ["bisection", "second", "third"];
     let has_keys = state.tools.tool.queries;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::layers::models::{self, ModelId, Place};
+use crate::layers::models::{self, ModelId, ModelPlace};
 use crate::layers::{Quantity, Shapes, Threats};
 use crate::raster::ValueRange;
 
@@ -136,7 +136,7 @@ impl Function {
         }
     }
 
-    fn model(&self, place: &Place) -> Quadratic {
+    fn model(&self, place: &ModelPlace) -> Quadratic {
         match self {
             Self::Formula(formula) => formula.model(place.coordinates),
             Self::Threats(threats) => threats.model(place),

@@ -30,7 +30,7 @@ use super::steepness::Slopes;
 /// A comparison that has not ended after so many rectangles says that h̄ is not below.
 const MOST_COMPARED: usize = 1 << 16;
 
-/// What is above the least value by less than this share of it is not searched.
+/// Parts whose bound is below the best known value by less than this share are not searched.
 const TIGHT: f64 = 1e-9;
 
 /// The number of rectangles after which [`TOLERANCE`] is enough for files.
@@ -70,7 +70,7 @@ impl Accuracy {
 }
 
 /// A search over a field from a place, with the slope g.
-pub struct Search<'a, P> {
+pub struct GradationSearch<'a, P> {
     pub field: &'a SizeField,
     pub paint: &'a PaintLayers,
     pub place: P,
@@ -81,7 +81,7 @@ pub struct Search<'a, P> {
 
 /// A part of the lattice to search.
 #[derive(Clone, Copy)]
-pub struct Part {
+pub struct SearchedPart {
     pub id: PartId,
     /// No cell has a lower h before gradation.
     pub least: f64,
@@ -91,7 +91,7 @@ pub struct Part {
     pub distance: f64,
 }
 
-impl<P: Place> Search<'_, P> {
+impl<P: Place> GradationSearch<'_, P> {
     /// Returns squares that cover all values below `length`, which are at least `least`.
     pub fn start(
         &self,
@@ -114,7 +114,7 @@ impl<P: Place> Search<'_, P> {
 
     /// Returns a part, unless its bound is at least `limit`, and its bound.
     #[inline]
-    pub fn part(&self, known: &mut KnownParts, id: PartId, limit: f64) -> Option<(f64, Part)> {
+    pub fn part(&self, known: &mut KnownParts, id: PartId, limit: f64) -> Option<(f64, SearchedPart)> {
         let [least, greatest] = known.diameters(self.field, self.paint, id);
         if least >= limit {
             return None;
@@ -127,7 +127,7 @@ impl<P: Place> Search<'_, P> {
         }
         let distance = self.place.distance(&cells, &rect);
         let bound = least + self.slope * distance;
-        (bound < limit).then_some((bound, Part { id, least, greatest, distance }))
+        (bound < limit).then_some((bound, SearchedPart { id, least, greatest, distance }))
     }
 
     /// Returns the rectangle of a part, in world units with the corner of the lattice as origin.
@@ -219,7 +219,7 @@ pub fn any_below(
     let place = TriangleInWorld::new(corners, field.lattice());
     // Many pixels can be equally far from a side of the triangle; cells are then divided at pixels.
     let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
-    let search = Search { field, paint, place, slope, finest };
+    let search = GradationSearch { field, paint, place, slope, finest };
     match sources {
         Some(sources) => search.any_below(known, sources.iter().copied(), length),
         None => {
@@ -246,7 +246,7 @@ pub fn least(
     let origin = field.lattice().bounds().min;
     let place = Point(point - origin);
     let finest = field.pixel_bits(paint).max(LEAST_BITS);
-    let search = Search { field, paint, place, slope, finest };
+    let search = GradationSearch { field, paint, place, slope, finest };
     let (mut best, mut parts) = (start, BestFirst::default());
     for id in search.start(known, h_min, start.0) {
         if let Some((bound, part)) = search.part(known, id, best.0 * (1.0 - TIGHT)) {
@@ -321,7 +321,7 @@ pub fn graded_bounds(
     let place = rect_of(cells, field.lattice());
     let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
     let finest = quarter_bits([cells.min, cells.max]);
-    let search = Search { field, paint, place, slope, finest };
+    let search = GradationSearch { field, paint, place, slope, finest };
     let mut parts = BestFirst::default();
     // The least h̄ is from `low` to `low_most`, and every h̄ is at most `high`.
     let (mut low_most, mut high) = (greatest, greatest);
@@ -367,7 +367,7 @@ pub fn graded_bounds(
     GradedBounds { least: (low * (1.0 - MARGIN)).max(h_min), greatest: high.min(h_max), sources }
 }
 
-/// What is carried from places beyond some changed cells.
+/// A field in which some cells have changed, for questions about the values that other cells carry.
 pub struct Elsewhere<'a> {
     pub field: &'a SizeField,
     pub paint: &'a PaintLayers,
@@ -389,7 +389,7 @@ pub fn most_from_elsewhere(
     let place = rect_of(cells, field.lattice());
     let (center, half_diagonal) = (place.center(), 0.5 * place.size().length());
     let finest = quarter_bits([cells.min, cells.max]);
-    let search = Search { field, paint, place, slope, finest };
+    let search = GradationSearch { field, paint, place, slope, finest };
     // What is too much here may be little enough for a part of the cells that is farther from the change.
     let most = limit + 2.0 * slope * half_diagonal;
     let mut parts = BestFirst::default();

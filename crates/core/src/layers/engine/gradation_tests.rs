@@ -2,7 +2,7 @@ use glam::{DVec2, dvec2};
 
 use super::KnownParts;
 use super::counting::Counting;
-use super::gradation::Search;
+use super::gradation::GradationSearch;
 use super::parts::Square;
 use super::place::{Place, Point};
 use super::steepness::slopes;
@@ -97,7 +97,7 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         let origin = field.lattice().bounds().min;
         let place = Point(dvec2(random.f64(), random.f64()));
         let value = |p: DVec2| field.ungraded_at(paint, origin + p).0 + slope * p.distance(place.nearest(p));
-        let search = Search { field: &field, paint, place: Point(place.0), slope, finest: 4 };
+        let search = GradationSearch { field: &field, paint, place: Point(place.0), slope, finest: 4 };
         let known = &mut KnownParts::default();
         for _ in 0..300 {
             let bits = random.u32(22..30);

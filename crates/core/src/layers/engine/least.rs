@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::geometry::{BestFirst, LatticePoint, Octagon, Rect};
 use crate::layers::{PaintLayers, SizeField};
 
-use super::gradation::{Part, Search, quarter_bits};
+use super::gradation::{GradationSearch, SearchedPart, quarter_bits};
 use super::parts::KnownParts;
 use super::place::{Place, TriangleInWorld};
 
@@ -37,7 +37,7 @@ pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoi
     let place = TriangleInWorld::new(corners, lattice);
     let slope = field.spec().gradation.unwrap_or(NO_GRADATION);
     let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
-    let search = Search { field, paint, place, slope, finest };
+    let search = GradationSearch { field, paint, place, slope, finest };
     let origin = lattice.bounds().min;
     let all = Rect::new(DVec2::ZERO, lattice.bounds().max - origin);
     let (target, rect) = search.least(&mut KnownParts::default()).unwrap_or((field.spec().unasked, all));
@@ -45,14 +45,14 @@ pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoi
     Least { target, at: origin + at, from: origin + from }
 }
 
-impl Search<'_, TriangleInWorld> {
+impl GradationSearch<'_, TriangleInWorld> {
     /// Returns the least value of a cell, carried to the triangle, and a rectangle that has it.
     fn least(&self, known: &mut KnownParts) -> Option<(f64, Rect)> {
         let mut parts = BestFirst::default();
         let mut best = (f64::INFINITY, Rect::UNIT);
         let offer = |known: &KnownParts,
-                     (bound, part): (f64, Part),
-                     parts: &mut BestFirst<Part>,
+                     (bound, part): (f64, SearchedPart),
+                     parts: &mut BestFirst<SearchedPart>,
                      best: &mut (f64, Rect)| {
             let sure = part.greatest + self.slope * part.distance;
             if sure < best.0 {

@@ -84,7 +84,7 @@ const ROOT: usize = 0;
 /// Stands for no entry.
 const NONE: u32 = u32::MAX;
 
-/// What is known of a part of the lattice.
+/// The facts that are known about a part of the lattice.
 #[derive(Clone, Copy, Debug)]
 struct Known {
     /// First column and row, and one past the last ones. Without cells beside the lattice.
@@ -112,7 +112,7 @@ struct Known {
     halves: u32,
 }
 
-/// What h̄ before gradation is known to be in parts of the lattice.
+/// Bounds of h̄ before gradation in parts of the lattice, kept for later questions.
 ///
 /// Searches for places nearby look at the same parts. The answers are those of one field, and never depend on
 /// what is known. Where paint has changed, [`Self::forget`] must be called.

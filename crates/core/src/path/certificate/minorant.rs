@@ -45,7 +45,7 @@ impl Minorant {
         let samples = Samples::new(cost, triangle);
         let origin = triangle.centroid();
         let inner = triangle.shrunk(inset);
-        let search = |plane, attained| Search::new(cost, &inner, plane, attained);
+        let search = |plane, attained| MinorantSearch::new(cost, &inner, plane, attained);
         let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin };
         let least = search(flat, samples.least()).bound(0.002 * samples.least());
         let mean = samples.mean(least);
@@ -151,25 +151,25 @@ impl Samples {
 }
 
 /// Branch and bound for the least value of the density minus a plane inside a triangle.
-struct Search<'a> {
+struct MinorantSearch<'a> {
     cost: &'a dyn CostDensity,
     triangle: &'a FlatTriangle,
     plane: Plane,
     /// A value that is attained, as far as samples tell.
     attained: f64,
-    open: BinaryHeap<Part>,
+    open: BinaryHeap<BoundedPart>,
     looked_at: usize,
 }
 
 /// The part of the triangle in a rectangle, with a lower bound of the density minus the plane there.
-struct Part {
+struct BoundedPart {
     rectangle: Rect,
     bound: f64,
     /// Whether dividing it does not help.
     is_exact: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a> MinorantSearch<'a> {
     fn new(cost: &'a dyn CostDensity, triangle: &'a FlatTriangle, plane: Plane, attained: f64) -> Self {
         Self { cost, triangle, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
     }
@@ -209,7 +209,7 @@ impl<'a> Search<'a> {
         } else {
             self.attained = self.attained.min(bound);
         }
-        self.open.push(Part { rectangle, bound: bound.max(bound_of_whole), is_exact });
+        self.open.push(BoundedPart { rectangle, bound: bound.max(bound_of_whole), is_exact });
     }
 
     /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
@@ -295,22 +295,22 @@ impl Clipped {
 }
 
 // The part with the least bound comes first.
-impl Ord for Part {
+impl Ord for BoundedPart {
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)
     }
 }
-impl PartialOrd for Part {
+impl PartialOrd for BoundedPart {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl PartialEq for Part {
+impl PartialEq for BoundedPart {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
-impl Eq for Part {}
+impl Eq for BoundedPart {}
 
 #[cfg(test)]
 mod tests {

@@ -66,16 +66,16 @@ use triangle::FlatTriangle;
 pub use legs::PathCertificate;
 pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
 
-/// One round aims at losing this part of the requested width.
+/// Each round aims to reduce the interval by this share of the requested width.
 const AIM: f64 = 0.65;
-/// The accuracy of a programme, as a part of the requested width.
+/// The accuracy to which each programme is solved, as a share of the requested width.
 const ACCURACY: f64 = 0.05;
-/// So many triangles are added at most to a mesh on which a better path is sought.
+/// The most triangles that are added to the mesh on which a better path is searched.
 const MOST_ADDED: usize = 60_000;
 /// A triangle beside a keep-out region is small for a path if its diameter is this part of the requested
 /// width times the length of the path.
 const SHORT_DETOUR: f64 = 0.1;
-/// The strips around edges are so many ulps of the largest coordinate wide on each side.
+/// The width of the strip on each side of an edge, in ulps of the largest coordinate.
 const STRIP_ULPS: f64 = 16.0;
 /// The gradient grows by at most so many times the width of a strip as a part of the smallest triangle.
 const STRIP_LOSS: f64 = 20.0;

@@ -11,9 +11,9 @@ use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterReading, ShapeL
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub struct SavedLayer {
-    /// What it asks for, and which keys follow.
+    /// The kind of the layer, which decides which keys follow.
     pub kind: SavedKind,
-    /// What a person calls it; without one, it is named after its kind.
+    /// The name of the layer; without one, it is named after its kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// A hidden layer asks for nothing.
@@ -31,7 +31,7 @@ pub struct SavedLayer {
     /// Where it counts: a file with polygons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mask_file: Option<PathBuf>,
-    /// What the values of paint or of a formula mean.
+    /// The quantity that paint or a formula states.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quantity: Option<SavedQuantity>,
     /// A formula in x and y.
@@ -46,7 +46,7 @@ pub struct SavedLayer {
     /// Where a raster lies, in place of what its file says: x₀, y₀, x₁, y₁.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounds: Option<[f64; 4]>,
-    /// What the values of a raster mean.
+    /// The quantity that the pixels of a raster state.
     #[serde(default, rename = "as", skip_serializing_if = "Option::is_none")]
     pub read_as: Option<SavedQuantity>,
     /// Pairs of a raster's value and the target diameter there.
@@ -55,10 +55,10 @@ pub struct SavedLayer {
     /// Threats in place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threats: Option<Vec<SavedThreat>>,
-    /// What the distance is to, if that is no file and no list of shapes.
+    /// The object that the distance is measured to, if it is neither a file nor a list of shapes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<SavedDistanceTo>,
-    /// What the distance is to, in place.
+    /// The shapes that the distance is measured to, as a list.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Vec<SavedShape>>,
     /// The width of a corridor.

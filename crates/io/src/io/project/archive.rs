@@ -30,7 +30,7 @@ const NO_DATE: u16 = 0x21;
 
 /// A packed part.
 #[derive(Debug)]
-pub struct Part<'a> {
+pub struct ArchivePart<'a> {
     packed: &'a [u8],
     method: u16,
     /// The number of unpacked bytes, as declared.
@@ -40,7 +40,7 @@ pub struct Part<'a> {
 
 /// The parts of an archive with their names.
 #[derive(Debug, Default)]
-pub struct Archive<'a>(Vec<(&'a str, Part<'a>)>);
+pub struct Archive<'a>(Vec<(&'a str, ArchivePart<'a>)>);
 
 impl<'a> Archive<'a> {
     /// Reads the directory without unpacking anything.
@@ -77,12 +77,12 @@ impl<'a> Archive<'a> {
     }
 
     /// Returns the part with this name.
-    pub fn part(&self, name: &str) -> Option<&Part<'a>> {
+    pub fn part(&self, name: &str) -> Option<&ArchivePart<'a>> {
         self.0.iter().find(|(other, _)| *other == name).map(|(_, part)| part)
     }
 }
 
-impl<'a> Part<'a> {
+impl<'a> ArchivePart<'a> {
     /// Returns the number of bytes in the archive.
     pub fn packed_bytes(&self) -> u64 {
         self.packed.len() as u64
@@ -177,7 +177,7 @@ fn entry<'a>(
     bytes: &'a [u8],
     directory: &'a [u8],
     end: usize,
-) -> Result<(&'a str, Part<'a>, &'a [u8]), Flaw> {
+) -> Result<(&'a str, ArchivePart<'a>, &'a [u8]), Flaw> {
     if u32_at(directory, 0)? != CENTRAL {
         return Err(Flaw::Damaged);
     }
@@ -203,7 +203,7 @@ fn entry<'a>(
     }
     let data = LOCAL_BYTES + name_length + usize::from(u16_at(local, 28)?);
     let packed = local.get(data..data + packed as usize).ok_or(Flaw::Damaged)?;
-    Ok((text, Part { packed, method, size: u64::from(size), crc }, after))
+    Ok((text, ArchivePart { packed, method, size: u64::from(size), crc }, after))
 }
 
 fn u16_at(bytes: &[u8], at: usize) -> Result<u16, Flaw> {

@@ -47,7 +47,7 @@ use std::sync::Arc;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::{FileStamp, Meter, geojson, png};
-use archive::{Archive, ArchiveWriter, Part};
+use archive::{Archive, ArchivePart, ArchiveWriter};
 use meshbrush_core::document::{Document, Picture, Settings};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, Quantity, RasterReading};
@@ -295,7 +295,7 @@ fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintL
 fn paint_parts<'b, 'a>(
     archive: &'b Archive<'a>,
     settings: &'b Settings,
-) -> impl Iterator<Item = (LayerId, Quantity, &'b Part<'a>)> {
+) -> impl Iterator<Item = (LayerId, Quantity, &'b ArchivePart<'a>)> {
     let part = |layer: &Layer| Some((layer.id, layer.paints()?, archive.part(&paint_part(layer.id))?));
     settings.layers.iter().filter_map(part)
 }
@@ -357,7 +357,7 @@ pub(super) fn read_paint_changes(
     Ok(())
 }
 
-fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b Part<'a>, PlacedFlaw> {
+fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b ArchivePart<'a>, PlacedFlaw> {
     let missing = || {
         let problem = match name {
             SETTINGS => format!("this is not a Meshbrush project: it has no {name}."),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::super::{Flaw, Meter};
-use super::archive::{Part, Unpacking};
+use super::archive::{ArchivePart, Unpacking};
 use super::tiled::{self, ChangedTiles};
 use meshbrush_core::layers::Quantity;
 use meshbrush_core::raster::{PixelGrid, TiledRaster, ValueRanges};
@@ -26,8 +26,8 @@ pub struct Allowance {
 
 impl Allowance {
     /// Returns the allowance for a file with these parts of paint.
-    pub fn for_parts<'p, 'a: 'p>(parts: impl Iterator<Item = &'p Part<'a>>) -> Self {
-        let packed: u64 = parts.map(Part::packed_bytes).sum();
+    pub fn for_parts<'p, 'a: 'p>(parts: impl Iterator<Item = &'p ArchivePart<'a>>) -> Self {
+        let packed: u64 = parts.map(ArchivePart::packed_bytes).sum();
         let total = ALWAYS_ALLOWED.max(packed.saturating_mul(MOST_RATIO));
         Self { total, left: total }
     }
@@ -36,7 +36,7 @@ impl Allowance {
     ///
     /// # Errors
     /// Fails when it declares more bytes than are left.
-    pub fn unpack<'a>(&mut self, part: &Part<'a>, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
+    pub fn unpack<'a>(&mut self, part: &ArchivePart<'a>, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
         let size = part.declared_bytes();
         self.left = self.left.checked_sub(size).ok_or_else(|| {
             let limit = Bytes(self.total as usize);

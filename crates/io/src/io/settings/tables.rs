@@ -58,7 +58,7 @@ fn is_usual<T: Default + PartialEq>(table: &T) -> bool {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedDomain {
-    /// What the coarse grid covers: x₀, y₀, x₁, y₁.
+    /// The rectangle that the coarse grid covers: x₀, y₀, x₁, y₁.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<[f64; 4]>,
     /// The domain is where this formula is not 0.
@@ -151,10 +151,10 @@ pub struct SavedPaths {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table")]
 pub struct SavedKeepOut {
-    /// What a person calls it.
+    /// The name of the region.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What it covers, in world units.
+    /// The polygons of the region, in world units.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub polygons: Option<Vec<SavedPolygon>>,
     /// A file with the polygons, in their place.

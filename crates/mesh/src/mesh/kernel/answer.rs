@@ -1,4 +1,4 @@
-//! What a refinement rule answers.
+//! The answers of a refinement rule.
 
 use std::convert::Infallible;
 

@@ -48,7 +48,7 @@ use coarse::CoarseIndex;
 pub(in crate::mesh) use bitset::Bitset;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::{append_pieces, make_room};
-pub(in crate::mesh) use search::Search;
+pub(in crate::mesh) use search::RectSearch;
 pub(in crate::mesh) use triangle::Kind;
 pub(in crate::mesh) use walk::WalkEnd;
 

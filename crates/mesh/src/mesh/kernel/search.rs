@@ -11,7 +11,7 @@ use crate::geometry::{LatticePoint, LatticeRect};
 /// which all triangles touch it. So the search starts from one triangle in each coarse triangle that the
 /// rectangle touches, also if the domain has holes.
 #[derive(Clone, Debug)]
-pub(in crate::mesh) struct Search {
+pub(in crate::mesh) struct RectSearch {
     area: LatticeRect,
     /// The cells that the area touches: the first and last column, and the first and last row.
     columns: [u32; 2],
@@ -22,7 +22,7 @@ pub(in crate::mesh) struct Search {
     found: Vec<TriangleId>,
 }
 
-impl Search {
+impl RectSearch {
     pub(in crate::mesh) fn new(mesh: &Mesh, area: LatticeRect) -> Self {
         let steps = mesh.lattice().cell_steps();
         let [columns, rows] = mesh.lattice().cells();

@@ -66,7 +66,7 @@ use glam::DVec2;
 use super::changes::ChangeLog;
 use super::coarsen::Star;
 use super::{
-    Answer, Bitset, Changes, Diameters, Element, LimitError, Limits, Mesh, Progress, RefineError, Search,
+    Answer, Bitset, Changes, Diameters, Element, LimitError, Limits, Mesh, Progress, RectSearch, RefineError,
     Triangle, TriangleId,
 };
 use crate::geometry::{LatticePoint, LatticeRect};
@@ -110,7 +110,7 @@ pub struct Updater {
     /// Rectangles yet to be searched.
     areas: Vec<Area>,
     /// The search under way, and what it is for.
-    search: Option<(Search, Area)>,
+    search: Option<(RectSearch, Area)>,
     /// Triangles found by the search under way; otherwise empty.
     reached: Bitset,
     /// Triangles that may exceed their target.
@@ -271,7 +271,7 @@ impl Updater {
     ) -> Result<(), E> {
         let Some((search, area)) = &mut self.search else {
             if let Some(area) = self.areas.pop() {
-                self.search = Some((Search::new(mesh, area.area.rect), area));
+                self.search = Some((RectSearch::new(mesh, area.area.rect), area));
             }
             return Ok(());
         };

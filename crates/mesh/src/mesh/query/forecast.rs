@@ -20,7 +20,7 @@ use std::convert::Infallible;
 
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
-    Bitset, Limits, Mesh, Progress, RefineError, Search, TreeTriangle, TriangleId, WalkEnd,
+    Bitset, Limits, Mesh, Progress, RectSearch, RefineError, TreeTriangle, TriangleId, WalkEnd,
 };
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
@@ -49,7 +49,7 @@ use crate::mesh::kernel::{
 #[derive(Clone, Debug)]
 pub struct Forecast {
     max_level: u32,
-    search: Search,
+    search: RectSearch,
     searching: bool,
     /// Triangles found by the search.
     reached: Bitset,
@@ -88,7 +88,7 @@ impl Forecast {
     pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
         Self {
             max_level: limits.level_cap(),
-            search: Search::new(mesh, area),
+            search: RectSearch::new(mesh, area),
             searching: true,
             reached: Bitset::default(),
             asked: Vec::new(),
