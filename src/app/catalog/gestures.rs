@@ -12,7 +12,7 @@ pub fn gestures() -> Vec<&'static GestureHelp> {
 }
 
 /// Those that belong to no feature.
-static GESTURES: [GestureHelp; 23] = [
+static GESTURES: [GestureHelp; 24] = [
     GestureHelp::new(GesturePlace::Querying, "Inspect a triangle", "click"),
     GestureHelp::new(GesturePlace::Querying, "Move a pin", "drag it"),
     GestureHelp::new(GesturePlace::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
@@ -34,7 +34,8 @@ static GESTURES: [GestureHelp; 23] = [
     GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "pinch"),
     GestureHelp::new(GesturePlace::Panel, "Change a number", "drag"),
     GestureHelp::new(GesturePlace::Panel, "Change a number ten times finer", "Shift+drag"),
-    GestureHelp::new(GesturePlace::Panel, "Change the number under the pointer", "wheel"),
+    GestureHelp::new(GesturePlace::Panel, "Scroll", "wheel"),
+    GestureHelp::new(GesturePlace::Panel, "Change the number under the pointer", "Ctrl+wheel"),
     GestureHelp::new(GesturePlace::Panel, "Set the default", "double-click"),
     GestureHelp::new(GesturePlace::Panel, "Type a number", "click"),
     GestureHelp::new(GesturePlace::Panel, "Hide or show a level", "click on its row"),

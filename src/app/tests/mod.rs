@@ -281,14 +281,21 @@ pub fn value_of(window: &Window, role: Role, name: &str) -> String {
 }
 
 pub fn wheel(window: &mut Window, at: Pos2, delta: f32) {
+    wheel_with(window, at, delta, Modifiers::NONE);
+}
+
+pub fn wheel_with(window: &mut Window, at: Pos2, delta: f32, modifiers: Modifiers) {
+    window.event(Event::ModifiersChanged(modifiers));
     window.event(Event::PointerMoved(at));
     window.event(Event::MouseWheel {
         unit: egui::MouseWheelUnit::Point,
         delta: vec2(0.0, delta),
-        modifiers: Modifiers::NONE,
+        modifiers,
         phase: egui::TouchPhase::Move,
         source: egui::MouseWheelSource::Wheel,
     });
+    window.run();
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
     window.run();
 }
 

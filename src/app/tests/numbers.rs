@@ -1,13 +1,13 @@
 //! Number and formula fields: typed, dragged, turned by the wheel.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{
     TALL, Window, button_event, entries, fingerprint, key, notice, open_section, press_at, release_at, set,
-    settings, type_into, value_of, wheel, window_with,
+    settings, type_into, value_of, wheel, wheel_with, window_with,
 };
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::LayerKind;
@@ -74,19 +74,66 @@ fn a_number_in_a_field_is_dragged_and_taken_where_the_drag_ends() {
 }
 
 #[test]
-fn the_wheel_turns_a_number_that_the_pointer_was_moved_onto() {
+fn ctrl_and_the_wheel_turn_the_number_under_the_pointer_and_nothing_else() {
     let mut window = quick_window();
     open_section(&mut window, "Mesh");
     let before = settings(&window).spacing;
+    let scale = |window: &Window| window.state().view().camera.unwrap().px_per_world();
+    let zoomed = scale(&window);
     let at = field(&window, "Spacing δ value");
-    window.hover_at(at - vec2(0.0, 2.0));
-    window.run();
-    for _ in 0..3 {
-        wheel(&mut window, at, 40.0);
-    }
+    wheel_with(&mut window, at, 120.0, Modifiers::COMMAND);
     window.run_steps(40);
     assert!((settings(&window).spacing / before - 1.41).abs() < 0.02, "{}", settings(&window).spacing);
     assert_eq!(entries(&window), 1, "one turn is one gesture");
+    assert_eq!(field(&window, "Spacing δ value"), at, "the panel does not scroll");
+    assert_eq!(scale(&window), zoomed, "the view does not zoom");
+}
+
+#[test]
+fn the_wheel_scrolls_the_panel_over_numbers_sliders_and_lists() {
+    let mut window = quick_window();
+    open_section(&mut window, "View");
+    window.set_size(vec2(1440.0, 700.0));
+    window.run();
+    let before = (settings(&window).clone(), window.state().tools().clone());
+    let overlay = window.state().view().overlay;
+    for (role, name) in [
+        (Role::TextInput, "Radius value"),
+        (Role::Slider, "Hardness"),
+        (Role::TextInput, "h_min value"),
+        (Role::ComboBox, "Overlay"),
+    ] {
+        let place = |window: &Window| window.get_by_role_and_label(role, name).rect().center();
+        let beside = pos2(place(&window).x, 400.0);
+        let away = place(&window).y - 400.0;
+        wheel(&mut window, beside, -away);
+        let back = if away > 0.0 { 20.0 } else { -20.0 };
+        // A hand that is never quite still.
+        for jitter in [1.0, 0.0, 1.0] {
+            let at = place(&window) + vec2(jitter, 0.0);
+            wheel(&mut window, at, back);
+            window.run_steps(20);
+            assert_ne!(place(&window).y, at.y, "{name} is scrolled");
+        }
+    }
+    assert_eq!((settings(&window).clone(), window.state().tools().clone()), before);
+    assert_eq!(window.state().view().overlay, overlay);
+}
+
+#[test]
+fn ctrl_and_the_wheel_change_no_list() {
+    let mut window = quick_window();
+    open_section(&mut window, "View");
+    let list = window.get_by_role_and_label(Role::ComboBox, "Overlay");
+    let at = list.rect().center();
+    list.focus();
+    window.run();
+    let overlay = window.state().view().overlay;
+    for delta in [40.0, -40.0] {
+        wheel_with(&mut window, at, delta, Modifiers::COMMAND);
+        wheel(&mut window, at, delta);
+    }
+    assert_eq!(window.state().view().overlay, overlay);
 }
 
 #[test]

@@ -20,7 +20,7 @@ const WHEEL_PX: f32 = 40.0;
 /// A number within a control.
 ///
 /// A click or Tab turns it into a text field; the arrow keys Up and Down change it there. Dragging it
-/// sideways changes it, with Shift ten times finer; so does the wheel after the pointer was moved onto it. A
+/// sideways changes it, with Shift ten times finer; so does the wheel with Ctrl while the pointer is over it. A
 /// double click sets the default, if there is one. If a number could not be taken as it was typed, a sentence
 /// says so; [`Self::show_remark`] shows it below the control.
 pub(super) struct NumberCell<'a> {
@@ -132,27 +132,18 @@ impl NumberCell<'_> {
         response.drag_stopped()
     }
 
-    /// Follows the wheel; returns whether it came to rest.
-    ///
-    /// The wheel turns a number onto which the pointer was moved, not one that scrolling brought under it.
+    /// Follows the wheel while Ctrl is held; returns whether it came to rest. Without Ctrl the wheel scrolls the
+    /// panel, so that scrolling never changes a number.
     fn turn(&self, ui: &Ui, response: &Response, moving: &mut Option<Moving>) -> bool {
-        let aimed = self.id.with("aimed");
-        let moved_here = ui.input(|input| input.pointer.delta() != egui::Vec2::ZERO);
-        let was_aimed = ui.data(|data| data.get_temp::<bool>(aimed)).unwrap_or(false);
-        let is_aimed = response.hovered() && (was_aimed || moved_here);
-        ui.data_mut(|data| data.insert_temp(aimed, is_aimed));
         let now = ui.input(|input| input.time);
-        if is_aimed {
-            let steps = ui.input(wheel_steps);
-            ui.input_mut(|input| input.smooth_scroll_delta = egui::Vec2::ZERO);
-            if steps != 0.0 {
-                let from = moving.unwrap_or(Moving { from: self.input.value, px: 0.0, at: now });
-                *moving = Some(Moving { px: from.px + steps * PX_PER_STEP, at: now, ..from });
-                self.keep_remark(ui, None, 0.0);
-            }
+        let steps = if response.hovered() { ui.input(wheel_steps) } else { 0.0 };
+        if steps != 0.0 {
+            let from = moving.unwrap_or(Moving { from: self.input.value, px: 0.0, at: now });
+            *moving = Some(Moving { px: from.px + steps * PX_PER_STEP, at: now, ..from });
+            self.keep_remark(ui, None, 0.0);
         }
         let turned = moving.is_some_and(|moving| moving.at.is_finite());
-        let at_rest = moving.is_some_and(|moving| !is_aimed || now - moving.at > WHEEL_REST);
+        let at_rest = moving.is_some_and(|moving| !response.hovered() || now - moving.at > WHEEL_REST);
         if turned && !at_rest {
             ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(WHEEL_REST));
         }
@@ -188,7 +179,7 @@ impl NumberCell<'_> {
         if fresh {
             self.keep_remark(ui, None, 0.0);
         }
-        let stepped = self.step_by_keys(ui, &mut text);
+        let stepped = self.step(ui, &mut text);
         self.paint_edited_ground(ui, typed::number(&text, self.input.unit).is_ok());
         let response = self.text_edit(ui, &mut text, fresh || stepped);
         if response.changed() {
@@ -204,11 +195,14 @@ impl NumberCell<'_> {
         if response.lost_focus() { self.finish(ui, true) } else { None }
     }
 
-    /// Returns the keys Up and Down; returns whether they changed the text.
-    fn step_by_keys(&self, ui: &Ui, text: &mut String) -> bool {
+    /// Changes the typed number by the keys Up and Down, and by the wheel with Ctrl over it. Returns whether
+    /// the text changed.
+    fn step(&self, ui: &Ui, text: &mut String) -> bool {
+        let is_under_pointer = ui.rect_contains_pointer(self.ground());
         let steps = ui.input_mut(|input| {
+            let turned = if is_under_pointer { wheel_steps(input) } else { 0.0 };
             let mut count = |key| input.count_and_consume_key(Modifiers::NONE, key) as f64;
-            count(Key::ArrowUp) - count(Key::ArrowDown)
+            turned + count(Key::ArrowUp) - count(Key::ArrowDown)
         });
         let Some(typed) = typed::number(text, self.input.unit).ok().filter(|_| steps != 0.0) else {
             return false;
@@ -275,10 +269,10 @@ impl NumberCell<'_> {
     }
 }
 
-/// Returns the steps of the wheel in this frame, up positive. With Ctrl the wheel zooms.
+/// Returns the steps of the wheel with Ctrl held in this frame, up positive.
 fn wheel_steps(input: &egui::InputState) -> f64 {
     let steps = input.events.iter().map(|event| match event {
-        egui::Event::MouseWheel { unit, delta, modifiers, .. } if !modifiers.command => match unit {
+        egui::Event::MouseWheel { unit, delta, modifiers, .. } if modifiers.command => match unit {
             egui::MouseWheelUnit::Point => delta.y / WHEEL_PX,
             egui::MouseWheelUnit::Line => delta.y,
             egui::MouseWheelUnit::Page => 10.0 * delta.y,
