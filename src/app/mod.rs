@@ -144,6 +144,7 @@ impl App {
         document: Document,
     ) -> Result<Self, String> {
         theme::install(ctx);
+        ctx.add_plugin(widgets::VanishedButtons::default());
         let mut view = View::default();
         view.set_theme(view.theme, ctx);
         let session = Session::new(document).map_err(|error| error.to_string())?;

@@ -12,7 +12,7 @@ pub fn gestures() -> Vec<&'static GestureHelp> {
 }
 
 /// Those that belong to no feature.
-static GESTURES: [GestureHelp; 24] = [
+static GESTURES: [GestureHelp; 25] = [
     GestureHelp::new(GesturePlace::Querying, "Inspect a triangle", "click"),
     GestureHelp::new(GesturePlace::Querying, "Move a pin", "drag it"),
     GestureHelp::new(GesturePlace::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
@@ -36,8 +36,9 @@ static GESTURES: [GestureHelp; 24] = [
     GestureHelp::new(GesturePlace::Panel, "Change a number ten times finer", "Shift+drag"),
     GestureHelp::new(GesturePlace::Panel, "Scroll", "wheel"),
     GestureHelp::new(GesturePlace::Panel, "Change the number under the pointer", "Ctrl+wheel"),
-    GestureHelp::new(GesturePlace::Panel, "Set the default", "double-click"),
     GestureHelp::new(GesturePlace::Panel, "Type a number", "click"),
+    GestureHelp::new(GesturePlace::Panel, "Type a number beside a slider or a curve", "double-click"),
+    GestureHelp::new(GesturePlace::Panel, "Set the default, copy or paste a number", "right-click"),
     GestureHelp::new(GesturePlace::Panel, "Hide or show a level", "click on its row"),
     GestureHelp::new(GesturePlace::Panel, "Show one level alone", "Alt+click on its row"),
     GestureHelp::new(GesturePlace::Panel, "Step a number while it is typed", "Up"),

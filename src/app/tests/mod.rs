@@ -25,6 +25,7 @@ mod project;
 mod recipes;
 mod settings;
 mod software_window;
+mod steady;
 mod threads;
 pub mod tips;
 mod view;

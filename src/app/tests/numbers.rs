@@ -1,7 +1,7 @@
 //! Number and formula fields: typed, dragged, turned by the wheel.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
@@ -137,17 +137,107 @@ fn ctrl_and_the_wheel_change_no_list() {
 }
 
 #[test]
-fn a_double_click_sets_the_default() {
+fn a_double_click_edits_the_number_with_all_of_it_selected() {
     let mut window = quick_window();
     open_section(&mut window, "Mesh");
-    set(&mut window, Setting::Spacing(0.1));
+    set(&mut window, Setting::Spacing(0.125));
+    let track = window.get_by_role_and_label(Role::Slider, "Hardness").rect().center();
+    for (name, place, typed) in
+        [("Spacing δ value", field(&window, "Spacing δ value"), "0.2"), ("Hardness value", track, "0.7")]
+    {
+        double_click(&mut window, place);
+        let number = window.get_by_role_and_label(Role::TextInput, name);
+        assert!(number.is_focused(), "{name}");
+        number.type_text(typed);
+        window.run();
+        key(&mut window, Modifiers::NONE, Key::Enter);
+    }
+    assert_eq!(settings(&window).spacing, 0.2, "no digit of the former number is left");
+    assert_eq!(window.state().tools().hardness, 0.7);
+    let handle = window.get_by_role_and_label(Role::Slider, "h_min").rect().center();
+    double_click(&mut window, handle);
+    assert!(window.get_by_role_and_label(Role::TextInput, "h_min value").is_focused());
+    assert_eq!(entries(&window), 2, "nothing was reset");
+}
+
+/// Clicks with the secondary button, and returns the entry of the menu that begins with `entry`.
+fn open_number_menu(window: &mut Window, at: Pos2, entry: &str) -> String {
+    press_at(window, at, PointerButton::Secondary, Modifiers::NONE);
+    release_at(window, at, PointerButton::Secondary);
+    let mut entries = window.query_all_by_role(Role::Button).filter_map(|node| node.accesskit_node().label());
+    entries.find(|label| label.starts_with(entry)).expect("an entry of the menu")
+}
+
+fn choose_in_number_menu(window: &mut Window, at: Pos2, entry: &str) {
+    let label = open_number_menu(window, at, entry);
+    window.get_by_role_and_label(Role::Button, &label).click();
+    window.run();
+}
+
+#[test]
+fn the_menu_of_a_number_shows_its_default_and_sets_it() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    let usual = Settings::default().spacing;
+    let places = [
+        field(&window, "Spacing δ value"),
+        window.get_by_role_and_label(Role::Slider, "Spacing δ").rect().center(),
+    ];
+    for at in places {
+        set(&mut window, Setting::Spacing(0.1));
+        let entry = open_number_menu(&mut window, at, "Reset to");
+        assert_eq!(entry, format!("Reset to {}", crate::app::widgets::format::significant(usual, 3)));
+        assert_eq!(settings(&window).spacing, 0.1, "a secondary click changes nothing");
+        window.get_by_role_and_label(Role::Button, &entry).click();
+        window.run();
+        assert_eq!(settings(&window).spacing, usual);
+    }
+    let handle = |window: &Window, name| window.get_by_role_and_label(Role::Slider, name).rect().center();
+    let shape = handle(&window, "Curve shape");
+    type_into(&mut window, "h_min value", "0.02");
+    assert_eq!(settings(&window).transfer.h_min, 0.02);
+    let h_min = handle(&window, "h_min");
+    choose_in_number_menu(&mut window, h_min, "Reset to");
+    assert_eq!(settings(&window).transfer.h_min, Settings::default().transfer.h_min);
+    assert!(open_number_menu(&mut window, shape, "Reset to").starts_with("Reset to"));
+}
+
+#[test]
+fn the_menu_of_a_number_copies_and_pastes() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
     let at = field(&window, "Spacing δ value");
-    double_click(&mut window, at);
-    assert_eq!(settings(&window).spacing, Settings::default().spacing);
-    set(&mut window, Setting::Spacing(0.1));
-    let track = window.get_by_role_and_label(Role::Slider, "Spacing δ").rect().center();
-    double_click(&mut window, track);
-    assert_eq!(settings(&window).spacing, Settings::default().spacing);
+    press_at(&mut window, at, PointerButton::Secondary, Modifiers::NONE);
+    release_at(&mut window, at, PointerButton::Secondary);
+    window.get_by_role_and_label(Role::Button, "Copy").click();
+    let exact = settings(&window).spacing.to_string();
+    let copies = |window: &Window| {
+        let commands = &window.output().platform_output.commands;
+        commands.iter().any(|command| *command == egui::OutputCommand::CopyText(exact.clone()))
+    };
+    let copied = (0..10).any(|_| {
+        window.step();
+        copies(&window)
+    });
+    assert!(copied);
+    window.run();
+    for (text, spacing, alert) in [("0.25", 0.25, ""), ("wide", 0.25, "“wide” is not a number")] {
+        choose_in_number_menu(&mut window, at, "Paste");
+        window.event(Event::Paste(text.into()));
+        window.run();
+        assert_eq!(settings(&window).spacing, spacing);
+        assert!(alerts(&window).contains(alert), "{}", alerts(&window));
+    }
+}
+
+#[test]
+fn a_number_says_how_it_is_changed() {
+    let window = quick_window();
+    let hardness = window.get_by_role_and_label(Role::TextInput, "Hardness value");
+    let said = hardness.accesskit_node().description().unwrap_or_default();
+    for word in ["Share of the radius", "drag", "Ctrl", "Right-click", "default"] {
+        assert!(said.contains(word), "{said}");
+    }
 }
 
 #[test]

@@ -12,10 +12,12 @@ pub mod format;
 mod paint;
 pub mod tips;
 pub mod typed;
+mod vanished;
 
 pub use controls::*;
 pub use display::*;
 pub use floating::*;
+pub use vanished::VanishedButtons;
 
 /// Returns whether a gesture that may have changed a value is complete: the pointer was released, or a value
 /// was typed or set by key.

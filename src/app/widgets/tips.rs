@@ -35,7 +35,10 @@ static SENTENCES: [(&str, &str); 190] = [
     ),
     ("h_max", "Target diameter at risk 0, in the unit of the document."),
     ("h_min", "Target diameter at risk 1, in the unit of the document."),
-    ("Curve shape", "Bends the curve between h_max and h_min: its exponent, without a unit."),
+    (
+        "Curve shape",
+        "Bends the curve between h_max and h_min: its exponent, without a unit. Right-click for its default.",
+    ),
     ("Layer", "Selects the layer. Drag it to another place; a double click or F2 renames it."),
     ("Layer/visible", "Shows or hides the layer; a hidden layer asks for nothing. Shift+H switches."),
     ("Layer/locked", "Locks or unlocks the layer; a locked layer cannot be painted on or changed."),
@@ -346,9 +349,9 @@ pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOn
     response
 }
 
-/// Returns the place of the tooltip of a control at `rect`, if its panel is at the left or right edge of the
+/// Returns the place of the tooltip or a message of a control at `rect`, if its panel is at the left or right edge of the
 /// window.
-fn place(panel: Rect, window: Rect, rect: Rect) -> Option<(Rect, RectAlign)> {
+pub(super) fn place(panel: Rect, window: Rect, rect: Rect) -> Option<(Rect, RectAlign)> {
     let at_right = panel.right() > window.right() - EDGE && panel.left() > window.center().x;
     let at_left = panel.left() < window.left() + EDGE && panel.right() < window.center().x;
     let row = |x: f32| Rect::from_min_max(pos2(x, rect.top()), pos2(x, rect.bottom()));

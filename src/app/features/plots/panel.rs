@@ -68,7 +68,7 @@ pub fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
     if plots.is_measuring() {
         let level = plots.experiment().meshes.len() + 1;
         value_row(ui, "Measuring", &format!("level {level} of {}", plots.last_level));
-        if ui.add(ActionButton::new("Cancel measuring")).clicked() {
+        if ui.add(ActionButton::new("Cancel measuring").vanishing()).clicked() {
             commands.push(Command::Plots(PlotsCommand::CancelMeasuring));
         }
         return;

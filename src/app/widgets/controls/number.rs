@@ -39,7 +39,7 @@ impl<'a> NumberRow<'a> {
         self
     }
 
-    /// Sets the range: a number outside `range` becomes its nearer end, and a sentence below the row says so.
+    /// Sets the range: a number outside `range` becomes its nearer end, and a sentence beside the panel says so.
     pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
         self
@@ -57,7 +57,7 @@ impl<'a> NumberRow<'a> {
         self
     }
 
-    /// Sets the value that a double click on the number restores.
+    /// Sets the value that the menu of the number restores.
     pub fn default(mut self, default: f64) -> Self {
         self.default = Some(default);
         self

@@ -1,14 +1,15 @@
 //! A number that is typed, dragged or turned by the wheel.
 
 use eframe::egui::{
-    self, Align, Align2, Color32, CursorIcon, Id, Key, Modifiers, Rect, Response, Role, Sense, Stroke,
-    StrokeKind, Ui, WidgetInfo, vec2,
+    self, Align, Align2, Color32, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, Role, Sense,
+    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 use egui::text::CCursorRange;
 
+use super::message::message;
 use super::number_input::{Entered, NumberInput, PX_PER_STEP};
+use super::number_menu::{WAYS, number_menu, pasted};
 use super::paint;
-use super::text_row::message;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{tips, typed};
 
@@ -19,10 +20,11 @@ const WHEEL_PX: f32 = 40.0;
 
 /// A number within a control.
 ///
-/// A click or Tab turns it into a text field; the arrow keys Up and Down change it there. Dragging it
-/// sideways changes it, with Shift ten times finer; so does the wheel with Ctrl while the pointer is over it. A
-/// double click sets the default, if there is one. If a number could not be taken as it was typed, a sentence
-/// says so; [`Self::show_remark`] shows it below the control.
+/// A click, a double click or Tab turns it into a text field with the whole number selected; the arrow keys Up
+/// and Down change it there. Dragging it sideways changes it, with Shift ten times finer; so does the wheel with
+/// Ctrl while the pointer is over it. A secondary click opens a menu with the default, Copy and Paste. If a
+/// number could not be taken as it was typed, a sentence says so; [`Self::show_remark`] shows it
+/// beside the panel.
 pub(super) struct NumberCell<'a> {
     /// Keeps the focus while the cell moves.
     pub id: Id,
@@ -68,9 +70,27 @@ impl NumberCell<'_> {
         if ui.is_enabled() && self.is_edited(ui) {
             return (around, self.edit(ui));
         }
+        self.take_up_editing(ui);
         let typed = self.finish(ui, false);
+        let pasted = pasted(ui, self.id).and_then(|text| self.read(ui, &text));
         let (response, moved) = self.rest(ui);
-        (around | response, typed.or(moved))
+        (around | response, typed.or(pasted).or(moved))
+    }
+
+    /// Lets the number of the cell `id` be typed from the next frame on: in this one, a click elsewhere would take
+    /// the focus away again.
+    pub fn edit_soon(ui: &Ui, id: Id) {
+        ui.data_mut(|data| data.insert_temp(id.with("edit soon"), ()));
+        ui.ctx().request_repaint();
+    }
+
+    fn take_up_editing(&self, ui: &Ui) {
+        let id = self.id.with("edit soon");
+        if ui.input(|input| !input.pointer.any_click())
+            && ui.data_mut(|data| data.remove_temp::<()>(id)).is_some()
+        {
+            ui.memory_mut(|memory| memory.request_focus(self.id));
+        }
     }
 
     /// Returns whether a number is being typed.
@@ -79,11 +99,11 @@ impl NumberCell<'_> {
     }
 
     /// Shows the sentence about what was typed last, as long as the number is still `value`.
-    pub fn show_remark(ui: &mut Ui, id: Id, place: Rect, value: f64) {
+    pub fn show_remark(ui: &Ui, id: Id, place: Rect, value: f64) {
         let id = id.with("remark");
         let Some(remark) = ui.data(|data| data.get_temp::<Remark>(id)) else { return };
         if remark.value == value {
-            message(ui, place, &remark.text);
+            message(ui, id, place, &remark.text);
         } else {
             ui.data_mut(|data| data.remove::<Remark>(id));
         }
@@ -110,13 +130,32 @@ impl NumberCell<'_> {
         let done = self.drag(ui, &response, &mut moving) | self.turn(ui, &response, &mut moving);
         let shown = moving.map_or(self.input.value, |moving| self.input.moved(moving.from, moving.px));
         self.paint_rest(ui, &response, shown);
-        let response = tips::explain(ui, response, self.help);
+        let reset = number_menu(ui, &response, &self.input, Some(self.id));
+        if reset.is_some() {
+            self.keep_remark(ui, None, 0.0);
+        }
+        let response = self.explain(ui, response);
         let taken = moving.filter(|_| done || (self.live && response.dragged())).map(|_| shown);
         match moving.filter(|_| !done) {
             Some(moving) => drop(ui.data_mut(|data| data.insert_temp(id, moving))),
             None => ui.data_mut(|data| data.remove::<Moving>(id)),
         }
-        (response, taken.filter(|value| *value != self.input.value))
+        (response, taken.or(reset).filter(|value| *value != self.input.value))
+    }
+
+    /// Adds the meaning of the number to its tooltip, and how it is changed. A remark is where the tooltip would
+    /// be.
+    fn explain(&self, ui: &Ui, response: Response) -> Response {
+        if ui.data(|data| data.get_temp::<Remark>(self.id.with("remark"))).is_some() {
+            return response;
+        }
+        let text = [self.help, WAYS].join(if self.help.is_empty() { "" } else { " " });
+        tips::explain_with(ui, response, &text, |ui| {
+            if !self.help.is_empty() {
+                ui.label(self.help);
+            }
+            ui.label(egui::RichText::new(WAYS).font(font::caption()).color(tokens(ui).label));
+        })
     }
 
     /// Follows a drag; returns whether it ended.
@@ -125,7 +164,7 @@ impl NumberCell<'_> {
             *moving = Some(Moving { from: self.input.value, px: 0.0, at: f64::INFINITY });
             self.keep_remark(ui, None, 0.0);
         }
-        if let Some(moving) = moving.as_mut().filter(|_| response.dragged()) {
+        if let Some(moving) = moving.as_mut().filter(|_| response.dragged_by(PointerButton::Primary)) {
             let fine = if ui.input(|input| input.modifiers.shift) { 0.1 } else { 1.0 };
             moving.px += fine * f64::from(response.drag_delta().x);
         }
@@ -185,14 +224,13 @@ impl NumberCell<'_> {
         if response.changed() {
             self.keep_remark(ui, None, 0.0);
         }
-        let untouched = text == self.input.exact();
         ui.data_mut(|data| data.insert_temp(self.id, text));
-        if response.double_clicked() && untouched && self.input.default.is_some() {
-            ui.data_mut(|data| data.remove::<String>(self.id));
+        if response.secondary_clicked() {
             response.surrender_focus();
-            return self.input.default.filter(|default| *default != self.input.value);
         }
-        if response.lost_focus() { self.finish(ui, true) } else { None }
+        // Opens with this click, and stays open while the number is no longer typed.
+        let reset = number_menu(ui, &response, &self.input, Some(self.id));
+        if response.lost_focus() { self.finish(ui, true) } else { reset }
     }
 
     /// Changes the typed number by the keys Up and Down, and by the wheel with Ctrl over it. Returns whether
@@ -222,7 +260,9 @@ impl NumberCell<'_> {
             .desired_width(self.rect.width())
             .min_size(self.rect.size());
         let mut output = child.name_inputs(self.name, |ui| edit.show(ui));
-        if select_all {
+        // The second click of a double click would select a part of the number.
+        let untouched = *text == self.input.exact();
+        if select_all || (untouched && output.response.response.double_clicked()) {
             output.state.cursor.set_char_range(Some(CCursorRange::select_all(&output.galley)));
             output.state.store(ui.ctx(), self.id);
         }
@@ -245,15 +285,22 @@ impl NumberCell<'_> {
             return None;
         }
         match self.input.read(&text) {
-            Ok(Entered { value, remark }) => {
-                self.keep_remark(ui, remark, value);
-                Some(value).filter(|value| *value != self.input.value)
-            }
             Err(problem) if in_field && pressed(Key::Enter) => {
                 self.keep_remark(ui, Some(problem), self.input.value);
                 ui.data_mut(|data| data.insert_temp(self.id, text));
                 ui.memory_mut(|memory| memory.request_focus(self.id));
                 None
+            }
+            _ => self.read(ui, &text),
+        }
+    }
+
+    /// Reads a text as the number. Where it cannot be taken as it is, a sentence says so.
+    fn read(&self, ui: &Ui, text: &str) -> Option<f64> {
+        match self.input.read(text) {
+            Ok(Entered { value, remark }) => {
+                self.keep_remark(ui, remark, value);
+                Some(value).filter(|value| *value != self.input.value)
             }
             Err(problem) => {
                 let kept = (self.input.show)(self.input.value);

@@ -24,7 +24,7 @@ pub(super) struct NumberInput<'a> {
     pub step: Option<f64>,
     /// Whether equal movements are equal factors.
     pub logarithmic: bool,
-    /// The value that a double click sets, if there is one.
+    /// The value that the menu of the number offers, if there is one.
     pub default: Option<f64>,
     /// How a value reads, with its unit.
     pub show: &'a dyn Fn(f64) -> String,

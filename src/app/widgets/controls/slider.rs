@@ -7,6 +7,7 @@ use egui::accesskit::{Action, ActionData};
 
 use super::number_cell::NumberCell;
 use super::number_input::NumberInput;
+use super::number_menu::number_menu;
 use super::{format, paint};
 use crate::app::theme::tokens;
 use crate::app::widgets::tips;
@@ -112,7 +113,7 @@ impl<'a> SliderRow<'a> {
         self
     }
 
-    /// Sets the value that a double click on track or number restores.
+    /// Sets the value that the menu of the track and of the number restores.
     pub fn default(mut self, default: f64) -> Self {
         self.default = Some(default);
         self
@@ -186,9 +187,11 @@ impl<'a> SliderRow<'a> {
             *self.value = self.snapped(self.scale().value(share));
         }
         self.keys(ui, &response);
-        if let Some(default) = self.default.filter(|_| response.double_clicked()) {
-            *self.value = default;
+        if response.double_clicked() {
+            NumberCell::edit_soon(ui, number_id(id));
         }
+        let reset = self.with_input(|input| number_menu(ui, &response, &input, Some(number_id(id))));
+        *self.value = reset.unwrap_or(*self.value);
         self.paint_track(ui, &response, rect);
         response
     }
@@ -196,7 +199,8 @@ impl<'a> SliderRow<'a> {
     /// Returns the position that the pointer gives the thumb: at its own place, or with Shift held a tenth of
     /// its movement away.
     fn pointed_share(&self, ui: &Ui, response: &Response, range: &RangeInclusive<f32>) -> Option<f64> {
-        if !response.is_pointer_button_down_on() {
+        let held = ui.input(|input| input.pointer.primary_down());
+        if !response.is_pointer_button_down_on() || !held {
             return None;
         }
         let width = f64::from((range.end() - range.start()).max(1.0));
@@ -248,26 +252,26 @@ impl<'a> SliderRow<'a> {
     }
 
     fn number(&self, ui: &mut Ui, id: Id, rect: Rect) -> (Response, Option<f64>) {
-        let cell = NumberCell {
-            id: number_id(id),
-            rect,
-            name: &format!("{} value", self.label),
-            help: self.help,
-            input: NumberInput {
-                name: self.label,
-                value: *self.value,
-                range: self.typed_range.clone().unwrap_or_else(|| self.range.clone()),
-                unit: self.unit,
-                step: self.step,
-                logarithmic: self.logarithmic,
-                default: self.default,
-                show: &|value| self.shown(value),
-            },
-            align: Align::Max,
-            boxed: false,
-            live: true,
-        };
-        cell.show(ui)
+        let name = format!("{} value", self.label);
+        self.with_input(|input| {
+            let (help, align) = (self.help, Align::Max);
+            let id = number_id(id);
+            NumberCell { id, rect, name: &name, help, input, align, boxed: false, live: true }.show(ui)
+        })
+    }
+
+    /// Calls `use_input` with the rules of the number.
+    fn with_input<R>(&self, use_input: impl FnOnce(NumberInput<'_>) -> R) -> R {
+        use_input(NumberInput {
+            name: self.label,
+            value: *self.value,
+            range: self.typed_range.clone().unwrap_or_else(|| self.range.clone()),
+            unit: self.unit,
+            step: self.step,
+            logarithmic: self.logarithmic,
+            default: self.default,
+            show: &|value| self.shown(value),
+        })
     }
 
     /// Reports value and range to tests and screen readers.

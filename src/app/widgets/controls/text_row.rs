@@ -6,6 +6,7 @@ use eframe::egui::{
 };
 use egui::text::CCursor;
 
+use super::message::message;
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
@@ -19,7 +20,7 @@ pub struct TextError<'a> {
     pub at: Option<usize>,
 }
 
-/// A name and a text field; below it the error, with a caret at its place.
+/// A name and a text field. An error is shown beside the panel or above the field, with a caret at its place.
 ///
 /// `changed` on every edit, `lost_focus` when it is complete (Enter, Tab, a click elsewhere).
 #[must_use = "call `show`"]
@@ -75,7 +76,7 @@ impl<'a> TextRow<'a> {
         self
     }
 
-    /// Shows the row, and the error below it.
+    /// Shows the row, and the error.
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
         let place = if self.formula {
@@ -91,7 +92,7 @@ impl<'a> TextRow<'a> {
         if let Some(error) = self.error {
             let x = error_at.unwrap_or(place.left() + 8.0);
             paint_caret(ui, pos2(x, place.bottom()), error_at.is_some());
-            message(ui, place, error.message);
+            message(ui, ui.make_persistent_id(("message", self.label)), place, error.message);
         }
         response
     }
@@ -123,7 +124,9 @@ impl<'a> TextRow<'a> {
             x.clamp(inner.left(), inner.right())
         });
         let help = if self.help.is_empty() { tips::sentence(label) } else { self.help };
-        (tips::explain(ui, output.response.response, help), x)
+        let response = output.response.response;
+        // The error is where the tooltip would be.
+        (if self.error.is_some() { response } else { tips::explain(ui, response, help) }, x)
     }
 
     fn paint_ground(&self, ui: &Ui, rect: Rect, focused: bool) {
@@ -166,17 +169,6 @@ fn paint_caret(ui: &Ui, tip: Pos2, pointed: bool) {
         let corners = vec![tip, tip + vec2(4.0, 6.0), tip + vec2(-4.0, 6.0)];
         ui.painter().add(Shape::convex_polygon(corners, tokens(ui).danger, Stroke::NONE));
     }
-}
-
-/// A sentence below a field that says what is wrong with its contents.
-pub(super) fn message(ui: &mut Ui, field: Rect, text: &str) {
-    let color = tokens(ui).danger;
-    let galley = ui.painter().layout(text.to_owned(), font::caption(), color, field.width() - 8.0);
-    let height = (galley.size().y + 6.0).max(metrics::ROW - 4.0);
-    let (id, rect) = ui.allocate_space(vec2(ui.available_width(), height));
-    let response = ui.interact(rect, id, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Alert, true, text));
-    ui.painter().galley(pos2(field.left() + 8.0, rect.top() + 4.0), galley, color);
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use eframe::egui::{self, Color32, Rect, Response, Role, Sense, Ui, Vec2, WidgetI
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
+use crate::app::widgets::vanished::guard;
 
 /// A square button with an icon, a name for tests and screen readers, and a tooltip with its key.
 #[must_use = "call `show`"]
@@ -96,17 +97,25 @@ pub struct ActionButton<'a> {
     text: &'a str,
     name: &'a str,
     kind: ButtonKind,
+    vanishes: bool,
 }
 
 impl<'a> ActionButton<'a> {
     /// Creates a quiet button.
     pub fn new(text: &'a str) -> Self {
-        Self { text, name: text, kind: ButtonKind::Quiet }
+        Self { text, name: text, kind: ButtonKind::Quiet, vanishes: false }
     }
 
     /// Returns a longer name, for tests and screen readers, where the word alone is ambiguous.
     pub fn named(mut self, name: &'a str) -> Self {
         self.name = name;
+        self
+    }
+
+    /// Says that the button disappears by itself, for example when work ends. Then its place takes no click for
+    /// half a second.
+    pub fn vanishing(mut self) -> Self {
+        self.vanishes = true;
         self
     }
 
@@ -125,6 +134,9 @@ impl egui::Widget for ActionButton<'_> {
         let size = vec2(text.size().x.ceil() + 24.0, metrics::ROW + 4.0);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), self.name));
+        if self.vanishes {
+            guard(&response);
+        }
         let (rest, lit) = match self.kind {
             ButtonKind::Main => (t.selected, t.selected.lerp_to_gamma(t.value, 0.12)),
             ButtonKind::Danger => (t.danger_fill, t.danger_fill.lerp_to_gamma(Color32::BLACK, 0.15)),

@@ -10,6 +10,7 @@ use egui::accesskit::Action;
 use super::grab;
 use super::number_cell::NumberCell;
 use super::number_input::NumberInput;
+use super::number_menu::number_menu;
 use super::slider::{key_steps, requested_value};
 use super::transfer_plot::{Axis, Plot, area_under};
 use super::{format, paint};
@@ -89,7 +90,7 @@ impl<'a> TransferCurve<'a> {
         self
     }
 
-    /// Sets the values that a double click on a handle or its number restores.
+    /// Sets the values that the menus of the handles and their numbers restore.
     pub fn defaults(mut self, defaults: CurveValues) -> Self {
         self.defaults = Some(defaults);
         self
@@ -140,6 +141,7 @@ impl<'a> TransferCurve<'a> {
 
     /// Lets pointer and keys move a handle.
     fn handle(&mut self, ui: &Ui, id: Id, plot: &Plot, handle: Handle) -> Response {
+        let number = (handle != Handle::Shape).then(|| number_id(id, handle));
         let id = id.with(handle.name());
         let position = self.position(plot, handle);
         let place = Rect::from_center_size(position, GRAB);
@@ -156,7 +158,11 @@ impl<'a> TransferCurve<'a> {
         if let Some(value) = requested_value(ui, response.id) {
             self.assign(handle, value);
         }
-        if let Some(default) = self.default_of(handle).filter(|_| response.double_clicked()) {
+        if let Some(number) = number.filter(|_| response.double_clicked()) {
+            NumberCell::edit_soon(ui, number);
+        }
+        let reset = self.with_input(handle, |input| number_menu(ui, &response, &input, number));
+        if let Some(default) = reset {
             self.enter(handle, default);
         }
         self.declare(ui, handle, &response);
@@ -226,6 +232,21 @@ impl<'a> TransferCurve<'a> {
             Handle::Max => defaults.h_max,
             Handle::Shape => defaults.shape,
             Handle::Min => defaults.h_min,
+        })
+    }
+
+    /// Calls `use_input` with the rules of what a handle changes.
+    fn with_input<R>(&self, handle: Handle, use_input: impl FnOnce(NumberInput<'_>) -> R) -> R {
+        let unit = if handle == Handle::Shape { LengthUnit::None } else { self.unit };
+        use_input(NumberInput {
+            name: handle.name(),
+            value: self.number_of(handle),
+            range: self.typed_range(handle),
+            unit: unit.symbol(),
+            step: None,
+            logarithmic: true,
+            default: self.default_of(handle),
+            show: &|value| format::length(value, unit),
         })
     }
 
@@ -359,26 +380,11 @@ impl<'a> TransferCurve<'a> {
         let name = paint::line(ui, handle.name(), font::small_value(), tokens(ui).label);
         let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
         paint::at_left(ui, rect, name);
-        let cell = NumberCell {
-            id: number_id(id, handle),
-            rect: cell,
-            name: &format!("{} value", handle.name()),
-            help: tips::sentence(handle.name()),
-            input: NumberInput {
-                name: handle.name(),
-                value: self.number_of(handle),
-                range: self.typed_range(handle),
-                unit: self.unit.symbol(),
-                step: None,
-                logarithmic: true,
-                default: self.default_of(handle),
-                show: &|value| format::length(value, self.unit),
-            },
-            align: Align::Max,
-            boxed: true,
-            live: true,
-        };
-        let (response, entered) = cell.show(ui);
+        let (name, help) = (format!("{} value", handle.name()), tips::sentence(handle.name()));
+        let (response, entered) = self.with_input(handle, |input| {
+            let (id, align) = (number_id(id, handle), Align::Max);
+            NumberCell { id, rect: cell, name: &name, help, input, align, boxed: true, live: true }.show(ui)
+        });
         if let Some(entered) = entered {
             self.enter(handle, entered);
         }
@@ -386,7 +392,7 @@ impl<'a> TransferCurve<'a> {
     }
 }
 
-/// Returns the cell of a handle's number.
+/// Returns the cell of a handle's number, from the id of the editor.
 fn number_id(id: Id, handle: Handle) -> Id {
     id.with((handle.name(), "number"))
 }

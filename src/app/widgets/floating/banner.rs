@@ -99,7 +99,7 @@ impl<'a> Banner<'a> {
             return BannerAnswer::Dismissed;
         }
         match self.action {
-            Some(action) if child.add(ActionButton::new(action)).clicked() => BannerAnswer::Acted,
+            Some(action) if child.add(ActionButton::new(action).vanishing()).clicked() => BannerAnswer::Acted,
             _ => BannerAnswer::Open,
         }
     }

@@ -47,7 +47,7 @@ fn row(ui: &mut Ui, what: &str, done: &str, share: Option<f64>, cancel: &str) ->
     let mut child = ui.new_child(
         egui::UiBuilder::new().max_rect(button).layout(egui::Layout::right_to_left(egui::Align::Center)),
     );
-    child.add(ActionButton::new("Cancel").named(cancel)).clicked()
+    child.add(ActionButton::new("Cancel").named(cancel).vanishing()).clicked()
 }
 
 /// A thin bar along the lower side.

@@ -85,7 +85,7 @@ fn alternatives(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathComm
     }
     if finder.is_running() {
         value_row(ui, "Searching", &format!("{} of {MOST_ALTERNATIVES}", finder.paths().len()));
-        if ui.add(ActionButton::new("Cancel search")).clicked() {
+        if ui.add(ActionButton::new("Cancel search").vanishing()).clicked() {
             commands.push(PathCommand::Alternatives(AlternativesCommand::Cancel));
         }
     } else if finder.paths().is_empty() && is_current {
@@ -133,7 +133,7 @@ fn front(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut 
     }
     if let Some(done) = finder.progress() {
         value_row(ui, "Finding paths", &format!("{done} of {FRONT_PATHS}"));
-        if ui.add(ActionButton::new("Cancel front")).clicked() {
+        if ui.add(ActionButton::new("Cancel front").vanishing()).clicked() {
             send(FrontCommand::Cancel);
         }
     }
