@@ -19,7 +19,7 @@ const MOVES: usize = 60 * SECONDS;
 /// Fine below a wave, coarse above it; the smallest diameter decides the size of the mesh.
 fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
-    settings.transfer.h_min = h_min;
+    (settings.transfer.h_min, settings.transfer.h_risk) = (h_min, h_min);
     settings.layers = Layer::usual(wave(0.45, 0.0001));
     Document::new(settings, None).expect("valid settings")
 }

@@ -25,7 +25,7 @@ fn built(level: u32, limits: Limits) -> BuiltMesh {
     let formula = format!("if(abs(x) + abs(y) < 8, {target:?}, 20)");
     let field = SizeFieldSpec {
         layers: Layer::stack([LayerKind::target(Formula::parse(&formula).expect("a valid formula"))]),
-        transfer: Transfer { h_min: 0.5 * target, h_max: 20.0, shape: 1.0 },
+        transfer: Transfer::between(0.5 * target, 20.0),
         unasked: 20.0,
         outline: None,
         gradation: None,

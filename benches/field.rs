@@ -37,7 +37,7 @@ fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
     let source = RasterSource { name: "diamond".into(), raster: Arc::new(RasterPyramid::new(raster)) };
     let spec = SizeFieldSpec {
         layers: Layer::stack([LayerKind::Raster { source, reading: RasterReading::Diameter }]),
-        transfer: Transfer { h_min: 1e-6, h_max: 20.0, shape: 1.0 },
+        transfer: Transfer::between(1e-6, 20.0),
         unasked: 20.0,
         outline: None,
         gradation: None,

@@ -113,7 +113,7 @@ struct Bench {
 impl Bench {
     fn new(gradation: Option<f64>) -> Self {
         let mut settings = Settings { layers: layers(), gradation, ..Settings::default() };
-        settings.transfer.h_min = 0.0011;
+        (settings.transfer.h_min, settings.transfer.h_risk) = (0.0011, 0.0011);
         let mut document = Document::new(settings, None).expect("valid settings");
         let began = Instant::now();
         let follower = Follower::new(&mut document).expect("it has a mesh");

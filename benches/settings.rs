@@ -22,7 +22,7 @@ const SIDE: u32 = 1024;
 /// Returns a hill and a ridge of risk on the unit square, as the pixels of a raster.
 fn document(h_min: f64) -> Document {
     let mut settings = Settings::default();
-    settings.transfer.h_min = h_min;
+    (settings.transfer.h_min, settings.transfer.h_risk) = (h_min, h_min);
     let risk = |n: u32| {
         let [x, y] = [n % SIDE, n / SIDE].map(|n| (f64::from(n) + 0.5) / f64::from(SIDE));
         let hill = (-30.0 * ((x - 0.3).powi(2) + (y - 0.6).powi(2))).exp();
@@ -89,9 +89,9 @@ fn main() {
             "ms", "first", "rest", "longest", "scratch", "triangles"
         );
         for (name, wanted) in [
-            ("h_min halved", Setting::SmallestDiameter(h_min / 2.0)),
-            ("h_min doubled", Setting::SmallestDiameter(2.0 * h_min)),
-            ("h_min 10 % less", Setting::SmallestDiameter(0.9 * h_min)),
+            ("h_risk halved", Setting::DiameterAtRiskOne(h_min / 2.0)),
+            ("h_risk doubled", Setting::DiameterAtRiskOne(2.0 * h_min)),
+            ("h_risk 10 % less", Setting::DiameterAtRiskOne(0.9 * h_min)),
             ("curve moved", Setting::TransferShape(1.2 * shape)),
         ] {
             let times: Vec<_> = (0..ROUNDS).map(|_| change(&document, &follower, &wanted)).collect();

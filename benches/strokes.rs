@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use glam::dvec2;
 use meshbrush_benches::window::{BRUSH, MESH_SLICE, SLICE, wave};
 use meshbrush_core::document::{Document, Follower, Settings};
+use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::Layer;
 use meshbrush_mesh::mesh::Progress;
 
@@ -19,9 +20,8 @@ const STROKES: [(&str, f64); 3] = [("above the wave", 0.8), ("along the wave", 0
 
 /// Fine below a wave, coarse above it.
 fn document(fine: f64) -> Document {
-    let mut settings = Settings::default();
-    (settings.transfer.h_min, settings.transfer.h_max) = (0.7 * fine, 0.2);
-    settings.layers = Layer::usual(wave(0.45, fine));
+    let (transfer, layers) = (Transfer::between(0.7 * fine, 0.2), Layer::usual(wave(0.45, fine)));
+    let settings = Settings { transfer, layers, ..Settings::default() };
     Document::new(settings, None).expect("valid settings")
 }
 

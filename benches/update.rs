@@ -51,7 +51,7 @@ impl Scene {
         let mut paint = PaintLayers::default();
         let grid = PixelGrid::filling(&Rect::UNIT, [SIDE; 2]);
         paint.insert(LAYER, TiledRaster::new(grid, f32::INFINITY));
-        let transfer = Transfer { h_min: 1e-9, h_max: 1.0, shape: 1.0 };
+        let transfer = Transfer::between(1e-9, 1.0);
         let layers = Layer::stack([LayerKind::Paint(Quantity::Diameter)]);
         let spec = SizeFieldSpec { layers, transfer, unasked: 1.0, outline: None, gradation: None };
         let field = SizeField::new(spec, &lattice);

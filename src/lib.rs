@@ -61,8 +61,8 @@ pub use meshbrush_core::document::{
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
-    Combine, Coverage, CurveError, Decision, DistanceTo, InvalidLayer, Layer, LayerId, LayerKind,
-    LeastTarget, Mask, PaintChange, PaintLayers, Quantity, RasterReading, RasterSource, RiskField,
+    Combine, Coverage, CurveError, Decision, DiameterLimit, DistanceTo, InvalidLayer, Layer, LayerId,
+    LayerKind, LeastTarget, Mask, PaintChange, PaintLayers, Quantity, RasterReading, RasterSource, RiskField,
     SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, Threat, ThreatError, ThreatLaw,
     Threats, ValueCurve,
 };

@@ -34,7 +34,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
         lattice,
         field: SizeFieldSpec {
             layers: Vec::new(),
-            transfer: Transfer { h_min: spacing / 1000.0, h_max: 2.0 * spacing, shape: 1.0 },
+            transfer: Transfer::between(spacing / 1000.0, 2.0 * spacing),
             unasked: 2.0 * spacing,
             outline: None,
             gradation: None,

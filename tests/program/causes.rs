@@ -29,7 +29,7 @@ impl Case {
         let hole = dvec2(random.f64(), random.f64());
         let keeps = |center: DVec2| center.distance(hole) > 0.2;
         let coarse = Mesh::coarse_grid(&lattice, keeps, &Limits::default()).unwrap();
-        let transfer = Transfer { h_min: 0.002 + 0.01 * random.f64(), h_max: 0.5, shape: 1.0 };
+        let transfer = Transfer::between(0.002 + 0.01 * random.f64(), 0.5);
         let gradation = random.bool().then(|| 0.2 + random.f64());
         let layers = Layer::stack([disc(&mut random), threats(&mut random), strip(&mut random)]);
         let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation };

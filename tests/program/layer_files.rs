@@ -114,7 +114,7 @@ fn document() -> Document {
         spacing: 0.2,
         layers,
         gradation: Some(0.6),
-        transfer: Transfer { h_min: 0.12, h_max: 0.5, shape: 1.5 },
+        transfer: Transfer { shape: 1.5, ..Transfer::between(0.12, 0.5) },
         ..Settings::for_domain("All kinds".into(), meshbrush_core::domain::Domain::rectangle(bounds()))
     };
     let mut document = Document::new(settings, None).unwrap();

@@ -29,7 +29,7 @@ fn paint(document: &mut Document, random: &mut fastrand::Rng) {
 
 /// Meshes of a few thousand triangles.
 fn coarse_settings() -> Settings {
-    let transfer = Transfer { h_min: 0.03, ..Settings::default().transfer };
+    let transfer = Transfer::between(0.03, Settings::default().transfer.h_max);
     Settings { transfer, spacing: 0.25, ..Settings::default() }
 }
 

@@ -209,6 +209,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         h_min: between(random, 0.1, 0.2),
         h_max: between(random, 0.3, 1.5),
         shape: between(random, 0.5, 2.0),
+        h_risk: between(random, 0.2, 0.3),
     };
     let boundary = match random.u8(..4) {
         0 => BoundaryTreatment::Report,
@@ -331,6 +332,7 @@ fn options(settings: &Settings) -> Vec<String> {
     add("h-min", settings.transfer.h_min.to_string());
     add("h-max", settings.transfer.h_max.to_string());
     add("transfer-shape", settings.transfer.shape.to_string());
+    add("h-risk", settings.transfer.h_risk.to_string());
     add("rule", if settings.rule == RefinementRule::Area { "area" } else { "vertex" }.into());
     settings.gradation.iter().for_each(|gradation| add("gradation", gradation.to_string()));
     for layer in &settings.layers {
@@ -386,7 +388,7 @@ fn options_override_projects_and_recipes() {
         LayerKind::risk(formula("0.8*exp(-hypot(x - 1, y - 2))")),
     ]);
     let domain = Domain::of_polygons(&[vec![coast, hole]]).unwrap();
-    let transfer = Transfer { h_min: 0.1, h_max: 0.6, shape: 1.0 };
+    let transfer = Transfer::between(0.1, 0.6);
     let base = Settings {
         layers,
         spacing: 0.5,
@@ -403,7 +405,8 @@ fn options_override_projects_and_recipes() {
     let (fitted, all) = (BoundaryTreatment::Fitted { diameter: 0.1 }, Cleaning::NONE);
     for (option, edited) in [
         ("--gradation=0.2", Settings { gradation: Some(0.2), ..base.clone() }),
-        ("--h-min=0.05", Settings { transfer: Transfer { h_min: 0.05, ..transfer }, ..base.clone() }),
+        ("--h-min=0.05", Settings { transfer: Transfer::between(0.05, 0.6), ..base.clone() }),
+        ("--h-risk=0.3", Settings { transfer: Transfer { h_risk: 0.3, ..transfer }, ..base.clone() }),
         ("--h-max=0.3", Settings { transfer: Transfer { h_max: 0.3, ..transfer }, ..base.clone() }),
         ("--transfer-shape=2", Settings { transfer: Transfer { shape: 2.0, ..transfer }, ..base.clone() }),
         ("--spacing=0.2", Settings { spacing: 0.2, ..base.clone() }),
@@ -448,7 +451,7 @@ fn the_memory_budget_of_a_project_counts_on_the_command_line() {
     let folder = Folder::new("memory");
     let layers = Layer::stack([LayerKind::constant(0.002)]);
     let settings = Settings { layers, max_memory: 2_000_000, ..Settings::default() };
-    let settings = Settings { transfer: Transfer { h_min: 0.001, ..settings.transfer }, ..settings };
+    let settings = Settings { transfer: Transfer::between(0.001, settings.transfer.h_max), ..settings };
     let project = Project::of(&Document::new(settings, None).unwrap());
     let mut bytes = Vec::new();
     write_project(&mut bytes, &project).unwrap();

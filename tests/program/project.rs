@@ -141,7 +141,12 @@ fn documents() -> Vec<Document> {
             ),
             paths: Arc::new(paths(&mut random)),
             spacing: extent / (3.0 + random.f64()),
-            transfer: Transfer { h_min: extent / 700.3, h_max: extent / 3.7, shape: 0.1 + random.f64() },
+            transfer: Transfer {
+                h_min: extent / 700.3,
+                h_risk: extent / (random.f64() * 600.0 + 4.0),
+                h_max: extent / 3.7,
+                shape: 0.1 + random.f64(),
+            },
             layers: Layer::usual(LayerKind::constant(extent * random.f64().max(1e-3))),
             max_triangles: 123_457,
             domain,
@@ -221,7 +226,7 @@ fn an_opened_project_has_the_mesh_of_the_saved_one() {
 #[test]
 #[ignore = "takes a minute in a debug build, and is there for its figures"]
 fn a_painted_mesh_of_two_million_triangles_is_saved_and_opened() {
-    let transfer = Transfer { h_min: 4e-4, h_max: 0.05, shape: 1.0 };
+    let transfer = Transfer::between(4e-4, 0.05);
     let settings = Settings { transfer, spacing: 0.05, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     let mut random = fastrand::Rng::with_seed(1);
@@ -439,22 +444,34 @@ fn archives_packed_by_other_tools_are_opened() {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace("\"version\": 3", "\"version\": 7, \"seasons\": [1, 2]");
+        let newer = text.replace("\"version\": 4", "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 3"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 4"]);
+}
+
+/// The curve from risk to diameter ended at the smallest diameter.
+#[test]
+fn in_a_project_of_version_3_the_diameter_at_risk_1_is_the_smallest() {
+    let older = rewritten(|text| text.replace("\"version\": 4", "\"version\": 3"));
+    let transfer = opened(&older).unwrap().settings.transfer;
+    assert_eq!(transfer.h_risk, transfer.h_min);
+    let newer = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 0.01, \"h_max\":"));
+    assert_eq!(opened(&newer).unwrap().settings.transfer.h_risk, 0.01);
+    let wrong = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 1e-9, \"h_max\":"));
+    refused(&wrong, &[NAME, "The diameter at risk 1, 1e-9, must be from the smallest"]);
 }
 
 #[test]
 fn a_project_of_version_2_opens() {
-    let older = rewritten(|text| text.replace("\"version\": 3", "\"version\": 2"));
+    let older = rewritten(|text| text.replace("\"version\": 4", "\"version\": 2"));
     assert!(opened(&older).unwrap() == small());
 }
 
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        ("\"version\": 3", "\"version\": 3, \"seasons\": 4", &["line 3", "seasons"]),
+        ("\"version\": 4", "\"version\": 4, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
@@ -496,7 +513,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        ["\"version\": 3", &format!("\"version\": 7, \"{long}\": 1")],
+        ["\"version\": 4", &format!("\"version\": 7, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -504,7 +521,7 @@ fn errors_stay_short_for_long_values() {
         let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
-                "\"version\": 3",
+                "\"version\": 4",
                 "\"version\": 7",
                 usize::from(from.contains("written")),
             )

@@ -12,7 +12,7 @@ pub fn built(target: &str, rule: RefinementRule, limits: Limits) -> BuiltMesh {
     let domain = Domain::rectangle(Rect::UNIT);
     let field = SizeFieldSpec {
         layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
-        transfer: Transfer { h_min: 0.001, h_max: 1.0, shape: 1.0 },
+        transfer: Transfer::between(0.001, 1.0),
         unasked: 1.0,
         outline: None,
         gradation: None,

@@ -7,6 +7,7 @@ use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 use super::{Canvas, coordinates, legend, menu, way_back};
 use crate::app::background::Row;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+use crate::app::features::painting::show_limit_offer;
 use crate::app::features::picture::show_corners;
 use crate::app::kit::FrameState;
 use crate::app::session::Session;
@@ -44,6 +45,7 @@ impl Canvas {
             }
             legend::show(ui, inner, state);
             places.extend(show_corners(ui, response.rect, state, &camera, commands));
+            places.extend(show_limit_offer(ui, response.rect, state, &camera, commands));
             places.extend(way_back::show(ui, inner, state, &camera, commands));
         }
         menu::show(ui, state, commands);

@@ -9,7 +9,7 @@ use crate::app::theme::{Tokens, tokens};
 use crate::app::tools::PaintKind;
 use crate::app::widgets::{floating_tag, format, tag_size};
 use meshbrush_core::document::{NoChange, Price, Settings};
-use meshbrush_core::paint::{DiameterChange, Medium};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::mesh::Progress;
 
 /// Space between ring and tag, in points.
@@ -49,27 +49,37 @@ fn picked_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
 
 fn price_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
     let (session, pricer) = (state.session, state.session.pricer());
-    let count = session.mesh().raw_triangle_count();
+    let (count, settings) = (session.mesh().raw_triangle_count(), session.document().settings());
     match (pricer.price(), pricer.progress()) {
         (Some(Price::Nothing(reason)), _) => {
             let is_outside = state.pointer.is_some_and(|point| session.locate(point).triangle().is_none());
             let reason = if is_outside { NoChange::OutsideField } else { reason };
             let brush = state.tools.brush()?;
             let why = match reason {
+                NoChange::TrianglesFit | NoChange::PaintedAlready if is_limited(&brush, settings) => {
+                    let smallest = format::length(settings.transfer.h_min, state.unit());
+                    format!("the smallest diameter, {smallest}, limits it")
+                }
                 NoChange::LayerDecides(id) => {
-                    let layer = session.document().settings().layer(id);
+                    let layer = settings.layer(id);
                     format!("“{}” decides here", layer.map_or("another layer", |layer| &layer.name))
                 }
                 reason => why_nothing(reason, brush.medium).into(),
             };
             Some((format!("no change: {why}"), t.label))
         }
-        (Some(price), _) => Some(tag(price, count, session.document().settings(), t)),
+        (Some(price), _) => Some(tag(price, count, settings, t)),
         // Whether there is such a frame depends on the machine's speed.
         (None, Progress::More) if state.reproducible => None,
         (None, Progress::More) => Some(("counting …".to_owned(), t.faint)),
         (None, Progress::Done) => None,
     }
+}
+
+/// Returns whether a brush refines to a diameter below the smallest one of the document.
+fn is_limited(brush: &Brush, settings: &Settings) -> bool {
+    let finer = |change| !matches!(change, DiameterChange::Coarser);
+    matches!(brush.medium, Medium::Diameter(to, change) if finer(change) && to < settings.transfer.h_min)
 }
 
 /// Returns why a stroke changes no triangle.

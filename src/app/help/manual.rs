@@ -31,7 +31,7 @@ pub static PAGES: [Page; 13] = [
     page!("First steps", "first-steps.md"),
     page!("How it works", "how-it-works.md"),
     page!("Painting", "painting.md"),
-    page!("Risk and diameter", "risk-and-diameter.md"),
+    page!("Size and risk", "risk-and-diameter.md"),
     page!("Domains and outlines", "domains.md"),
     page!("Boundary", "boundary.md"),
     page!("Reading the mesh", "reading-the-mesh.md"),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{Align, Layout, Ui};
 
-use crate::app::features::inspection::deciding_layer;
+use crate::app::features::inspection::decided_by;
 use crate::app::kit::FrameState;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{StatusCell, format};
@@ -14,7 +14,7 @@ use meshbrush_core::field::RefinementRule;
 /// Space between cells.
 const GAP: f32 = 16.0;
 /// Most letters of the name of a layer.
-const MOST_OF_NAME: usize = 16;
+const MOST_OF_NAME: usize = 17;
 /// Shown where there is nothing to show.
 const NONE: &str = "–";
 
@@ -56,7 +56,7 @@ fn fitting_cells(ui: &Ui, state: &FrameState<'_>) -> [Vec<StatusCell>; 2] {
     [left, right]
 }
 
-/// Returns the position of the pointer, h̄ there, and the layer that decides it.
+/// Returns the position of the pointer, h̄ there, and what decides it: a layer or a limit.
 fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     let unit = state.unit();
     let chars = 8 + unit.after("").chars().count();
@@ -76,10 +76,7 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
     // The mesh decides: it may lack a part of the bounds.
     let inside = state.session.locate(point).triangle().is_some();
     let [target, layer] = match inside {
-        true => [
-            format::length(target, unit),
-            deciding_layer(&follower.settings().layers, decision.layer).to_owned(),
-        ],
+        true => [format::length(target, unit), decided_by(&follower.settings().layers, &decision).to_owned()],
         false => ["outside".into(), NONE.into()],
     };
     let [x, y] = [point.x, point.y].map(|value| format::coordinate(value, step, unit));

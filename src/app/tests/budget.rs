@@ -123,7 +123,7 @@ fn past_the_budget_the_message_says_so_and_undo_brings_the_mesh_back() {
     let mut window = window();
     set(&mut window, Setting::MaxTriangles(60_000));
     let before = (fingerprint(&window), settings(&window).clone());
-    set(&mut window, Setting::SmallestDiameter(0.0005));
+    set(&mut window, Setting::DiameterAtRiskOne(0.0005));
     assert!(notice(&window).contains("60000") || notice(&window).contains("60,000"), "{}", notice(&window));
     assert_eq!((fingerprint(&window), settings(&window).clone()), before);
 

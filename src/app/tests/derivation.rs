@@ -57,7 +57,7 @@ fn lake() -> Settings {
     let island = ring(0.3).into_iter().map(|p| p + dvec2(0.2, 0.1)).collect();
     let mut lake =
         Settings::for_domain("lake".into(), Domain::of_polygons(&[vec![ring(1.0), island]]).unwrap());
-    lake.transfer.h_min *= 2.0;
+    lake.transfer = lake.transfer.with_smallest(2.0 * lake.transfer.h_min);
     lake
 }
 

@@ -40,7 +40,7 @@ impl Default for State {
             strength: 0.8,
             levels: 10.0,
             mode: 0,
-            transfer: CurveValues { h_max: 0.2, h_min: 0.0024, shape: 1.6 },
+            transfer: CurveValues { h_max: 0.2, h_risk: 0.0024, shape: 1.6 },
             formula: "if(abs(x)+abs(y)<0.4, 0.0125, 1)".into(),
             broken: "0.1 + sqr(x) * 3".into(),
             name: "radar threats".into(),
@@ -81,7 +81,7 @@ fn level_rows(ui: &Ui, count: u32) -> Vec<LevelRow> {
 }
 
 fn power(value: &CurveValues, risk: f64) -> f64 {
-    value.h_max * (value.h_min / value.h_max).powf(risk.powf(value.shape))
+    value.h_max * (value.h_risk / value.h_max).powf(risk.powf(value.shape))
 }
 
 const COMMANDS: [PaletteItem<'static>; 6] = [
@@ -593,9 +593,9 @@ fn the_transfer_curve_is_edited_by_its_handles() {
     assert!(harness.state().transfer.h_max > before.h_max);
     drag(&mut harness, "Curve shape", -10.0);
     assert!(harness.state().transfer.shape > before.shape, "a larger shape lifts this curve");
-    drag(&mut harness, "h_min", -900.0);
+    drag(&mut harness, "h_risk", -900.0);
     let after = harness.state().transfer;
-    assert_eq!(after.h_min, after.h_max, "h_min stops at h_max");
+    assert_eq!(after.h_risk, after.h_max, "h_risk stops at h_max");
 }
 
 /// A slow frame brings several events at once.
@@ -628,9 +628,9 @@ fn a_handle_of_the_transfer_curve_follows_a_drag_within_one_frame() {
 #[test]
 fn the_numbers_of_the_transfer_curve_are_never_cut() {
     let mut harness = harness(State::default());
-    harness.state_mut().transfer = CurveValues { h_max: 249_000.0, h_min: 12_300.0, shape: 1.0 };
+    harness.state_mut().transfer = CurveValues { h_max: 249_000.0, h_risk: 12_300.0, shape: 1.0 };
     harness.run();
-    for (name, number) in [("h_max value", "249,000"), ("h_min value", "12,300")] {
+    for (name, number) in [("h_max value", "249,000"), ("h_risk value", "12,300")] {
         assert_eq!(value_of(&harness, Role::TextInput, name), number);
         let field = harness.get_by_role_and_label(Role::TextInput, name).rect();
         assert!(field.width() >= 80.0, "{name} has {} points", field.width());
@@ -640,8 +640,8 @@ fn the_numbers_of_the_transfer_curve_are_never_cut() {
 #[test]
 fn the_transfer_curve_is_edited_by_number_and_key() {
     let mut harness = harness(State::default());
-    type_into(&mut harness, "h_min value", "0.01");
-    assert_eq!(harness.state().transfer.h_min, 0.01);
+    type_into(&mut harness, "h_risk value", "0.01");
+    assert_eq!(harness.state().transfer.h_risk, 0.01);
     harness.get_by_role_and_label(Role::Slider, "h_max").focus();
     harness.run();
     harness.key_press(egui::Key::ArrowUp);

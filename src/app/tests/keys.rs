@@ -36,7 +36,7 @@ fn the_section_of_a_selected_tool_comes_into_view() {
     wheel(&mut window, panel, -2000.0);
     let top = canvas(&window).top();
     let section = |window: &Window, name: &str| window.get_by_role_and_label(Role::Button, name).rect().top();
-    assert!(section(&window, "Risk to diameter") < top, "scrolled away");
+    assert!(section(&window, "Size and risk") < top, "scrolled away");
     key(&mut window, Modifiers::NONE, Key::Q);
     assert!(section(&window, "Triangle") >= top);
 }

@@ -35,7 +35,7 @@ fn show_progress(window: &mut Window) {
 #[test]
 fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
     let mut window = at_60_frames_a_second(vec2(1440.0, 900.0));
-    set(&mut window, Setting::SmallestDiameter(TWO_MILLIONS));
+    set(&mut window, Setting::DiameterAtRiskOne(TWO_MILLIONS));
     let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
     // Layers and limits are followed in place; another grid is another mesh.
     window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
@@ -55,7 +55,7 @@ fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
 #[test]
 fn in_a_small_window_nothing_covers_the_button_that_cancels() {
     let mut window = at_60_frames_a_second(vec2(900.0, 600.0));
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(1e-4))));
+    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(1e-4))));
     show_progress(&mut window);
     assert!(window.query_by_label_contains("Drag to paint risk").is_none(), "the hint makes room");
 }
@@ -63,7 +63,7 @@ fn in_a_small_window_nothing_covers_the_button_that_cancels() {
 #[test]
 fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     let mut window = at_60_frames_a_second(vec2(1440.0, 900.0));
-    set(&mut window, Setting::SmallestDiameter(TWO_MILLIONS));
+    set(&mut window, Setting::DiameterAtRiskOne(TWO_MILLIONS));
     let before = fingerprint(&window);
     window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
     show_progress(&mut window);
@@ -91,7 +91,7 @@ fn one_slice_of_work_is_small_however_much_there_is_to_do() {
     let mut document =
         Example::Threats.document(|| unreachable!("not of this example"), || unreachable!("nor this"));
     let mut follower = Follower::new(&mut document).unwrap();
-    document.set(Setting::SmallestDiameter(TWO_MILLIONS)).unwrap();
+    document.set(Setting::DiameterAtRiskOne(TWO_MILLIONS)).unwrap();
     // The mesh that is there grows in place.
     let (mut last, mut most, mut slices) = (follower.mesh().raw_triangle_count(), 0, 0);
     loop {
@@ -114,7 +114,7 @@ fn one_slice_of_work_is_small_however_much_there_is_to_do() {
 #[test]
 fn a_long_stroke_never_waits_for_the_mesh() {
     let mut window = window();
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(TWO_MILLIONS))));
+    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
     window.step();
     let from = on_screen(&window, FREE);
     window.event(Event::PointerMoved(from));
@@ -136,7 +136,7 @@ fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
     let update = |window: &Window| value_of(window, Role::Definition, "update");
     let has_unit = |text: &str| [" ms", " s"].iter().any(|unit| text.trim_end_matches('…').ends_with(unit));
     let began = Instant::now();
-    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(TWO_MILLIONS))));
+    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(TWO_MILLIONS))));
     window.step();
     assert_ne!(window.state().session().stage(), Stage::InStep);
     assert!(update(&window).ends_with('…') && has_unit(&update(&window)), "{}", update(&window));

@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 190] = [
+static SENTENCES: [(&str, &str); 193] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -33,11 +33,20 @@ static SENTENCES: [(&str, &str); 190] = [
         "What the pressure of the pen changes/Strength",
         "The pressure of the pen changes the strength of the brush.",
     ),
+    (
+        "Lower the smallest diameter",
+        "Lowers h_min to the painted diameter, in the unit of the document; the risk curve stays.",
+    ),
+    (
+        "Lower it and the risk curve",
+        "Lowers h_min and h_risk to the painted diameter: layers of risk get finer, too.",
+    ),
+    ("Not now", "Keeps the smallest diameter; what was painted below it stays in the layer. Esc."),
     ("h_max", "Target diameter at risk 0, in the unit of the document."),
-    ("h_min", "Target diameter at risk 1, in the unit of the document."),
+    ("h_risk", "Target diameter at risk 1, in the unit of the document; at least h_min."),
     (
         "Curve shape",
-        "Bends the curve between h_max and h_min: its exponent, without a unit. Right-click for its default.",
+        "Bends the curve between h_max and h_risk: its exponent, without a unit. Right-click for its default.",
     ),
     ("Layer", "Selects the layer. Drag it to another place; a double click or F2 renames it."),
     ("Layer/visible", "Shows or hides the layer; a hidden layer asks for nothing. Shift+H switches."),
@@ -109,7 +118,10 @@ static SENTENCES: [(&str, &str); 190] = [
     ("Node of the triangle/Apex", "Shows the node at the right angle, the newest one of the triangle."),
     ("Node of the triangle/End 1", "Shows the node at the first end of the bisection edge."),
     ("Node of the triangle/End 2", "Shows the node at the second end of the bisection edge."),
-    ("Decided by", "The layer whose target diameter counts at the point, after all layers are combined."),
+    (
+        "Decided by",
+        "What decides h̄ at the point: a layer, or the smallest or largest diameter of the document.",
+    ),
     (
         "Through gradation from",
         "The place whose small diameter limits h̄ here, as h̄ may change no faster than the gradation.",

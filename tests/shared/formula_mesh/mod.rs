@@ -16,7 +16,7 @@ pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, 
         boundary,
         field: SizeFieldSpec {
             layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
-            transfer: Transfer { h_min: f64::MIN_POSITIVE, h_max: f64::MAX, shape: 1.0 },
+            transfer: Transfer::between(f64::MIN_POSITIVE, f64::MAX),
             unasked: f64::MAX,
             outline: None,
             gradation: None,

@@ -193,7 +193,7 @@ pub struct InputArguments {
 
     /// Risk from 0 to 1 as a formula in x and y; may be repeated
     ///
-    /// Risk becomes a target diameter that falls from --h-max at 0 to --h-min at 1, by equal factors for
+    /// Risk becomes a target diameter that falls from --h-max at 0 to --h-risk at 1, by equal factors for
     /// equal steps.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub risk: Vec<String>,
@@ -240,9 +240,13 @@ pub struct InputArguments {
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     pub gradation: Option<f64>,
 
-    /// Smallest target diameter, where the risk is 1; larger where less is asked for
+    /// Smallest target diameter; larger where less is asked for
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub h_min: Option<f64>,
+
+    /// Target diameter where the risk is 1 [default: the smallest, --h-min]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub h_risk: Option<f64>,
 
     /// Largest target diameter, where the risk is 0 [default with risk: that of a coarse triangle]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]

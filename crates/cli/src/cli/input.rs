@@ -90,6 +90,8 @@ impl Input {
                 && typed.transfer_shape.is_some()
                 && !self.settings.layer.iter().any(SavedLayer::is_risk))
             .then_some("--transfer-shape changes nothing without --risk or --risk-raster."),
+            (is_known && typed.h_risk.is_some() && !self.settings.layer.iter().any(SavedLayer::is_risk))
+                .then_some("--h-risk changes nothing without --risk or --risk-raster."),
             typed
                 .resolution
                 .is_some()

@@ -43,6 +43,7 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
         },
         limits: SavedLimits {
             h_min: typed.h_min,
+            h_risk: typed.h_risk,
             h_max: typed.h_max,
             shape: typed.transfer_shape,
             gradation: typed.gradation,
@@ -111,6 +112,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
             "boundary_diameter" => number("--boundary-diameter", typed.boundary_diameter),
             "spacing" => number("--spacing", typed.spacing),
             "h_min" => number("--h-min", typed.h_min),
+            "h_risk" if fault.given.is_some() => number("--h-risk", typed.h_risk),
             "gradation" => "--gradation".to_owned(),
             "max_triangles" => format!("--max-triangles {}", typed.max_triangles.unwrap_or_default()),
             "max_memory" => format!("--max-memory {}", typed.max_memory.as_deref().unwrap_or_default()),

@@ -12,6 +12,7 @@ use super::input::Input;
 use super::mesh::note_capped;
 use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
+use meshbrush_core::layers::DiameterLimit;
 use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bisection_edge_length};
 
 /// Runs the command. `out` is standard output.
@@ -110,7 +111,15 @@ struct Link {
 #[serde(tag = "by", rename_all = "lowercase")]
 enum SavedDemand<'a> {
     Outline,
-    Target { target: f64, at: [f64; 2], from: [f64; 2], layer: Option<&'a str> },
+    Target {
+        target: f64,
+        at: [f64; 2],
+        from: [f64; 2],
+        layer: Option<&'a str>,
+        /// "smallest" or "largest", where that limit counts in place of what the layer asks for.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit: Option<&'static str>,
+    },
 }
 
 impl<'a> Answer<'a> {
@@ -132,6 +141,10 @@ impl<'a> Answer<'a> {
                 at: least.at.to_array(),
                 from: least.from.to_array(),
                 layer: name(least.layer).map(|layer| layer.name.as_str()),
+                limit: least.limit.map(|limit| match limit {
+                    DiameterLimit::Smallest => "smallest",
+                    DiameterLimit::Largest => "largest",
+                }),
             },
         });
         let triangle = number(finished, id);

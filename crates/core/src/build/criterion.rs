@@ -3,7 +3,7 @@ use std::convert::Infallible;
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
-use crate::layers::{LeastTarget, PaintLayers, SettledSquares, SizeField};
+use crate::layers::{Decision, LeastTarget, PaintLayers, SettledSquares, SizeField};
 use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule, bisection_edge_length};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, combined
@@ -125,7 +125,8 @@ impl<'a> RefinementCriterion<'a> {
         let points = corners.map(|corner| self.field.lattice().world_from_lattice(corner));
         let decided = points.map(|at| {
             let decision = self.field.decision_at(self.paint, at);
-            LeastTarget { target: decision.target, at, from: decision.from, layer: decision.layer }
+            let Decision { target, layer, limit, from, asked: _ } = decision;
+            LeastTarget { target, at, from, layer, limit }
         });
         let [first, ..] = decided;
         let less = |a: LeastTarget, b: LeastTarget| if b.target < a.target { b } else { a };

@@ -19,7 +19,7 @@
 //!     boundary: BoundaryTreatment::usual(0.05),
 //!     field: SizeFieldSpec {
 //!         layers: Layer::stack([LayerKind::target(formula)]),
-//!         transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
+//!         transfer: Transfer::between(0.01, 1.0),
 //!         unasked: 1.0,
 //!         outline: None,
 //!         gradation: None,

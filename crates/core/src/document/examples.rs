@@ -104,7 +104,7 @@ fn diamond() -> Settings {
         boundary_marks: Arc::default(),
         pins: Arc::default(),
         paths: Arc::default(),
-        transfer: Transfer { h_min: 0.02, h_max: 20.0, shape: 1.0 },
+        transfer: Transfer::between(0.02, 20.0),
         layers: Layer::usual(LayerKind::target(formula)),
         gradation: None,
         rule: RefinementRule::Vertex,
@@ -133,7 +133,7 @@ fn path() -> Settings {
         domain: Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(100.0, 100.0))),
         spacing: 2.0,
         boundary: BoundaryTreatment::usual(2.0),
-        transfer: Transfer { h_min: 0.5, h_max: 2.9, shape: 1.0 },
+        transfer: Transfer::between(0.5, 2.9),
         layers: Layer::usual(risk),
         paths: Arc::new(PathPlan { routes, ..PathPlan::default() }),
         ..Settings::default()
@@ -159,7 +159,7 @@ fn terrain(slope: Raster) -> Settings {
         boundary_marks: Arc::default(),
         pins: Arc::default(),
         paths: Arc::default(),
-        transfer: Transfer { h_min: 0.05, h_max: 2.0, shape: 1.6 },
+        transfer: Transfer { shape: 1.6, ..Transfer::between(0.05, 2.0) },
         layers: Layer::usual(slope_as_risk),
         gradation: None,
         rule: RefinementRule::Area,
@@ -187,7 +187,7 @@ fn layers(slope: Raster) -> Document {
     let bounds = slope.bounds();
     let at = |share: DVec2| bounds.min + share * bounds.size();
     let layers = layers_of_terrain(&source_of(slope), at);
-    let transfer = Transfer { h_min: 0.06, h_max: 2.0, shape: 1.6 };
+    let transfer = Transfer { shape: 1.6, ..Transfer::between(0.06, 2.0) };
     let settings = Settings {
         unit: LengthUnit::Kilometre,
         spacing: bounds.size().max_element() / 16.0,

@@ -23,6 +23,7 @@ mod settings;
 mod shown;
 mod stage;
 mod strokes;
+mod transfer_price;
 
 pub use background::{Background, Picture};
 pub use edits::Edits;
@@ -39,6 +40,7 @@ pub use replay::{Replay, ReplayedMesh};
 pub use setting::{Setting, SettingKind};
 pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Settings, SettingsError};
 pub use stage::Stage;
+pub use transfer_price::{TransferPrice, TransferPricer};
 
 use crate::layers::{LayerId, PaintChange, PaintLayers};
 use crate::paint::{Patch, Repaint};

@@ -211,20 +211,26 @@ fn count_more(
     let exceeds = |corners, level| criterion.exceeds_at(corners, level);
     let is_in_domain = |corners, _| !domain.excludes_at(corners);
     let progress = forecast.advance(follower.mesh(), exceeds, is_in_domain, budget);
+    match price_of(progress, &forecast) {
+        None => Work::Counting { forecast, paint },
+        Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {
+            Work::Known(Price::Nothing(why_nothing(question, &paint, follower)))
+        }
+        Some(price) => Work::Known(price),
+    }
+}
+
+/// Returns the price after a slice of a forecast; `None` while counting goes on.
+pub(super) fn price_of<E>(progress: Result<Progress, E>, forecast: &Forecast) -> Option<Price> {
     let [added, removed] = [forecast.added(), forecast.removed()];
-    Work::Known(match progress {
-        Err(_) => Price::TooFine,
-        Ok(Progress::Done) if added == 0 && removed == 0 => {
-            Price::Nothing(why_nothing(question, &paint, follower))
-        }
-        Ok(Progress::Done) => Price::Change(forecast.change()),
-        Ok(Progress::More) if added.max(removed) <= Price::MOST => {
-            return Work::Counting { forecast, paint };
-        }
-        Ok(Progress::More) if removed == 0 => Price::MoreThan(Price::MOST as i64),
-        Ok(Progress::More) if added == 0 => Price::MoreThan(-(Price::MOST as i64)),
-        Ok(Progress::More) => Price::Many,
-    })
+    match progress {
+        Err(_) => Some(Price::TooFine),
+        Ok(Progress::Done) => Some(Price::Change(forecast.change())),
+        Ok(Progress::More) if added.max(removed) <= Price::MOST => None,
+        Ok(Progress::More) if removed == 0 => Some(Price::MoreThan(Price::MOST as i64)),
+        Ok(Progress::More) if added == 0 => Some(Price::MoreThan(-(Price::MOST as i64))),
+        Ok(Progress::More) => Some(Price::Many),
+    }
 }
 
 /// Returns why a stroke that changes pixels changes no triangle, judged where it ends.

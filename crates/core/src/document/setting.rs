@@ -18,9 +18,14 @@ use crate::text::LengthUnit;
 pub enum Setting {
     /// Largest side δ̄ of a coarse cell, in world units.
     Spacing(f64),
-    /// Target diameter at risk 1, in world units. Raises the largest diameter where that would be below it.
+    /// The smallest target diameter, in world units. Raises the diameter at risk 1 and the largest diameter
+    /// where they would be below it.
     SmallestDiameter(f64),
-    /// Target diameter at risk 0, in world units. Lowers the smallest diameter where that would be above it.
+    /// Target diameter at risk 1, in world units. Lowers the smallest diameter where that would be above it,
+    /// and raises the largest diameter where that would be below it.
+    DiameterAtRiskOne(f64),
+    /// The largest target diameter, also that at risk 0, in world units. Lowers the smallest diameter and the
+    /// diameter at risk 1 where they would be above it.
     LargestDiameter(f64),
     /// Exponent of the transfer curve.
     TransferShape(f64),
@@ -76,6 +81,7 @@ impl Setting {
         match self {
             Self::Spacing(_) => "coarse spacing",
             Self::SmallestDiameter(_) => "smallest diameter",
+            Self::DiameterAtRiskOne(_) => "diameter at risk 1",
             Self::LargestDiameter(_) => "largest diameter",
             Self::TransferShape(_) => "transfer curve",
             Self::Layers(layers) => layers_title(&before.layers, layers),
@@ -100,13 +106,16 @@ impl Setting {
         let transfer = &mut settings.transfer;
         match self {
             Self::Spacing(spacing) => settings.spacing = spacing,
-            Self::SmallestDiameter(h_min) => {
-                transfer.h_min = h_min;
-                transfer.h_max = transfer.h_max.max(h_min);
+            Self::SmallestDiameter(h_min) => *transfer = transfer.with_smallest(h_min),
+            Self::DiameterAtRiskOne(h_risk) => {
+                transfer.h_risk = h_risk;
+                transfer.h_min = transfer.h_min.min(h_risk);
+                transfer.h_max = transfer.h_max.max(h_risk);
             }
             Self::LargestDiameter(h_max) => {
                 transfer.h_max = h_max;
                 transfer.h_min = transfer.h_min.min(h_max);
+                transfer.h_risk = transfer.h_risk.min(h_max);
             }
             Self::TransferShape(shape) => transfer.shape = shape,
             Self::Layers(layers) => settings.layers = layers,

@@ -36,7 +36,7 @@ pub struct Settings {
     pub paths: Arc<PathPlan>,
     /// Largest side δ̄ of a coarse cell, in world units.
     pub spacing: f64,
-    /// The curve from risk to diameter; its ends bound h̄ everywhere.
+    /// The limits of h̄, and the curve from risk to diameter.
     pub transfer: Transfer,
     /// The layers that decide h̄, from the bottom to the top; their identifiers differ.
     pub layers: Vec<Layer>,
@@ -280,14 +280,19 @@ impl Settings {
     /// Returns the usual settings for a domain: lengths in proportion to its longer side.
     pub fn for_domain(name: String, domain: Domain) -> Self {
         let (usual, extent) = (Self::default(), domain.bounds.size().max_element());
-        let Transfer { h_min, h_max, shape } = usual.transfer;
+        let Transfer { h_min, h_risk, h_max, shape } = usual.transfer;
         let spacing = usual.spacing * extent;
         Self {
             name,
             domain,
             spacing,
             boundary: BoundaryTreatment::usual(spacing),
-            transfer: Transfer { h_min: h_min * extent, h_max: h_max * extent, shape },
+            transfer: Transfer {
+                h_min: h_min * extent,
+                h_risk: h_risk * extent,
+                h_max: h_max * extent,
+                shape,
+            },
             layers: Layer::usual(LayerKind::constant(h_max * extent)),
             ..usual
         }
@@ -308,7 +313,7 @@ impl Default for Settings {
             boundary_marks: Arc::default(),
             pins: Arc::default(),
             paths: Arc::default(),
-            transfer: Transfer { h_min: 0.0024, h_max: 0.2, shape: 1.0 },
+            transfer: Transfer::between(0.0024, 0.2),
             layers: Layer::usual(LayerKind::constant(0.2)),
             gradation: None,
             rule: RefinementRule::Area,

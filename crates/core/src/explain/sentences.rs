@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Demand, Explanation};
 use crate::geometry::LatticePoint;
-use crate::layers::{Layer, LeastTarget};
+use crate::layers::{DiameterLimit, Layer, LeastTarget};
 use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
 use crate::text::{LengthUnit, short_name, significant};
 
@@ -66,21 +66,36 @@ impl Words<'_> {
     }
 
     fn least(&self, least: &LeastTarget) -> String {
-        let LeastTarget { target, at, from, layer } = *least;
+        let LeastTarget { target, at, from, layer, limit } = *least;
         let layer = layer.and_then(|id| self.layers.iter().find(|layer| layer.id == id));
-        let asks = match layer {
-            Some(layer) => format!("the layer “{}” asks for", short_name(&layer.name)),
-            None => "no layer asks for anything, so that the upper limit counts:".into(),
+        let from = (at.distance(from) > self.mesh.lattice().step().max_element()).then_some(from);
+        let (target, at) = (self.with_unit(target), self.place(at));
+        let name = layer.map(|layer| format!("the layer “{}”", short_name(&layer.name)));
+        let limit = match limit {
+            Some(DiameterLimit::Smallest) => Some(("smallest", "less")),
+            Some(DiameterLimit::Largest) => Some(("largest", "more")),
+            None => None,
         };
-        let target = self.with_unit(target);
-        if at.distance(from) > self.mesh.lattice().step().max_element() {
-            let (at, from) = (self.place(at), self.place(from));
-            format!(
-                "The least target diameter in it is {target} at {at}: {asks} a finer one at {from}, and the \
-                     gradation carries it there."
-            )
-        } else {
-            format!("The least target diameter in it is at {}, where {asks} {target}.", self.place(at))
+        match (name, limit, from.map(|from| self.place(from))) {
+            (Some(name), None, None) => {
+                format!("The least target diameter in it is at {at}, where {name} asks for {target}.")
+            }
+            (Some(name), Some((limit, amount)), None) => format!(
+                "The least target diameter in it is {target} at {at}, by the {limit} diameter of the document: \
+                 {name} asks for {amount} there."
+            ),
+            (Some(name), None, Some(from)) => format!(
+                "The least target diameter in it is {target} at {at}: {name} asks for a finer one at {from}, and \
+                 the gradation carries it there."
+            ),
+            (Some(name), Some((limit, amount)), Some(from)) => format!(
+                "The least target diameter in it is {target} at {at}: the gradation carries the {limit} diameter \
+                 of the document there from {from}, where {name} asks for {amount}."
+            ),
+            (None, ..) => format!(
+                "The least target diameter in it is {target} at {at}: no layer asks for anything, so that the \
+                 largest diameter counts."
+            ),
         }
     }
 

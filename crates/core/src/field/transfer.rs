@@ -2,17 +2,22 @@
 
 use crate::text::Number;
 
-/// The curve from risk to target diameter, from `h_max` at risk 0 down to `h_min` at risk 1:
+/// The limits of the target diameter, and the curve from risk to target diameter between them. The curve
+/// goes from `h_max` at risk 0 down to `h_risk` at risk 1:
 ///
-/// h̄(risk) = h_max · (h_min / h_max)^(risk^shape)
+/// h̄(risk) = h_max · (h_risk / h_max)^(risk^shape)
 ///
 /// With shape 1, equal steps of risk divide the diameter by equal factors. Above 1 only high risk refines;
-/// below 1 low risk refines already.
+/// below 1 low risk refines already. `h_min` and `h_max` limit every target diameter, and
+/// h_min ≤ h_risk ≤ h_max: a diameter that is painted or given by a formula can be smaller than any that
+/// risk asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transfer {
-    /// Target diameter at risk 1, in world units.
+    /// The smallest target diameter, in world units.
     pub h_min: f64,
-    /// Target diameter at risk 0, in world units.
+    /// Target diameter at risk 1, in world units.
+    pub h_risk: f64,
+    /// The largest target diameter at risk 0, in world units.
     pub h_max: f64,
     /// Exponent of the risk, dimensionless.
     pub shape: f64,
@@ -23,9 +28,9 @@ pub struct Transfer {
 #[non_exhaustive]
 pub enum TransferError {
     /// A diameter is not positive or not finite.
-    #[error("The {name} diameter {} is not valid: it must be positive and finite.", Number(*value))]
+    #[error("The {name} {} is not valid: it must be positive and finite.", Number(*value))]
     Diameter {
-        /// "smallest" or "largest".
+        /// "smallest diameter", "largest diameter" or "diameter at risk 1".
         name: &'static str,
         /// The value as given.
         value: f64,
@@ -36,6 +41,19 @@ pub enum TransferError {
         /// The smallest diameter as given.
         h_min: f64,
         /// The largest diameter as given.
+        h_max: f64,
+    },
+    /// The diameter at risk 1 is not within the limits.
+    #[error(
+        "The diameter at risk 1, {}, must be from the smallest diameter {} to the largest, {}.",
+        Number(*h_risk), Number(*h_min), Number(*h_max)
+    )]
+    RiskOutsideLimits {
+        /// The diameter at risk 1 as given.
+        h_risk: f64,
+        /// The smallest diameter.
+        h_min: f64,
+        /// The largest diameter.
         h_max: f64,
     },
     /// The exponent is out of range.
@@ -50,18 +68,45 @@ pub trait RiskToDiameter {
 }
 
 impl Transfer {
-    /// Checks that the curve falls from a finite `h_max` to a positive `h_min`.
+    /// Returns the curve of shape 1 that falls from the largest diameter to the smallest, both in world
+    /// units.
+    pub const fn between(h_min: f64, h_max: f64) -> Self {
+        Self { h_min, h_risk: h_min, h_max, shape: 1.0 }
+    }
+
+    /// Returns the limits and the curve with another smallest diameter, in world units. The curve stays as
+    /// far as the limit lets it: its end is raised where it would be below.
+    pub fn with_smallest(self, h_min: f64) -> Self {
+        Self { h_min, h_risk: self.h_risk.max(h_min), h_max: self.h_max.max(h_min), ..self }
+    }
+
+    /// Returns whether the curve is that of another transfer, whatever the smallest diameter.
+    pub fn has_curve_of(&self, other: &Self) -> bool {
+        let Self { h_min: _, h_risk, h_max, shape } = *self;
+        (h_risk, h_max, shape) == (other.h_risk, other.h_max, other.shape)
+    }
+
+    /// Checks that the diameters are positive, finite and in order, and that the exponent is in range.
     ///
     /// # Errors
     /// Fails with the name of the number that is out of range.
     pub fn checked(self) -> Result<Self, TransferError> {
-        for (name, value) in [("smallest", self.h_min), ("largest", self.h_max)] {
+        let named = [
+            ("smallest diameter", self.h_min),
+            ("largest diameter", self.h_max),
+            ("diameter at risk 1", self.h_risk),
+        ];
+        for (name, value) in named {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(TransferError::Diameter { name, value });
             }
         }
         if self.h_min > self.h_max {
             return Err(TransferError::Reversed { h_min: self.h_min, h_max: self.h_max });
+        }
+        let Self { h_min, h_risk, h_max, .. } = self;
+        if !(h_min..=h_max).contains(&h_risk) {
+            return Err(TransferError::RiskOutsideLimits { h_risk, h_min, h_max });
         }
         if !(0.05..=20.0).contains(&self.shape) {
             return Err(TransferError::Shape(self.shape));
@@ -77,10 +122,10 @@ impl RiskToDiameter for Transfer {
         } else if risk <= 0.0 {
             self.h_max
         } else if risk >= 1.0 {
-            self.h_min
+            self.h_risk
         } else {
             let fraction = libm::pow(risk, self.shape);
-            self.h_max * libm::pow(self.h_min / self.h_max, fraction)
+            self.h_max * libm::pow(self.h_risk / self.h_max, fraction)
         }
     }
 }
@@ -125,7 +170,7 @@ impl TransferTable {
 mod tests {
     use super::*;
 
-    const EVEN: Transfer = Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 };
+    const EVEN: Transfer = Transfer::between(0.01, 1.0);
 
     #[test]
     fn the_curve_has_both_ends_and_equal_steps_between() {
@@ -134,7 +179,17 @@ mod tests {
         assert!((EVEN.diameter(0.5) - 0.1).abs() < 1e-15);
         assert_eq!(EVEN.diameter(-3.0), 1.0);
         assert_eq!(EVEN.diameter(7.0), 0.01);
-        assert!(Transfer { h_min: 1.0, ..EVEN }.diameter(f64::NAN).is_nan());
+        assert!(Transfer { h_risk: 1.0, ..EVEN }.diameter(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn a_smaller_limit_leaves_the_curve_and_a_larger_one_raises_its_end() {
+        let finer = EVEN.with_smallest(0.001);
+        assert!(finer.has_curve_of(&EVEN) && finer.checked().is_ok());
+        assert_eq!((finer.h_min, finer.diameter(1.0)), (0.001, 0.01));
+        let coarser = EVEN.with_smallest(0.1);
+        assert_eq!((coarser.diameter(1.0), coarser.h_max), (0.1, 1.0));
+        assert_eq!(EVEN.with_smallest(2.0), Transfer::between(2.0, 2.0));
     }
 
     #[test]
@@ -168,6 +223,9 @@ mod tests {
             Transfer { h_min: f64::NAN, ..EVEN },
             Transfer { h_max: f64::INFINITY, ..EVEN },
             Transfer { h_min: 2.0, ..EVEN },
+            Transfer { h_risk: 0.001, ..EVEN },
+            Transfer { h_risk: 1.5, ..EVEN },
+            Transfer { h_risk: f64::NAN, ..EVEN },
             Transfer { shape: 0.0, ..EVEN },
         ] {
             assert!(bad.checked().is_err(), "{bad:?}");

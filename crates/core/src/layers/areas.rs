@@ -234,7 +234,7 @@ mod tests {
         let paint = PaintLayers::default();
         let spec = SizeFieldSpec {
             layers: vec![layer.clone()],
-            transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
+            transfer: Transfer::between(0.01, 1.0),
             unasked: 1.0,
             outline: None,
             gradation: None,
@@ -253,7 +253,7 @@ mod tests {
     #[test]
     fn gradation_carries_an_edit_as_far_as_the_diameters_around_it_let_it() {
         let lattice = Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap();
-        let transfer = Transfer { h_min: 0.01, h_max: 5.0, shape: 1.0 };
+        let transfer = Transfer::between(0.01, 5.0);
         let paint = PaintLayers::default();
         let edited = Rect::around(dvec2(0.5, 0.5), 0.01);
         let side = |base: f64, gradation| {

@@ -64,7 +64,7 @@ impl SizeFieldSpec {
             new: circumstances.context(new),
             old: circumstances.context(old),
             outline_areas: circumstances.outline_areas,
-            has_new_transfer: new.transfer != *transfer,
+            has_new_curve: !new.transfer.has_curve_of(transfer),
             has_new_outline: outline_now != outline,
             is_ordered: [new, old].iter().all(|spec| spec.is_ordered(circumstances.longest)),
             changes: Vec::new(),
@@ -100,7 +100,7 @@ struct Limits {
 }
 
 fn limits(transfer: &Transfer, unasked: f64, longest: f64) -> Limits {
-    let Transfer { h_min, h_max, shape: _ } = *transfer;
+    let Transfer { h_min, h_risk: _, h_max, shape: _ } = *transfer;
     Limits { h_min: h_min.min(longest), h_max: h_max.min(longest), unasked: unasked.min(h_max).min(longest) }
 }
 
@@ -152,7 +152,7 @@ struct Steps<'a> {
     new: ExtentContext<'a>,
     old: ExtentContext<'a>,
     outline_areas: Option<&'a [Rect]>,
-    has_new_transfer: bool,
+    has_new_curve: bool,
     has_new_outline: bool,
     /// See [`SizeFieldSpec::is_ordered`].
     is_ordered: bool,
@@ -236,7 +236,7 @@ impl Steps<'_> {
             return self.add_both(new, old, Any);
         }
         let has_new_values = kind != old_kind
-            || (self.has_new_transfer && new.is_of_risk())
+            || (self.has_new_curve && new.is_of_risk())
             || (self.has_new_outline && new.is_of_outline());
         match (mask, old_mask) {
             _ if mask == old_mask => {}
@@ -255,7 +255,7 @@ impl Steps<'_> {
 
     /// Two states of a layer with the same mask and combination, but other values.
     fn add_values(&mut self, new: &Layer, old: &Layer) {
-        if self.has_new_transfer && (new.is_of_risk() || old.is_of_risk()) {
+        if self.has_new_curve && (new.is_of_risk() || old.is_of_risk()) {
             return self.add_both(new, old, Any);
         }
         let change = match (&new.kind, &old.kind) {

@@ -76,7 +76,7 @@ impl ExtentContext<'_> {
 
 impl Layer {
     /// Returns whether its values are risks, so that the transfer curve matters.
-    pub(super) fn is_of_risk(&self) -> bool {
+    pub fn is_of_risk(&self) -> bool {
         match &self.kind {
             LayerKind::Paint(quantity) | LayerKind::Formula { quantity, formula: _ } => {
                 *quantity == Quantity::Risk

@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::engine::least;
-use super::{LayerId, PaintLayers, SizeField};
+use super::{DiameterLimit, LayerId, PaintLayers, SizeField};
 use crate::geometry::LatticePoint;
 
 /// The least h̄ in a closed triangle, and what decides it.
@@ -16,6 +16,8 @@ pub struct LeastTarget {
     pub from: DVec2,
     /// The layer that decides there; `None` where no layer asks for anything.
     pub layer: Option<LayerId>,
+    /// The limit that counts there in place of what the layer asks for, if one does.
+    pub limit: Option<DiameterLimit>,
 }
 
 impl SizeField {
@@ -26,7 +28,8 @@ impl SizeField {
         let step = self.lattice().step();
         let nudged = [DVec2::ZERO, step, -step, step * DVec2::new(1.0, -1.0), step * DVec2::new(-1.0, 1.0)];
         let decided = nudged.map(|by| self.ungraded_at(paint, from + 0.5 * by));
-        let layer = decided.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).and_then(|(_, layer)| layer);
-        LeastTarget { target, at, from, layer }
+        let decided = decided.into_iter().min_by(|a, b| a.target.total_cmp(&b.target));
+        let (layer, limit) = decided.map_or((None, None), |decided| (decided.layer, decided.limit));
+        LeastTarget { target, at, from, layer, limit }
     }
 }

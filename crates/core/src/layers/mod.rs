@@ -39,6 +39,6 @@ pub use paint_layers::PaintLayers;
 pub use risk::RiskField;
 pub use settled::SettledSquares;
 pub use size_field::{SizeField, SizeFieldSpec};
-pub use targets::Decision;
+pub use targets::{Decision, DiameterLimit};
 pub use targets_in_order::NODES_AT_A_TIME;
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

@@ -117,7 +117,7 @@ fn stack(random: &mut fastrand::Rng) -> Vec<Layer> {
 }
 
 fn field(layers: Vec<Layer>, h_max: f64, lattice: &Lattice) -> SizeField {
-    let transfer = Transfer { h_min: 0.0005, h_max, shape: 1.0 };
+    let transfer = Transfer::between(0.0005, h_max);
     let spec = SizeFieldSpec { layers, transfer, unasked: h_max, outline: None, gradation: None };
     SizeField::new(spec, lattice)
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::targets::Ungraded;
 use super::{LayerId, PaintLayers, SizeField};
 use crate::geometry::Rect;
 use crate::raster::Raster;
@@ -33,7 +34,7 @@ impl SizeField {
             if x == 0 && !goes_on() {
                 return None;
             }
-            let (target, layer) = self.ungraded_at(paint, centers(x, y));
+            let Ungraded { target, layer, .. } = self.ungraded_at(paint, centers(x, y));
             raster.set(x, y, target as f32);
             layers.push(layer);
         }

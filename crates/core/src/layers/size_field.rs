@@ -14,7 +14,7 @@ use crate::mesh::Element;
 pub struct SizeFieldSpec {
     /// The layers, from the bottom to the top.
     pub layers: Vec<Layer>,
-    /// The curve from risk to diameter; its ends bound h̄ everywhere.
+    /// The limits of h̄, and the curve from risk to diameter.
     pub transfer: Transfer,
     /// h̄ where no layer asks for a diameter, in world units.
     pub unasked: f64,

@@ -19,12 +19,34 @@ pub struct Decision {
     pub target: f64,
     /// The layer that decides; `None` where no layer asks for anything.
     pub layer: Option<LayerId>,
+    /// The limit that counts in place of what the layer asks for, if one does.
+    pub limit: Option<DiameterLimit>,
     /// The place, in world units, whose diameter limits h̄ here through gradation; the point itself where the
     /// layers decide directly.
     pub from: DVec2,
     /// The target diameter of each visible layer at the point, in world units, from the bottom to the top;
     /// `None` for a layer without a target there.
     pub asked: Vec<(LayerId, Option<f64>)>,
+}
+
+/// A limit of h̄ that a layer asks to pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DiameterLimit {
+    /// The smallest target diameter: a layer asks for less.
+    Smallest,
+    /// The largest target diameter: a layer asks for more.
+    Largest,
+}
+
+/// h̄ at a point before gradation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ungraded {
+    /// h̄ in world units.
+    pub target: f64,
+    /// The layer that decides.
+    pub layer: Option<LayerId>,
+    /// The limit that counts in place of what the layer asks for.
+    pub limit: Option<DiameterLimit>,
 }
 
 /// Returns whether a mesh can meet a diameter, or infinity stands for none.
@@ -39,7 +61,7 @@ fn is_asked(diameter: f64) -> bool {
 impl SizeField {
     /// h̄ at a point in world units.
     pub fn target_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
-        let before = self.ungraded_at(paint, point).0;
+        let before = self.ungraded_at(paint, point).target;
         match self.spec().gradation {
             None => before,
             Some(slope) => {
@@ -124,20 +146,22 @@ impl SizeField {
             (layer.id, is_asked(diameter).then_some(diameter))
         });
         let asked = asked.collect();
-        let (before, layer) = self.ungraded_at(paint, point);
+        let before = self.ungraded_at(paint, point);
+        let Ungraded { target, layer, limit } = before;
         let graded =
-            self.spec().gradation.map(|slope| self.graded(known, paint, point, (slope, accuracy), before));
+            self.spec().gradation.map(|slope| self.graded(known, paint, point, (slope, accuracy), target));
         match graded {
-            Some((target, from)) if target < before => {
-                let layer = self.ungraded_at(paint, from).1.or(layer);
-                Decision { target, layer, from, asked }
+            Some((carried, from)) if carried < target => {
+                let source = self.ungraded_at(paint, from);
+                let Ungraded { layer, limit, .. } = if source.layer.is_some() { source } else { before };
+                Decision { target: carried, layer, limit, from, asked }
             }
-            _ => Decision { target: before, layer, from: point, asked },
+            _ => Decision { target, layer, limit, from: point, asked },
         }
     }
 
-    /// h̄ before gradation, and the layer that decides it.
-    pub(super) fn ungraded_at(&self, paint: &PaintLayers, point: DVec2) -> (f64, Option<LayerId>) {
+    /// h̄ before gradation, and what decides it.
+    pub(super) fn ungraded_at(&self, paint: &PaintLayers, point: DVec2) -> Ungraded {
         let (mut target, mut decides) = (f64::INFINITY, None);
         for layer in self.compiled() {
             let diameter = layer.diameter_at(paint, point);
@@ -153,7 +177,17 @@ impl SizeField {
                 (target, decides) = (diameter, Some(layer.id));
             }
         }
-        (self.limited(target), decides)
+        Ungraded { target: self.limited(target), layer: decides, limit: self.limit_of(target) }
+    }
+
+    /// Returns the limit that a diameter which the layers ask for passes.
+    fn limit_of(&self, asked: f64) -> Option<DiameterLimit> {
+        let Transfer { h_min, h_max, .. } = self.spec().transfer;
+        match asked {
+            _ if asked < h_min => Some(DiameterLimit::Smallest),
+            _ if asked > h_max && asked < f64::INFINITY => Some(DiameterLimit::Largest),
+            _ => None,
+        }
     }
 
     /// Returns a diameter that the layers ask for, within the limits; infinity means that none does.

@@ -41,7 +41,7 @@ impl<'a> TargetsInOrder<'a> {
 
     fn valid_at(&mut self, point: DVec2) -> f64 {
         self.known.make_room();
-        let before = self.field.ungraded_at(self.paint, point).0;
+        let before = self.field.ungraded_at(self.paint, point).target;
         let Some(slope) = self.field.spec().gradation else { return before };
         let bound =
             self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
@@ -97,7 +97,7 @@ mod tests {
         let lattice = Lattice::covering(Rect::UNIT, 0.1, 1000).unwrap();
         let layers = ["0.3 + 0.2*x", "if(hypot(x - 0.7, y - 0.2) < 0.03, 0.01, inf)"]
             .map(|text| LayerKind::target(Formula::parse(text).unwrap()));
-        let transfer = Transfer { h_min: 0.002, h_max: 0.5, shape: 1.0 };
+        let transfer = Transfer::between(0.002, 0.5);
         let layers = Layer::stack(layers);
         let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation: Some(0.4) };
         let (field, paint) = (SizeField::new(spec, &lattice), PaintLayers::blank());

@@ -40,7 +40,7 @@ mod tests {
     use crate::geometry::Rect;
     use crate::raster::{Raster, RasterPyramid};
 
-    const TRANSFER: Transfer = Transfer { h_min: 0.01, h_max: 0.16, shape: 1.0 };
+    const TRANSFER: Transfer = Transfer::between(0.01, 0.16);
 
     fn source(values: [f32; 4]) -> RasterSource {
         let raster = Raster::from_values(Rect::UNIT, [2, 2], values.to_vec());

@@ -199,7 +199,7 @@ fn random_field(random: &mut fastrand::Rng, lattice: &Lattice) -> SizeField {
     layers[2].visible = random.bool();
     let spec = SizeFieldSpec {
         layers,
-        transfer: Transfer { h_min: 0.003, h_max: 0.3, shape: 1.0 },
+        transfer: Transfer::between(0.003, 0.3),
         unasked: 0.3,
         outline: None,
         gradation: random.bool().then_some(0.2),

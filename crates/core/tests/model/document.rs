@@ -427,7 +427,7 @@ fn there_is_no_price_where_there_can_be_none() {
 #[test]
 fn a_dab_too_dear_to_count_is_said_to_be() {
     let mut document = Document::new(Settings::default(), None).unwrap();
-    document.set(Setting::SmallestDiameter(1e-4)).unwrap();
+    document.set(Setting::DiameterAtRiskOne(1e-4)).unwrap();
     let follower = Follower::new(&mut document).unwrap();
     let brush = Brush { medium: Medium::Risk(1.0), radius: 0.3, hardness: 1.0, strength: 1.0 };
     let mut pricer = Pricer::default();

@@ -35,7 +35,7 @@ struct Seen {
 /// Edits a document: one to three edits between two slices of the follower, which is stopped anywhere.
 fn edit(seed: u64, scale: Scale, seen: &mut Seen) {
     let mut random = fastrand::Rng::with_seed(seed);
-    let transfer = Transfer { h_min: scale.smallest, ..Settings::default().transfer };
+    let transfer = Transfer::between(scale.smallest, Settings::default().transfer.h_max);
     let domain = domains()[random.usize(..4)].clone();
     let boundary = BoundaryTreatment::OnOutline { diameter: 2.0 * scale.diameter };
     let max_triangles = 100 * scale.triangles;

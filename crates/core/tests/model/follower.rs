@@ -309,7 +309,7 @@ fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
         for shown in 1..4 {
             let mut layers = layers.clone();
             (1..4).for_each(|other| layers[other].visible = other == shown);
-            let transfer = Transfer { h_min: 2e-5, h_max: 0.2, shape: 1.0 };
+            let transfer = Transfer::between(2e-5, 0.2);
             let settings = Settings { layers, transfer, ..Settings::default() };
             let mut document = Document::new(settings, None).unwrap();
             let mut follower = Follower::new(&mut document).unwrap();

@@ -56,8 +56,10 @@ fn reading(quantity: Quantity, transfer: Transfer, nothing: Option<f64>) -> impl
         Quantity::Diameter => value,
         Quantity::Risk if Some(value) == nothing => f64::INFINITY,
         Quantity::Risk if value <= 0.0 => transfer.h_max,
-        Quantity::Risk if value >= 1.0 => transfer.h_min,
-        Quantity::Risk => transfer.h_max * (transfer.h_min / transfer.h_max).powf(value.powf(transfer.shape)),
+        Quantity::Risk if value >= 1.0 => transfer.h_risk,
+        Quantity::Risk => {
+            transfer.h_max * (transfer.h_risk / transfer.h_max).powf(value.powf(transfer.shape))
+        }
     }
 }
 
@@ -67,7 +69,8 @@ impl Case {
         let size = dvec2(1.0, if random.bool() { 1.0 } else { 0.75 });
         let lattice = Lattice::covering(Rect::new(DVec2::ZERO, size), SPACING, 1000).unwrap();
         let h_max = if random.bool() { 0.41 } else { 7.0 };
-        let transfer = Transfer { h_min, h_max, shape: 1.3 };
+        let h_risk = if seed.is_multiple_of(2) { h_min } else { (2.5 * h_min).min(h_max) };
+        let transfer = Transfer { h_min, h_risk, h_max, shape: 1.3 };
         let unasked = if h_max > 1.0 { SPACING * 2f64.sqrt() } else { h_max };
         let gradation = random.bool().then(|| 0.1 + random.f64());
         let bounds = Bounds { h_min, h_max, unasked, gradation };
@@ -377,7 +380,7 @@ fn meshes_are_the_smallest_refinements_that_meet_the_definition() {
 fn smooth_formulas_are_asked_at_the_centres_of_cells() {
     let lattice = Lattice::covering(Rect::UNIT, SPACING, 1000).unwrap();
     let squares = i64::from(lattice.extent().x);
-    let transfer = Transfer { h_min: 0.001, h_max: 0.4, shape: 1.0 };
+    let transfer = Transfer::between(0.001, 0.4);
     let bounds = Bounds { h_min: transfer.h_min, h_max: transfer.h_max, unasked: 0.4, gradation: None };
     let target = Formula::parse("0.005 + 0.25*hypot(x - 0.4, y - 0.3)").unwrap();
     let other = Formula::parse("0.02 + 0.1*x*y").unwrap();

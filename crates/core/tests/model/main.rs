@@ -37,5 +37,6 @@ mod replay;
 mod runs;
 mod size_field;
 mod slabs;
+mod smallest_diameter;
 mod stacks;
 mod symmetry;

@@ -17,7 +17,7 @@ use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
-const TRANSFER: Transfer = Transfer { h_min: 1e-4, h_max: 0.5, shape: 1.0 };
+const TRANSFER: Transfer = Transfer::between(1e-4, 0.5);
 
 fn field_on(lattice: &Lattice, layers: Vec<Layer>, gradation: Option<f64>) -> SizeField {
     let spec = SizeFieldSpec { layers, transfer: TRANSFER, unasked: 0.5, outline: None, gradation };
@@ -228,7 +228,7 @@ fn huge_pixels_far_from_the_domain_are_those_of_near_pixels() {
     let near = source(Rect::around(dvec2(line, line), 1.0));
     let fields = [far, near].map(|source| {
         let kind = LayerKind::Raster { source, reading: RasterReading::Diameter };
-        let transfer = Transfer { h_min: 1e-5, ..TRANSFER };
+        let transfer = Transfer::between(1e-5, TRANSFER.h_max);
         let layers = Layer::stack([kind]);
         let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation: None };
         SizeField::new(spec, &lattice)
@@ -285,7 +285,7 @@ fn the_diameter_for_a_risk_is_that_of_the_formula() {
 fn many_threats_that_lie_apart_ask_where_they_are_and_nowhere_else() {
     let mut random = Rng::with_seed(9);
     let lattice = Lattice::covering(Rect::UNIT, 0.1, 1_000_000).unwrap();
-    let transfer = Transfer { h_min: 1e-6, h_max: 0.1, shape: 1.0 };
+    let transfer = Transfer::between(1e-6, 0.1);
     for range in [1e-2, 1e-4, 1e-6] {
         let threat = |random: &mut Rng| Threat {
             at: dvec2(random.f64(), random.f64()),

@@ -190,7 +190,7 @@ fn spec(seed: u64, map: &Map, domain: &Domain) -> SizeFieldSpec {
     }
     SizeFieldSpec {
         layers,
-        transfer: Transfer { h_min: 1e-4 * s, h_max: 0.25 * s, shape: 1.0 },
+        transfer: Transfer::between(1e-4 * s, 0.25 * s),
         unasked: 0.25 * s,
         outline: domain.as_region().and_then(|region| Shapes::outline(&region).ok()),
         gradation: (random.usize(..3) == 0).then(|| 0.25 + random.f64()),

@@ -46,7 +46,7 @@ fn figures_of_a_large_raster() {
     let source = RasterSource { name: "large.png".into(), raster: pyramid };
     let raster = LayerKind::Raster { source, reading: RasterReading::Risk };
     let settings = Settings {
-        transfer: Transfer { h_min: 5e-4, h_max: 0.05, shape: 1.0 },
+        transfer: Transfer::between(5e-4, 0.05),
         spacing: 0.05,
         layers: Layer::stack([raster, LayerKind::Paint(Quantity::Risk)]),
         ..Settings::default()
@@ -81,7 +81,7 @@ fn figures_of_a_stroke_at_4096_times_zoom() {
     let mut sizes = Vec::new();
     for (name, zoom) in [("at fit", 1.0), ("at 4,096 times zoom", 4096.0)] {
         let settings = Settings {
-            transfer: Transfer { h_min: 0.004 / zoom, h_max: 0.5, shape: 1.0 },
+            transfer: Transfer::between(0.004 / zoom, 0.5),
             layers: Layer::stack([LayerKind::Paint(Quantity::Diameter)]),
             ..Settings::default()
         };

@@ -114,7 +114,7 @@ fn compare(settings: &Settings) {
 
 fn settings() -> Settings {
     let mut settings = Settings::default();
-    settings.transfer.h_min = 0.004;
+    (settings.transfer.h_min, settings.transfer.h_risk) = (0.004, 0.004);
     settings
 }
 
@@ -126,7 +126,7 @@ fn after_strokes_and_undo() {
 #[test]
 fn where_triangles_are_far_smaller_than_pixels() {
     let mut settings = settings();
-    settings.transfer.h_min = 0.0008;
+    (settings.transfer.h_min, settings.transfer.h_risk) = (0.0008, 0.0008);
     compare(&settings);
 }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::build::{BuildError, MeshBuilder};
 use crate::document::{Example, Settings};
-use crate::field::Formula;
+use crate::field::{Formula, Transfer};
 use crate::layers::{Layer, LayerKind};
 use crate::mesh::{Mesh, Progress, bisection_edge_length};
 use crate::plot::{Axis, Mark, Plot, Scale, Series};
@@ -79,7 +79,7 @@ fn settings(level: u32) -> Settings {
     let target = bisection_edge_length(settings.spacing, level) * (1.0 + 1e-12);
     let formula = format!("if(abs(x) + abs(y) < 8, {target:?}, 20)");
     settings.layers = Layer::stack([LayerKind::target(Formula::parse(&formula).expect("a valid formula"))]);
-    settings.transfer.h_min = 0.5 * target;
+    settings.transfer = Transfer::between(0.5 * target, settings.transfer.h_max);
     settings
 }
 

@@ -199,7 +199,7 @@ fn small(target: &str, spacing: f64, figure: ReportFigure) -> Settings {
     Settings {
         spacing,
         boundary: BoundaryTreatment::usual(spacing),
-        transfer: Transfer { h_min: 0.01, h_max: 1.0, shape: 1.0 },
+        transfer: Transfer::between(0.01, 1.0),
         layers: Layer::usual(LayerKind::target(Formula::parse(target).expect("a valid formula"))),
         rule: RefinementRule::Vertex,
         boundary_marks: Arc::default(),

@@ -18,7 +18,7 @@ mod why;
 pub use command::{ExploreCommand, InspectCommand};
 use explore::{Explore, TreeStep};
 use inspector::INSPECTOR;
-pub use text::deciding_layer;
+pub use text::decided_by;
 pub use tool::QUERY;
 use walks::WalkMeter;
 use why::WHY;

@@ -4,7 +4,7 @@ use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::widgets::format;
-use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_core::layers::{Decision, DiameterLimit, Layer, LayerId};
 use meshbrush_mesh::mesh::{Location, NodeId, Orientation};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -131,7 +131,7 @@ impl<'a> Inspection<'a> {
     pub fn decision_rows(&self) -> Vec<Row> {
         let decision = &self.readout.decision;
         let layers = &self.session.follower().settings().layers;
-        let mut rows = vec![Row::text("Decided by", deciding_layer(layers, decision.layer))];
+        let mut rows = vec![Row::text("Decided by", decided_by(layers, decision))];
         if decision.from != self.readout.point {
             rows.push(self.point_row("Through gradation from", decision.from.to_array()));
         }
@@ -198,8 +198,18 @@ impl<'a> Inspection<'a> {
     }
 }
 
+/// Returns what decides h̄: the limit that a layer asks to pass, or the name of the layer; in words where
+/// there is none.
+pub fn decided_by<'a>(layers: &'a [Layer], decision: &Decision) -> &'a str {
+    match decision.limit {
+        Some(DiameterLimit::Smallest) => "smallest diameter",
+        Some(DiameterLimit::Largest) => "largest diameter",
+        None => deciding_layer(layers, decision.layer),
+    }
+}
+
 /// Returns the name of the layer that decides, in words where none does.
-pub fn deciding_layer(layers: &[Layer], decides: Option<LayerId>) -> &str {
+fn deciding_layer(layers: &[Layer], decides: Option<LayerId>) -> &str {
     let Some(id) = decides else { return "no layer" };
     layers.iter().find(|layer| layer.id == id).map_or("a deleted layer", |layer| &layer.name)
 }

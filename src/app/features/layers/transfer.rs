@@ -1,4 +1,4 @@
-//! The curve from risk to diameter.
+//! The smallest diameter, and the curve from risk to diameter.
 
 use std::ops::RangeInclusive;
 
@@ -7,42 +7,71 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released};
 use crate::app::readout::{Quantity, value_at};
-use crate::app::widgets::{CurveValues, Section, TransferCurve};
+use crate::app::widgets::{CurveValues, Section, SliderRow, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
-/// The curve from risk to diameter.
+/// The smallest diameter, and the curve from risk to diameter.
 pub static TRANSFER: Panel = Panel { name: "transfer", group: PanelGroup::Size, only_with_tool: false, show };
 
 /// Exponents that the curve's middle handle reaches.
 const SHAPES: RangeInclusive<f64> = 0.2..=5.0;
 
+/// Limits of the diameters that sliders and handles reach, as shares of the longer side of the domain.
+const DIAMETERS: RangeInclusive<f64> = 1e-5..=2.0;
+
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    Section::new("Risk to diameter").show(ui, |ui| {
-        let settings = state.session.document().settings();
-        let Transfer { h_min, h_max, shape } = settings.transfer;
-        let extent = settings.domain.bounds.size().max_element();
-        let mut shown = CurveValues { h_max, h_min, shape };
-        let curve = |t: &CurveValues, risk: f64| {
-            Transfer { h_min: t.h_min, h_max: t.h_max, shape: t.shape }.diameter(risk)
-        };
-        let (document, follower) = (state.session.document(), state.session.follower());
-        let risk = state.pointer.map(|point| value_at(point, document, follower, Quantity::Risk));
-        let editor = TransferCurve::new(&mut shown, &curve, 1e-5 * extent..=2.0 * extent, SHAPES);
-        let usual = Settings::default().transfer;
-        let defaults =
-            CurveValues { h_max: usual.h_max * extent, h_min: usual.h_min * extent, shape: usual.shape };
-        let editor = editor.unit(settings.unit).defaults(defaults);
-        let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
-        if shown.h_max != h_max {
-            commands.push(Command::Edit(EditCommand::Set(Setting::LargestDiameter(shown.h_max))));
-        }
-        if shown.h_min != h_min {
-            commands.push(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(shown.h_min))));
-        }
-        if shown.shape != shape {
-            commands.push(Command::Edit(EditCommand::Set(Setting::TransferShape(shown.shape))));
-        }
-        end_gesture_when_released(&response, commands);
+    Section::new("Size and risk").show(ui, |ui| {
+        smallest_row(ui, state, commands);
+        ui.add_space(4.0);
+        curve(ui, state, commands);
     });
+}
+
+fn smallest_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    let extent = settings.domain.bounds.size().max_element();
+    let Transfer { h_min, h_max, .. } = settings.transfer;
+    let mut smallest = h_min;
+    let least = (DIAMETERS.start() * extent).min(h_min);
+    let slider = SliderRow::new("h_min", &mut smallest, least..=h_max).logarithmic();
+    let slider = slider.typed_range(f64::MIN_POSITIVE..=h_max).unit(settings.unit.symbol());
+    let slider = slider.default(Settings::default().transfer.h_min * extent).help(SMALLEST_HELP);
+    let response = slider.show(ui);
+    if smallest != h_min {
+        commands.push(Command::Edit(EditCommand::Set(Setting::SmallestDiameter(smallest))));
+    }
+    end_gesture_when_released(&response, commands);
+}
+
+const SMALLEST_HELP: &str = "The smallest target diameter of the document, in its unit: nothing gets finer, \
+                             whatever layers ask for. The risk curve stays.";
+
+fn curve(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    let Transfer { h_min: _, h_risk, h_max, shape } = settings.transfer;
+    let extent = settings.domain.bounds.size().max_element();
+    let mut shown = CurveValues { h_max, h_risk, shape };
+    let curve = |t: &CurveValues, risk: f64| {
+        Transfer { shape: t.shape, ..Transfer::between(t.h_risk, t.h_max) }.diameter(risk)
+    };
+    let (document, follower) = (state.session.document(), state.session.follower());
+    let risk = state.pointer.map(|point| value_at(point, document, follower, Quantity::Risk));
+    let limits = DIAMETERS.start() * extent..=DIAMETERS.end() * extent;
+    let editor = TransferCurve::new(&mut shown, &curve, limits, SHAPES);
+    let usual = Settings::default().transfer;
+    let defaults =
+        CurveValues { h_max: usual.h_max * extent, h_risk: usual.h_risk * extent, shape: usual.shape };
+    let editor = editor.unit(settings.unit).defaults(defaults);
+    let response = editor.mark(risk.filter(|risk| risk.is_finite())).show(ui);
+    if shown.h_max != h_max {
+        commands.push(Command::Edit(EditCommand::Set(Setting::LargestDiameter(shown.h_max))));
+    }
+    if shown.h_risk != h_risk {
+        commands.push(Command::Edit(EditCommand::Set(Setting::DiameterAtRiskOne(shown.h_risk))));
+    }
+    if shown.shape != shape {
+        commands.push(Command::Edit(EditCommand::Set(Setting::TransferShape(shown.shape))));
+    }
+    end_gesture_when_released(&response, commands);
 }

@@ -42,6 +42,12 @@ pub enum BrushCommand {
     DrawTo(DVec2),
     /// Ends the stroke.
     EndStroke,
+    /// Lowers the smallest diameter of the document to the one that was painted; the risk curve stays.
+    LowerLimit,
+    /// Lowers the smallest diameter and the diameter at risk 1 to the one that was painted.
+    LowerLimitAndRisk,
+    /// Declines to lower the smallest diameter.
+    KeepLimit,
     /// Paints a straight line to a point from where the last stroke ended.
     LineTo(DVec2),
 }

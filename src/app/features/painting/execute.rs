@@ -2,13 +2,16 @@
 
 use glam::DVec2;
 
-use super::{BRUSH, BRUSH_PANEL, BrushCommand, BrushMode, ERASER, GESTURES, Painting, entries};
+use super::{
+    BRUSH, BRUSH_PANEL, BrushCommand, BrushMode, ERASER, GESTURES, LimitOffer, Painting, brush_diameters,
+    entries,
+};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::notices::Offer;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::tools::PaintKind;
-use meshbrush_core::document::NoPaintLayer;
+use meshbrush_core::document::{NoPaintLayer, Setting};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
 
 impl Feature for Painting {
@@ -24,10 +27,13 @@ impl Feature for Painting {
     fn execute(&mut self, command: BrushCommand, ctx: &mut Ctx<'_>) {
         let tools = &mut *ctx.tools;
         match command {
-            BrushCommand::BeginStroke(point) => begin_stroke(point, ctx),
-            BrushCommand::DrawTo(point) => draw_to(point, ctx),
-            BrushCommand::EndStroke => ctx.session.document_mut().finish_stroke(),
-            BrushCommand::LineTo(point) => line_to(point, ctx),
+            BrushCommand::BeginStroke(point) => self.begin_stroke(point, ctx),
+            BrushCommand::DrawTo(point) => self.draw_to(point, ctx),
+            BrushCommand::EndStroke => self.end_stroke(ctx),
+            BrushCommand::LineTo(point) => self.line_to(point, ctx),
+            BrushCommand::LowerLimit => self.lower_limit(Setting::SmallestDiameter, ctx),
+            BrushCommand::LowerLimitAndRisk => self.lower_limit(Setting::DiameterAtRiskOne, ctx),
+            BrushCommand::KeepLimit => self.offer = None,
             BrushCommand::Kind(kind) => {
                 tools.kind = kind;
                 tools.select_brush();
@@ -51,34 +57,69 @@ impl Feature for Painting {
             BrushCommand::Pen(pressure) => tools.pen.set_pressure(pressure),
         }
     }
-}
 
-fn begin_stroke(point: DVec2, ctx: &mut Ctx<'_>) {
-    let Some(brush) = ctx.tools.brush() else { return };
-    let mirror = ctx.tools.mirror(ctx.session.document().settings().domain.bounds);
-    ctx.session.notices_mut().dismiss_news();
-    // Record the last stroke before the next begins: both may come in one frame.
-    ctx.session.document_mut().end_stroke();
-    ctx.record_edits();
-    if let Err(problem) = ctx.session.document().layer_for(&brush.medium) {
-        return offer_paint_layer(&problem, ctx);
+    fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
+        let session = &*ctx.session;
+        let counts = self.offer.as_mut().is_some_and(|offer| offer.advance(session, ctx.reproducible));
+        self.offer.take_if(|offer| !offer.is_open(session));
+        counts
     }
-    let document = ctx.session.document_mut();
-    document.begin_mirrored_stroke(brush, mirror);
-    document.extend_stroke(ctx.tools.path_point(point));
-    ctx.tools.last_painted = Some(point);
-    ctx.tools.note_use(ctx.tools.tool);
+
+    fn put_down(&mut self, _ctx: &mut Ctx<'_>) -> bool {
+        self.offer.take().is_some()
+    }
+
+    fn forget_document(&mut self) {
+        *self = Self::default();
+    }
 }
 
-fn draw_to(point: DVec2, ctx: &mut Ctx<'_>) {
-    ctx.session.document_mut().extend_stroke(ctx.tools.path_point(point));
-    ctx.tools.last_painted = Some(point);
-}
+impl Painting {
+    fn begin_stroke(&mut self, point: DVec2, ctx: &mut Ctx<'_>) {
+        let Some(brush) = ctx.tools.brush() else { return };
+        (self.next_offer, self.offer) = (None, None);
+        let settings = ctx.session.document().settings();
+        let (mirror, transfer) = (ctx.tools.mirror(settings.domain.bounds), settings.transfer);
+        ctx.session.notices_mut().dismiss_news();
+        // Record the last stroke before the next begins: both may come in one frame.
+        ctx.session.document_mut().end_stroke();
+        ctx.record_edits();
+        if let Err(problem) = ctx.session.document().layer_for(&brush.medium) {
+            return offer_paint_layer(&problem, ctx);
+        }
+        ctx.session.document_mut().begin_mirrored_stroke(brush, mirror);
+        self.next_offer = LimitOffer::of(&brush, &transfer);
+        self.draw_to(point, ctx);
+        ctx.tools.note_use(ctx.tools.tool);
+    }
 
-fn line_to(point: DVec2, ctx: &mut Ctx<'_>) {
-    begin_stroke(ctx.tools.last_painted.unwrap_or(point), ctx);
-    draw_to(point, ctx);
-    ctx.session.document_mut().finish_stroke();
+    fn draw_to(&mut self, point: DVec2, ctx: &mut Ctx<'_>) {
+        let document = ctx.session.document_mut();
+        document.extend_stroke(ctx.tools.path_point(point));
+        if let Some(offer) = &mut self.next_offer {
+            let mirror = ctx.tools.mirror(document.settings().domain.bounds);
+            offer.extend(point, ctx.tools.radius, &mirror);
+        }
+        ctx.tools.last_painted = Some(point);
+    }
+
+    fn end_stroke(&mut self, ctx: &mut Ctx<'_>) {
+        ctx.session.document_mut().finish_stroke();
+        self.offer = self.next_offer.take();
+    }
+
+    fn line_to(&mut self, point: DVec2, ctx: &mut Ctx<'_>) {
+        self.begin_stroke(ctx.tools.last_painted.unwrap_or(point), ctx);
+        self.draw_to(point, ctx);
+        self.end_stroke(ctx);
+    }
+
+    fn lower_limit(&mut self, setting: fn(f64) -> Setting, ctx: &mut Ctx<'_>) {
+        if let Some(offer) = self.offer.take() {
+            ctx.session.set(setting(offer.diameter));
+            ctx.session.end_gesture();
+        }
+    }
 }
 
 fn set_brush_radius(radius: f64, ctx: &mut Ctx<'_>) {
@@ -89,9 +130,9 @@ fn set_brush_radius(radius: f64, ctx: &mut Ctx<'_>) {
 }
 
 fn set_brush_diameter(diameter: f64, ctx: &mut Ctx<'_>) {
-    let transfer = ctx.session.document().settings().transfer;
+    let range = brush_diameters(&ctx.session.document().settings().transfer);
     if diameter.is_finite() {
-        ctx.tools.diameter = diameter.clamp(transfer.h_min, transfer.h_max);
+        ctx.tools.diameter = diameter.clamp(*range.start(), *range.end());
     }
 }
 

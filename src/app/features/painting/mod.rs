@@ -6,6 +6,7 @@ mod entries;
 mod eraser;
 mod execute;
 mod gestures;
+mod limit_offer;
 mod panel;
 mod pen;
 #[cfg(test)]
@@ -15,9 +16,16 @@ pub use brush::{BRUSH, BrushMode, picks};
 pub use command::BrushCommand;
 pub use eraser::ERASER;
 use gestures::GESTURES;
-use panel::BRUSH_PANEL;
+use limit_offer::LimitOffer;
+pub use limit_offer::show as show_limit_offer;
+use panel::{BRUSH_PANEL, brush_diameters};
 pub use pen::{Pen, PenEffect};
 
 /// The stroke is in the document, and the settings of the brush are in [`Tools`](crate::app::tools::Tools).
 #[derive(Default)]
-pub struct Painting;
+pub struct Painting {
+    /// The offer that follows the current stroke.
+    next_offer: Option<LimitOffer>,
+    /// The offer to lower the smallest diameter.
+    offer: Option<LimitOffer>,
+}

@@ -1,5 +1,7 @@
 //! The settings of brush and eraser.
 
+use std::ops::RangeInclusive;
+
 use eframe::egui::Ui;
 
 use super::{BrushCommand, BrushMode, ERASER, PenEffect};
@@ -84,12 +86,24 @@ fn risk_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
     }
 }
 
+/// How far below the smallest diameter of the document the brush goes.
+const BELOW_SMALLEST: f64 = 0.01;
+
+/// Returns the diameters that the brush paints, in world units. Below the smallest diameter of the document
+/// it offers to lower that.
+pub fn brush_diameters(transfer: &Transfer) -> RangeInclusive<f64> {
+    let least = (BELOW_SMALLEST * transfer.h_min).max(f64::MIN_POSITIVE);
+    least..=transfer.h_max
+}
+
 fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
-    let Transfer { h_min, h_max, .. } = state.session.document().settings().transfer;
-    let mut diameter = state.tools.diameter.clamp(h_min, h_max);
-    let slider = SliderRow::new("Diameter", &mut diameter, h_min..=h_max).logarithmic();
-    let slider = slider.default((2.0 * h_min).min(h_max)).unit(state.unit().symbol());
-    let help = "Target diameter that the brush paints, in the unit of the document. Alt+click picks it.";
+    let transfer = state.session.document().settings().transfer;
+    let range = brush_diameters(&transfer);
+    let mut diameter = state.tools.diameter.clamp(*range.start(), *range.end());
+    let slider = SliderRow::new("Diameter", &mut diameter, range).logarithmic();
+    let slider = slider.default((2.0 * transfer.h_min).min(transfer.h_max)).unit(state.unit().symbol());
+    let help = "Target diameter that the brush paints, in the unit of the document. Below h_min it offers to \
+                lower that. Alt+click picks it.";
     if slider.help(help).show(ui).changed() {
         sent.push(BrushCommand::Diameter(diameter));
     }

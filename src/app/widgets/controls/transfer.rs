@@ -37,14 +37,14 @@ pub struct CurveValues {
     /// Diameter at risk 0, in world units.
     pub h_max: f64,
     /// Diameter at risk 1, in world units; at most `h_max`.
-    pub h_min: f64,
+    pub h_risk: f64,
     /// The shape of the curve, positive; the caller's formula says what it means.
     pub shape: f64,
 }
 
 /// Diameter over risk: risk 0 to 1 from left to right, the diameter on a logarithmic axis of whole decades.
 ///
-/// The end points change `h_max` and `h_min`, the middle the shape; their numbers can be typed; a focused
+/// The end points change `h_max` and `h_risk`, the middle the shape; their numbers can be typed; a focused
 /// handle follows the arrow keys. `curve` gives the diameter of a [`CurveValues`] at a risk; it must be
 /// monotone in the shape. The axis stays as it is while a handle is dragged.
 #[must_use = "call `show`"]
@@ -128,7 +128,7 @@ impl<'a> TransferCurve<'a> {
     /// values.
     fn axis(&self, ui: &Ui, id: Id) -> Axis {
         let kept = ui.data(|data| data.get_temp::<Axis>(id));
-        kept.unwrap_or_else(|| Axis::around(self.value.h_min, self.value.h_max))
+        kept.unwrap_or_else(|| Axis::around(self.value.h_risk, self.value.h_max))
     }
 
     fn keep_axis(&self, ui: &Ui, id: Id, plot: &Plot, dragged: bool) {
@@ -184,7 +184,7 @@ impl<'a> TransferCurve<'a> {
         match handle {
             Handle::Max => self.value.h_max,
             Handle::Shape => self.value.shape,
-            Handle::Min => self.value.h_min,
+            Handle::Min => self.value.h_risk,
         }
     }
 
@@ -196,12 +196,12 @@ impl<'a> TransferCurve<'a> {
         }
     }
 
-    /// Sets what a handle changes, within its limits; `h_min` never exceeds `h_max`.
+    /// Sets what a handle changes, within its limits; `h_risk` never exceeds `h_max`.
     fn assign(&mut self, handle: Handle, value: f64) {
         let (low, high) = (*self.limits.start(), *self.limits.end());
         match handle {
-            Handle::Max => self.value.h_max = value.clamp(low, high).max(self.value.h_min),
-            Handle::Min => self.value.h_min = value.clamp(low, high).min(self.value.h_max),
+            Handle::Max => self.value.h_max = value.clamp(low, high).max(self.value.h_risk),
+            Handle::Min => self.value.h_risk = value.clamp(low, high).min(self.value.h_max),
             Handle::Shape => self.value.shape = value.clamp(*self.shapes.start(), *self.shapes.end()),
         }
     }
@@ -209,7 +209,7 @@ impl<'a> TransferCurve<'a> {
     /// Returns the diameters that can be typed for an end point.
     fn typed_range(&self, handle: Handle) -> RangeInclusive<f64> {
         match handle {
-            Handle::Max => self.value.h_min..=f64::MAX,
+            Handle::Max => self.value.h_risk..=f64::MAX,
             Handle::Min => f64::MIN_POSITIVE..=self.value.h_max,
             Handle::Shape => self.shapes.clone(),
         }
@@ -221,7 +221,7 @@ impl<'a> TransferCurve<'a> {
         let value = value.clamp(*range.start(), *range.end());
         match handle {
             Handle::Max => self.value.h_max = value,
-            Handle::Min => self.value.h_min = value,
+            Handle::Min => self.value.h_risk = value,
             Handle::Shape => self.value.shape = value,
         }
     }
@@ -231,7 +231,7 @@ impl<'a> TransferCurve<'a> {
         Some(match handle {
             Handle::Max => defaults.h_max,
             Handle::Shape => defaults.shape,
-            Handle::Min => defaults.h_min,
+            Handle::Min => defaults.h_risk,
         })
     }
 
@@ -402,7 +402,7 @@ impl Handle {
         match self {
             Self::Max => "h_max",
             Self::Shape => "Curve shape",
-            Self::Min => "h_min",
+            Self::Min => "h_risk",
         }
     }
 
@@ -420,12 +420,12 @@ mod tests {
     use super::*;
 
     fn power(value: &CurveValues, risk: f64) -> f64 {
-        value.h_max * (value.h_min / value.h_max).powf(risk.powf(value.shape))
+        value.h_max * (value.h_risk / value.h_max).powf(risk.powf(value.shape))
     }
 
     #[test]
     fn the_shape_is_found_for_a_point_of_the_curve() {
-        let mut value = CurveValues { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let mut value = CurveValues { h_max: 0.2, h_risk: 0.002, shape: 1.0 };
         let curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
         for shape in [0.2, 1.0, 3.7] {
             let through = curve.middle(shape);
@@ -436,10 +436,10 @@ mod tests {
 
     #[test]
     fn diameters_keep_their_order_and_limits() {
-        let mut value = CurveValues { h_max: 0.2, h_min: 0.002, shape: 1.0 };
+        let mut value = CurveValues { h_max: 0.2, h_risk: 0.002, shape: 1.0 };
         let mut curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
         curve.assign(Handle::Min, 0.5);
         curve.assign(Handle::Max, 1e-9);
-        assert_eq!(value, CurveValues { h_max: 0.2, h_min: 0.2, shape: 1.0 });
+        assert_eq!(value, CurveValues { h_max: 0.2, h_risk: 0.2, shape: 1.0 });
     }
 }

@@ -265,7 +265,7 @@ pub fn least(
         let at = if is_one { search.place.0.clamp(rect.min, rect.max) } else { center };
         let carried = slope * at.distance(search.place.0);
         if part.least + carried < best.0 {
-            let value = field.ungraded_at(paint, origin + center).0 + carried;
+            let value = field.ungraded_at(paint, origin + center).target + carried;
             if value < best.0 {
                 best = (value, origin + at);
             }

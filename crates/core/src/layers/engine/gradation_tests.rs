@@ -10,7 +10,7 @@ use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::{Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats};
 
-const TRANSFER: Transfer = Transfer { h_min: 0.001, h_max: 0.2, shape: 1.0 };
+const TRANSFER: Transfer = Transfer::between(0.001, 0.2);
 
 fn field(kinds: impl IntoIterator<Item = LayerKind>, slope: f64) -> SizeField {
     let lattice = Lattice::covering(Rect::UNIT, 0.1, 1 << 30).unwrap();
@@ -34,7 +34,7 @@ fn random_threat(random: &mut fastrand::Rng) -> Threat {
 fn radial_referee(field: &SizeField, threat: &Threat, distance: f64, slope: f64) -> f64 {
     let carried = |radius: f64| {
         let at = threat.at + dvec2(radius, 0.0);
-        field.ungraded_at(PaintLayers::blank(), at).0 + slope * (distance - radius).abs()
+        field.ungraded_at(PaintLayers::blank(), at).target + slope * (distance - radius).abs()
     };
     let (mut low, mut high) = (0.0, threat.range.min(distance));
     let mut best = carried(distance);
@@ -63,7 +63,7 @@ fn what_a_threat_carries_is_found_up_to_the_tolerance() {
         let found = field.target_at(PaintLayers::blank(), point);
         let expected = radial_referee(&field, &threat, distance, slope);
         assert!((found / expected - 1.0).abs() < 2e-6, "{threat:?} {point}: {found}, not {expected}");
-        carried += usize::from(found < 0.99 * field.ungraded_at(PaintLayers::blank(), point).0);
+        carried += usize::from(found < 0.99 * field.ungraded_at(PaintLayers::blank(), point).target);
     }
     assert!(carried > 60, "{carried}");
 }
@@ -96,7 +96,8 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         let field = field(kinds.into_iter().skip(2 - count), slope);
         let origin = field.lattice().bounds().min;
         let place = Point(dvec2(random.f64(), random.f64()));
-        let value = |p: DVec2| field.ungraded_at(paint, origin + p).0 + slope * p.distance(place.nearest(p));
+        let value =
+            |p: DVec2| field.ungraded_at(paint, origin + p).target + slope * p.distance(place.nearest(p));
         let search = GradationSearch { field: &field, paint, place: Point(place.0), slope, finest: 4 };
         let known = &mut KnownParts::default();
         for _ in 0..300 {

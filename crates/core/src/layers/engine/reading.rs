@@ -227,13 +227,13 @@ impl Reading {
     /// and not known for readings that may jump.
     pub fn slopes(&self, least: f64, greatest: f64) -> Bounds {
         match self {
-            // h̄ log(h_min / h_max) k risk^(k − 1), which is negative
+            // h̄ log(h_risk / h_max) k risk^(k − 1), which is negative
             Self::Risk { transfer, .. } => {
-                let Transfer { h_min, h_max, shape } = *transfer;
+                let Transfer { h_min: _, h_risk, h_max, shape } = *transfer;
                 let [low, high] = [least, greatest].map(|risk| libm::pow(risk, shape - 1.0));
                 let power = Bounds::new(low.min(high), low.max(high));
                 let diameter = Bounds::new(transfer.diameter(greatest), transfer.diameter(least));
-                let factor = libm::log(h_min / h_max) * shape;
+                let factor = libm::log(h_risk / h_max) * shape;
                 let factor = Bounds::new(factor * (1.0 + 1e-12), factor * (1.0 - 1e-12));
                 diameter.times(power).times(factor)
             }

@@ -231,7 +231,7 @@ const MOST_OPERATIONS: usize = 48;
 pub fn run_bytes(bytes: &[u8]) {
     let mut choices = Bytes(bytes);
     let domain = domains()[choices.below(4)].clone();
-    let transfer = Transfer { h_min: SMALL.diameter, ..Settings::default().transfer };
+    let transfer = Transfer::between(SMALL.diameter, Settings::default().transfer.h_max);
     let mut driver = Driver::new(Settings {
         domain,
         max_triangles: 20 * SMALL.triangles,

@@ -14,6 +14,7 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
     let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
     match choices.below(16) {
         0 if choices.below(2) == 0 => Setting::SmallestDiameter(scale.smallest * (1.0 + choices.share())),
+        1 if choices.below(2) == 0 => Setting::DiameterAtRiskOne(diameter),
         0 | 1 => Setting::SmallestDiameter(diameter),
         2 => Setting::LargestDiameter(largest_diameter(choices, diameter)),
         3 => Setting::TransferShape(0.5 + 2.0 * choices.share()),
@@ -76,12 +77,13 @@ fn inside(choices: &mut impl Choices) -> Domain {
 /// Returns a setting that no document accepts.
 fn impossible(choices: &mut impl Choices) -> Setting {
     let bad = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300][choices.below(5)];
-    match choices.below(6) {
+    match choices.below(7) {
         0 => Setting::Spacing(bad),
         1 => Setting::SmallestDiameter(bad),
         2 => Setting::TransferShape(bad),
         3 => Setting::Gradation(Some(if bad == 1e-300 { -bad } else { bad })),
-        4 => Setting::Layers(Layer::usual(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad }))),
+        4 => Setting::DiameterAtRiskOne(if bad == 1e-300 { -bad } else { bad }),
+        5 => Setting::Layers(Layer::usual(LayerKind::constant(if bad == 1e-300 { 0.0 } else { bad }))),
         _ => Setting::Bounds(Rect::new(DVec2::ZERO, dvec2(bad, 1.0))),
     }
 }

@@ -37,7 +37,7 @@ const PLACES: [(&str, &str); 26] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (3, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (4, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -55,7 +55,7 @@ paths: routes cost keep_out
 paths.cost: weights formula
 paths.cost.weights: length risk
 paths.keep_out: name polygons
-transfer: h_min h_max shape
+transfer: h_min h_risk h_max shape
 rule: vertex area
 layers: id layer raster
 layers.raster: part bounds columns rows

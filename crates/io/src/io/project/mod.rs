@@ -14,7 +14,8 @@
 //! `settings.json`.
 //!
 //! Version 1 had one base field (`base.risk` or `base.diameter`) and two rasters of paint (`paint.tiles`) in
-//! place of the layers. Version 2 had no pins, paths and corridors.
+//! place of the layers. Version 2 had no pins, paths and corridors. In version 3 the curve from risk to
+//! diameter ended at the smallest diameter, and paths had no names.
 //!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
@@ -64,7 +65,7 @@ use settings::{Parts, Saved};
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";

@@ -171,6 +171,9 @@ impl From<SavedCleaning> for Cleaning {
 #[serde(deny_unknown_fields)]
 struct SavedTransfer {
     h_min: f64,
+    /// Since version 4; the smallest diameter where it is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    h_risk: Option<f64>,
     h_max: f64,
     shape: f64,
 }
@@ -192,10 +195,21 @@ pub(super) trait Parts {
     fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
 }
 
+impl SavedTransfer {
+    fn of(Transfer { h_min, h_risk, h_max, shape }: Transfer) -> Self {
+        Self { h_min, h_risk: (h_risk != h_min).then_some(h_risk), h_max, shape }
+    }
+}
+
+impl From<SavedTransfer> for Transfer {
+    fn from(SavedTransfer { h_min, h_risk, h_max, shape }: SavedTransfer) -> Self {
+        Self { h_min, h_risk: h_risk.unwrap_or(h_min), h_max, shape }
+    }
+}
+
 impl Saved {
     /// Returns the settings, whose rasters and pictures have the given names.
     pub(super) fn of(settings: &Settings, names: &PartNames) -> Self {
-        let Transfer { h_min, h_max, shape } = settings.transfer;
         Self {
             format: FORMAT.into(),
             version: VERSION,
@@ -221,7 +235,7 @@ impl Saved {
             pins: settings.pins.iter().map(DVec2::to_array).collect(),
             paths: SavedPaths::of(&settings.paths),
             spacing: settings.spacing,
-            transfer: SavedTransfer { h_min, h_max, shape },
+            transfer: SavedTransfer::of(settings.transfer),
             base: None,
             resolution: None,
             layers: Some(settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect()),
@@ -304,11 +318,7 @@ impl Saved {
             pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
             paths: self.paths.load()?,
             spacing: self.spacing,
-            transfer: Transfer {
-                h_min: self.transfer.h_min,
-                h_max: self.transfer.h_max,
-                shape: self.transfer.shape,
-            },
+            transfer: self.transfer.into(),
             layers,
             gradation: self.gradation,
             rule: self.rule.into(),

@@ -40,10 +40,11 @@ fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseErr
         [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));
     let transfer = &mut settings.transfer;
     if transfer.h_max == f64::MAX {
-        transfer.h_max = largest.max(transfer.h_min);
+        transfer.h_max = largest.max(transfer.h_risk);
     }
     if transfer.h_min == f64::MIN_POSITIVE {
         transfer.h_min = smallest.min(transfer.h_max);
+        transfer.h_risk = transfer.h_risk.max(transfer.h_min);
     }
     Ok(settings)
 }

@@ -25,6 +25,7 @@ max_memory = "2GB"
 
 [limits]
 h_min = 0.01
+h_risk = 0.02
 h_max = 1
 shape = 1.5
 gradation = 0.3
@@ -115,7 +116,8 @@ fn a_recipe_with_everything_is_read() {
     assert_eq!(settings.domain.region.as_deref(), Some(Path::new("sea.geojson")));
     assert_eq!((settings.mesh.spacing, settings.mesh.max_memory.as_deref()), (Some(0.5), Some("2GB")));
     let limits = &settings.limits;
-    assert_eq!((limits.h_min, limits.h_max, limits.gradation), (Some(0.01), Some(1.0), Some(0.3)));
+    assert_eq!((limits.h_min, limits.h_risk, limits.h_max), (Some(0.01), Some(0.02), Some(1.0)));
+    assert_eq!((limits.shape, limits.gradation), (Some(1.5), Some(0.3)));
     assert_eq!(settings.domain.parts, Some(SavedParts::Share(0.01)));
     let names: Vec<&str> = settings.layer.iter().map(|layer| layer.shown_name()).collect();
     assert_eq!(names, ["Open sea", "Raster", "Threats", "Distance", "Band", "Paint"]);
@@ -394,7 +396,8 @@ fn a_written_recipe_is_readable() {
                        kind = \"formula\"\nquantity = \"diameter\"\nformula = \"0.5 + 0.1*x\"\n\n[[layer]]\n";
     assert!(written.contains(first_layer), "{written}");
     assert!(
-        written.contains("\n\n[limits]\nh_min = 0.01\nh_max = 1\nshape = 1.5\ngradation = 0.3\n"),
+        written
+            .contains("\n\n[limits]\nh_min = 0.01\nh_risk = 0.02\nh_max = 1\nshape = 1.5\ngradation = 0.3\n"),
         "{written}"
     );
     let threats = "threats = [\n  { x = 24, y = 37, range = 0.5, peak = 0.9, law = \"gaussian\" },\n";

@@ -14,7 +14,7 @@ const HEADER: &str =
 const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
 
 /// The order of keys. Others follow in the order of their letters.
-const ORDER: [&str; 35] = [
+const ORDER: [&str; 36] = [
     "region",
     "bounds",
     "inside",
@@ -22,6 +22,7 @@ const ORDER: [&str; 35] = [
     "spacing",
     "rule",
     "h_min",
+    "h_risk",
     "h_max",
     "shape",
     "gradation",

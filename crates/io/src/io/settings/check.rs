@@ -58,8 +58,8 @@ impl SavedSettings {
             let problem = if layer.is_paint() && layer.file.is_none() {
                 "paint has no form as text; name the project that holds it, as in file = \"harbour.meshbrush\"."
             } else if !has_scale {
-                "risk and images need `h_min` in the table [limits]: the target diameter where the risk is 1 or the \
-                 image black."
+                "risk and images need `h_min` in the table [limits]: the smallest target diameter, where the risk is 1 \
+                 or the image black."
             } else {
                 continue;
             };
@@ -197,12 +197,18 @@ impl SavedLimits {
     /// Fails for the first one that cannot be used.
     pub fn check(&self) -> Result<(), KeyFault> {
         self.h_min.map_or(Ok(()), |h_min| length("h_min", h_min))?;
+        self.h_risk.map_or(Ok(()), |h_risk| length("h_risk", h_risk))?;
         self.h_max.map_or(Ok(()), |h_max| length("h_max", h_max))?;
-        // Where one end is not given, the other takes its place: only the rest is checked then.
-        let h_min = self.h_min.or(self.h_max).unwrap_or(1.0);
-        let h_max = self.h_max.unwrap_or(h_min);
-        let transfer = Transfer { h_min, h_max, shape: self.shape.unwrap_or(1.0) };
-        let wrong_key = if h_min > h_max { "h_max" } else { "shape" };
+        // Where one end is not given, another takes its place: only the rest is checked then.
+        let h_min = self.h_min.or(self.h_risk).or(self.h_max).unwrap_or(1.0);
+        let h_risk = self.h_risk.unwrap_or(h_min);
+        let h_max = self.h_max.unwrap_or(h_risk.max(h_min));
+        let transfer = Transfer { h_min, h_risk, h_max, shape: self.shape.unwrap_or(1.0) };
+        let wrong_key = match () {
+            _ if h_min > h_max => "h_max",
+            _ if !(h_min..=h_max).contains(&h_risk) => "h_risk",
+            _ => "shape",
+        };
         transfer.checked().map_err(|error| KeyFault::value(wrong_key, error.to_string()))?;
         match self.gradation {
             Some(gradation) if !(gradation > 0.0 && gradation.is_finite()) => {

@@ -154,13 +154,14 @@ impl<L> SavedSettings<L> {
         Ok(ReadRegion { domain: Domain { bounds, shape }, marks, unit })
     }
 
-    /// Returns the curve from risk to diameter; its ends bound h̄.
+    /// Returns the limits of h̄ and the curve from risk to diameter.
     fn transfer<S: Storage<Layer = L>>(&self, coarse_diameter: f64) -> Transfer {
         let h_min = self.limits.h_min.unwrap_or(f64::MIN_POSITIVE);
         let uses_scale = self.layer.iter().any(|layer| S::keys(layer).uses_scale());
-        let widest = if uses_scale { coarse_diameter.max(h_min) } else { f64::MAX };
+        let h_risk = self.limits.h_risk.unwrap_or(h_min);
+        let widest = if uses_scale { coarse_diameter.max(h_risk) } else { f64::MAX };
         let h_max = self.limits.h_max.unwrap_or(widest);
-        Transfer { h_min, h_max, shape: self.limits.shape.unwrap_or(1.0) }
+        Transfer { h_min, h_risk, h_max, shape: self.limits.shape.unwrap_or(1.0) }
     }
 
     /// Returns which points of a triangle count where that is not given: the area rule misses no pixel.

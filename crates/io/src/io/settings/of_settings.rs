@@ -6,6 +6,7 @@ use super::{
 };
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryTreatment, DomainShape};
+use meshbrush_core::field::Transfer;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Bytes, LengthUnit};
 
@@ -24,10 +25,12 @@ impl<L> SavedSettings<L> {
                 .then(|| Bytes(settings.max_memory).exactly()),
             max_level: None,
         };
+        let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
         let limits = SavedLimits {
-            h_min: Some(settings.transfer.h_min),
-            h_max: Some(settings.transfer.h_max),
-            shape: (settings.transfer.shape != 1.0).then_some(settings.transfer.shape),
+            h_min: Some(h_min),
+            h_risk: (h_risk != h_min).then_some(h_risk),
+            h_max: Some(h_max),
+            shape: (shape != 1.0).then_some(shape),
             gradation: settings.gradation,
         };
         Self {

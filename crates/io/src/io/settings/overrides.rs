@@ -12,7 +12,7 @@ impl<L> SavedSettings<L> {
     pub fn overridden_by<O>(self, options: &SavedSettings<O>) -> Self {
         let SavedDomain { boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
         let SavedMesh { spacing, rule, max_triangles, max_level, max_memory } = &options.mesh;
-        let SavedLimits { h_min, h_max, shape, gradation } = options.limits;
+        let SavedLimits { h_min, h_risk, h_max, shape, gradation } = options.limits;
         Self {
             domain: SavedDomain {
                 boundary: boundary.or(self.domain.boundary),
@@ -30,6 +30,7 @@ impl<L> SavedSettings<L> {
             },
             limits: SavedLimits {
                 h_min: h_min.or(self.limits.h_min),
+                h_risk: h_risk.or(self.limits.h_risk),
                 h_max: h_max.or(self.limits.h_max),
                 shape: shape.or(self.limits.shape),
                 gradation: gradation.or(self.limits.gradation),
@@ -45,9 +46,13 @@ impl SavedSettings {
     /// # Errors
     /// Fails when a value cannot be used.
     pub fn override_settings(&self, settings: Settings) -> Result<Settings, KeyFault> {
-        let Transfer { h_min, h_max, shape } = settings.transfer;
+        let Transfer { h_min, h_risk, h_max, shape } = settings.transfer;
+        // As in a recipe: the curve ends at the smallest diameter, unless another end is given.
+        let own_risk = (h_risk != h_min).then_some(h_risk);
+        let h_min = self.limits.h_min.unwrap_or(h_min);
         let transfer = Transfer {
-            h_min: self.limits.h_min.unwrap_or(h_min),
+            h_min,
+            h_risk: self.limits.h_risk.or(own_risk).unwrap_or(h_min),
             h_max: self.limits.h_max.unwrap_or(h_max),
             shape: self.limits.shape.unwrap_or(shape),
         };

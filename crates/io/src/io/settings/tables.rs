@@ -118,6 +118,9 @@ pub struct SavedLimits {
     /// Smallest target diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub h_min: Option<f64>,
+    /// Target diameter at risk 1; the smallest where it is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub h_risk: Option<f64>,
     /// Largest target diameter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub h_max: Option<f64>,

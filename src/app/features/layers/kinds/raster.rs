@@ -96,8 +96,8 @@ fn read_as(
         Meaning::Risk => checked(RasterReading::Risk)?,
         Meaning::Diameter => checked(RasterReading::Diameter)?,
         Meaning::Curve => {
-            let Transfer { h_min, h_max, .. } = *transfer;
-            let ends = if *before == RasterReading::Risk { [h_max, h_min] } else { [h_min, h_max] };
+            let Transfer { h_min, h_risk, h_max, shape: _ } = *transfer;
+            let ends = if *before == RasterReading::Risk { [h_max, h_risk] } else { [h_min, h_max] };
             let curve = source.raster.finite_range().and_then(|range| ValueCurve::over(range, ends));
             let curve = curve.ok_or_else(|| {
                 let name = &source.name;

@@ -122,7 +122,7 @@ fn a_raster_of_risk_goes_through_a_curve_whose_knots_are_typed() {
     let transfer = settings(&window).transfer;
     let [[least, at_least], [greatest, at_greatest]] = knots(&window)[..] else { panic!("two knots") };
     assert!(least < greatest);
-    assert_eq!([at_least, at_greatest], [transfer.h_max, transfer.h_min], "fine where the risk was great");
+    assert_eq!([at_least, at_greatest], [transfer.h_max, transfer.h_risk], "fine where the risk was great");
     let before = triangles(&window);
     type_into(&mut window, "Knot 2 diameter", &transfer.h_max.to_string());
     assert_eq!(knots(&window)[1], [greatest, transfer.h_max]);

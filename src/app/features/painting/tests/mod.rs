@@ -1,4 +1,5 @@
 //! Strokes, the modes of the brush, and undo.
 
 mod brush;
+mod limit;
 mod strokes;
