@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use glam::DVec2;
 
 use crate::build::RefinementCriterion;
-use crate::explain::{AgesNow, asks_to_bisect};
+use crate::explain::asks_to_bisect;
 use crate::geometry::Rect;
+use crate::layers::{PaintLayers, SettledSquares, SizeField};
 use crate::mesh::{Limits, Mesh, TreeTriangle, TriangleId};
 use crate::raster::Raster;
 
@@ -31,34 +32,45 @@ impl<'a> PixelTriangles<'a> {
         })
     }
 
-    /// log₂ of h̄ / h at each pixel, at least 0: by how many halvings the mesh is finer than h̄ asks for
-    /// there. NaN beyond the mesh. `target` has h̄ at the same pixels.
-    pub fn slack(&self, target: &Raster) -> Vec<f32> {
-        let slack = |id: TriangleId, target: f32| {
-            let diameter = self.mesh.diameter(self.mesh.triangle(id).level());
-            libm::log2(f64::from(target) / diameter).max(0.0) as f32
-        };
-        let pixels = self.iter().zip(target.values());
-        pixels.map(|((_, id), &target)| id.map_or(f32::NAN, |id| slack(id, target))).collect()
-    }
-
-    /// Returns how many edits ago the triangle at each pixel came; `None` if it was there before the first,
-    /// and beyond the mesh.
-    pub fn ages(&self, ages: &AgesNow) -> Vec<Option<u32>> {
-        self.iter().map(|(_, id)| ages.of(id?)).collect()
-    }
-
-    /// Returns whether the triangle at each pixel is there for compatibility only: its parent does not exceed
-    /// its target.
-    pub fn forced(&self, criterion: &RefinementCriterion<'_>, limits: &Limits) -> Vec<bool> {
+    /// Returns the colour of the triangle at each pixel, as `color` has it for each triangle once, or the one
+    /// for pixels `beyond` the mesh. `None` where `goes_on` says at the beginning of a row that nobody wants
+    /// them any more.
+    pub fn colors(
+        &self,
+        goes_on: &dyn Fn() -> bool,
+        beyond: [u8; 4],
+        mut color: impl FnMut(TriangleId) -> [u8; 4],
+    ) -> Option<Vec<[u8; 4]>> {
+        let columns = self.grid.size()[0] as usize;
         let mut known = HashMap::new();
-        let mut is_forced = |id: TriangleId| {
-            *known.entry(id).or_insert_with(|| {
-                let parent = TreeTriangle::of(self.mesh, id).parent(self.mesh.lattice());
-                parent.is_some_and(|parent| !asks_to_bisect(&parent, criterion, limits))
-            })
-        };
-        self.iter().map(|(_, id)| id.is_some_and(&mut is_forced)).collect()
+        let colors = self.iter().enumerate().map(|(place, (_, id))| {
+            if place % columns == 0 && !goes_on() {
+                return None;
+            }
+            Some(id.map_or(beyond, |id| *known.entry(id).or_insert_with(|| color(id))))
+        });
+        colors.collect()
+    }
+
+    /// log₂ of h̄ / h of a triangle, at least 0: by how many halvings it is finer than h̄ asks for at its
+    /// middle. `squares` must have been used for this field and these pixels only.
+    pub fn slack(
+        &self,
+        id: TriangleId,
+        field: &SizeField,
+        paint: &PaintLayers,
+        squares: &mut SettledSquares,
+    ) -> f32 {
+        let corners = self.mesh.corners(id).map(|corner| self.mesh.lattice().world_from_lattice(corner));
+        let middle = corners.iter().sum::<DVec2>() / 3.0;
+        let target = field.quick_decision_at(squares, paint, middle).target;
+        libm::log2(target / self.mesh.diameter(self.mesh.triangle(id).level())).max(0.0) as f32
+    }
+
+    /// Returns whether a triangle is there for compatibility only: its parent does not exceed its target.
+    pub fn is_forced(&self, id: TriangleId, criterion: &RefinementCriterion<'_>, limits: &Limits) -> bool {
+        let parent = TreeTriangle::of(self.mesh, id).parent(self.mesh.lattice());
+        parent.is_some_and(|parent| !asks_to_bisect(&parent, criterion, limits))
     }
 }
 
@@ -70,7 +82,6 @@ mod tests {
     use crate::explain::Explanation;
     use crate::field::RefinementRule;
     use crate::fixture;
-    use crate::layers::PaintLayers;
     use crate::mesh::Cause;
 
     #[test]
@@ -81,19 +92,30 @@ mod tests {
         let size = [40, 40];
         let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, size);
         let criterion = RefinementCriterion::by_area(&built.domain, &built.field, PaintLayers::blank());
-        let forced = pixels.forced(&criterion, &limits);
-        let slack = pixels.slack(&built.field.sampled(PaintLayers::blank(), Rect::UNIT, size));
+        let forced = |id| pixels.is_forced(id, &criterion, &limits);
+        let mut squares = SettledSquares::default();
+        let mut slack = |id| pixels.slack(id, &built.field, PaintLayers::blank(), &mut squares);
         let mut both = [0, 0];
-        for (((point, id), forced), slack) in pixels.iter().zip(&forced).zip(&slack) {
-            let triangle = TreeTriangle::of(&built.mesh, id.unwrap());
+        for (point, id) in pixels.iter() {
+            let id = id.unwrap();
+            let triangle = TreeTriangle::of(&built.mesh, id);
             let cause = Explanation::new(&built.mesh, triangle, &criterion, &limits).cause;
-            assert_eq!(*forced, matches!(cause, Cause::Compatibility { .. }), "{point}");
-            both[usize::from(*forced)] += 1;
-            assert!(*slack >= 0.0);
+            assert_eq!(forced(id), matches!(cause, Cause::Compatibility { .. }), "{point}");
+            both[usize::from(forced(id))] += 1;
+            assert!(slack(id) >= 0.0);
         }
         assert!(both[0] > 100 && both[1] > 100, "{both:?}");
+        let mut asked = 0;
+        let colors = pixels.colors(&|| true, [9; 4], |id| {
+            asked += 1;
+            [u8::from(forced(id)); 4]
+        });
+        let expected: Vec<_> = pixels.iter().map(|(_, id)| [u8::from(forced(id.unwrap())); 4]).collect();
+        assert_eq!(colors, Some(expected));
+        assert!(asked < 1600, "each triangle once: {asked}");
+        assert_eq!(pixels.colors(&|| false, [9; 4], |_| [0; 4]), None);
         // A coarse triangle has the diameter 0.14 where 0.3 is asked for.
-        let corner = pixels.iter().position(|(point, _)| point.distance(dvec2(0.99, 0.99)) < 0.02).unwrap();
-        assert!((f64::from(slack[corner]) - libm::log2(0.3 / 0.141_421_356)).abs() < 1e-3);
+        let corner = pixels.iter().find(|(point, _)| point.distance(dvec2(0.99, 0.99)) < 0.02).unwrap();
+        assert!((f64::from(slack(corner.1.unwrap())) - libm::log2(0.3 / 0.141_421_356)).abs() < 1e-3);
     }
 }

@@ -1,9 +1,8 @@
 //! The legend of what is drawn over the mesh.
 
-use eframe::egui::{Align2, Color32, Mesh, Rect, Role, Sense, Shape, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::overlay::{FORCED, MOST_SLACK, OLD_AGE, age_color, risk_color, slack_color};
-use crate::app::features::layers::layer_color32;
+use super::overlay_palette::{MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR};
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
@@ -23,18 +22,24 @@ const MARGIN: Vec2 = vec2(10.0, 7.0);
 /// the paths below it. They take no clicks.
 pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     let inner = inner.with_min_y(inner.top() + 12.0);
+    let palette = &palette_of(state);
     let content = match state.view.overlay {
-        FieldOverlay::Risk => Some(risk_legend(ui, inner)),
+        FieldOverlay::Risk => Some(risk_legend(ui, inner, palette)),
         FieldOverlay::Target => Some(target_legend(ui, inner, state)),
-        FieldOverlay::Layer => Some(layer_legend(ui, inner, state)),
-        FieldOverlay::Slack => Some(slack_legend(ui, inner)),
-        FieldOverlay::Forced => Some(forced_legend(ui, inner)),
-        FieldOverlay::Age => Some(age_legend(ui, inner)),
+        FieldOverlay::Layer => Some(layer_legend(ui, inner, state, palette)),
+        FieldOverlay::Slack => Some(slack_legend(ui, inner, palette)),
+        FieldOverlay::Forced => Some(forced_legend(ui, inner, palette)),
+        FieldOverlay::Age => Some(age_legend(ui, inner, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None => None,
     };
     let top = content.map_or(inner.top(), |content| content.bottom() + MARGIN.y + 8.0);
     path_legend(ui, inner.with_min_y(top), state);
+}
+
+/// Returns the colours of overlays as they are drawn.
+fn palette_of(state: &FrameState<'_>) -> OverlayPalette {
+    OverlayPalette::new(state.view.ground, state.view.level_colors(state.session.follower().settings()))
 }
 
 /// Draws the box of a legend with its title, and returns the place for its content.
@@ -49,62 +54,40 @@ fn boxed(ui: &Ui, inner: Rect, height: f32, title: &str, spoken: &str) -> Rect {
     within.with_min_y(within.top() + TITLE)
 }
 
-/// Returns risk from 0 to 1 in the colours over level 0.
-fn risk_legend(ui: &Ui, inner: Rect) -> Rect {
+/// Returns risk from 0 to 1, a cell for each sixteenth.
+fn risk_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let place = boxed(ui, inner, 30.0, "Risk", "Legend: risk 0 to 1");
-    let t = tokens(ui);
-    let bar = place.with_max_y(place.top() + 12.0);
-    let mut mesh = Mesh::default();
-    for i in 0..=16_u8 {
-        let [r, g, b, a] = risk_color((f32::from(i) / 16.0 * 255.0) as u8);
-        let color = t.level_zero.blend(Color32::from_rgba_unmultiplied(r, g, b, a));
-        let x = bar.left() + bar.width() * f32::from(i) / 16.0;
-        mesh.colored_vertex(pos2(x, bar.top()), color);
-        mesh.colored_vertex(pos2(x, bar.bottom()), color);
-        if i > 0 {
-            let last = 2 * u32::from(i);
-            mesh.add_triangle(last - 2, last - 1, last);
-            mesh.add_triangle(last - 1, last, last + 1);
-        }
-    }
-    ui.painter().add(Shape::mesh(mesh));
-    for (x, align, text) in [
-        (bar.left(), Align2::LEFT_TOP, "0"),
-        (bar.center().x, Align2::CENTER_TOP, "0.5"),
-        (bar.right(), Align2::RIGHT_TOP, "1"),
-    ] {
-        ui.painter().text(pos2(x, bar.bottom() + 3.0), align, text, font::axis(), t.label);
-    }
+    let colors = (0..=16_u8).map(|i| palette.risk((f32::from(i) / 16.0 * 255.0) as u8));
+    scale(ui, place, colors, ["0", "0.5", "1"].map(str::to_owned));
     place
 }
 
-/// Returns how often the mesh could be halved less, in the colours over level 0.
-fn slack_legend(ui: &Ui, inner: Rect) -> Rect {
+/// Returns how often the mesh could be halved less.
+fn slack_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let place = boxed(ui, inner, 30.0, "Slack h̄ / h", "Legend: slack 1 to 16");
     let steps = 16u16;
-    let color = |step| slack_color((f32::from(step) + 0.5) / f32::from(steps) * MOST_SLACK);
+    let color = |step| palette.slack((f32::from(step) + 0.5) / f32::from(steps) * MOST_SLACK);
     scale(ui, place, (0..steps).map(color), ["1", "4", "≥ 16"].map(str::to_owned));
     place
 }
 
 /// Shows the legend of ages, from the last edit to old triangles, with a cell for each edit.
-fn age_legend(ui: &Ui, inner: Rect) -> Rect {
+fn age_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
-    let colors = (0..OLD_AGE + 1).map(|age| age_color(Some(age)));
+    let colors = (0..OLD_AGE + 1).map(|age| palette.age(Some(age)));
     scale(ui, place, colors, ["0".into(), (OLD_AGE / 2).to_string(), format!("≥ {OLD_AGE}")]);
     place
 }
 
-/// Cells of colours over level 0 side by side, with text below the left, the middle and the right.
-fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = [u8; 4]>, texts: [String; 3]) {
+/// Cells of colours side by side, with text below the left, the middle and the right.
+fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = Opaque>, texts: [String; 3]) {
     let t = tokens(ui);
     let bar = place.with_max_y(place.top() + 12.0);
     let width = bar.width() / colors.len() as f32;
-    for (cell, [r, g, b, a]) in colors.enumerate() {
+    for (cell, [r, g, b, _]) in colors.enumerate() {
         let left = bar.left() + width * cell as f32;
         let cell = Rect::from_min_size(pos2(left, bar.top()), vec2(width, bar.height()));
-        let color = t.level_zero.blend(Color32::from_rgba_unmultiplied(r, g, b, a));
-        ui.painter().rect_filled(cell, 0.0, color);
+        ui.painter().rect_filled(cell, 0.0, Color32::from_rgb(r, g, b));
     }
     let places = [
         (bar.left(), Align2::LEFT_TOP),
@@ -117,11 +100,11 @@ fn scale(ui: &Ui, place: Rect, colors: impl ExactSizeIterator<Item = [u8; 4]>, t
 }
 
 /// Returns the colour of triangles that only compatibility asked for.
-fn forced_legend(ui: &Ui, inner: Rect) -> Rect {
+fn forced_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let spoken = "Legend: triangles that only compatibility asked for";
     let place = boxed(ui, inner, LAYER_ROW, "Cause", spoken);
     let swatch = Rect::from_min_size(place.min + vec2(0.0, 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
-    let [r, g, b, _] = FORCED;
+    let [r, g, b, _] = palette.forced(true);
     ui.painter().rect_filled(swatch, 2.0, Color32::from_rgb(r, g, b));
     let room = Rect::from_min_max(pos2(swatch.right() + 6.0, place.top()), place.right_bottom());
     elided_text(ui, room, "compatibility", tokens(ui).value);
@@ -129,7 +112,7 @@ fn forced_legend(ui: &Ui, inner: Rect) -> Rect {
 }
 
 /// Returns the visible layers in their colours, from the top.
-fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
+fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
     let layers = &state.session.follower().settings().layers;
     let visible: Vec<_> = layers.iter().rev().filter(|layer| layer.visible).collect();
     let rows = ((inner.height() * 0.7 - TITLE) / LAYER_ROW).max(1.0) as usize;
@@ -141,7 +124,8 @@ fn layer_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
     for (row, layer) in visible.iter().take(shown).enumerate() {
         let top = place.top() + LAYER_ROW * row as f32;
         let swatch = Rect::from_min_size(pos2(place.left(), top + 3.0), vec2(SWATCH, LAYER_ROW - 6.0));
-        ui.painter().rect_filled(swatch, 2.0, layer_color32(layer.id));
+        let [r, g, b, _] = palette.layer(Some(layer.id));
+        ui.painter().rect_filled(swatch, 2.0, Color32::from_rgb(r, g, b));
         let room = Rect::from_min_max(pos2(swatch.right() + 6.0, top), pos2(place.right(), top + LAYER_ROW));
         elided_text(ui, room, &layer.name, t.value);
     }

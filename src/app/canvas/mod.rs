@@ -7,6 +7,7 @@ mod gpu;
 mod legend;
 mod menu;
 mod overlay;
+mod overlay_palette;
 mod price;
 mod way_back;
 
@@ -17,6 +18,7 @@ use glam::DVec2;
 
 pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
+use overlay_palette::OverlayPalette;
 
 use super::busy::Busy;
 use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
@@ -320,8 +322,11 @@ impl Canvas {
         };
         let settings = session.follower().settings();
         let colors = view.level_colors(settings);
-        let overlay = self.overlay_colors.overlay(view.overlay, session, colors, &self.jobs);
+        let palette = OverlayPalette::new(view.ground, colors);
+        let neutral = palette.neutral();
+        let overlay = self.overlay_colors.overlay(view.overlay, session, palette, &camera, &self.jobs);
         let style = view.style(settings, ui.pixels_per_point());
+        let style = if overlay.is_some() { style.under(neutral) } else { style };
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),

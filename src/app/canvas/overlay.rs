@@ -1,23 +1,17 @@
-//! The field as colours, drawn over the mesh. They are computed on another thread: sampling many layers takes
-//! longer than a frame.
+//! The field as colours, in place of those of the levels. They are computed on another thread: sampling many
+//! layers takes longer than a frame.
 
 use super::super::contours::pixels_over;
-use super::super::features::layers::layer_color32;
 use super::super::jobs::{Jobs, Slot, Wanted};
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
+use super::overlay_palette::OverlayPalette;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::layers::{Layer, LayerId, PaintLayers, SizeField};
+use meshbrush_core::layers::{Layer, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_render::colormap::LevelColors;
-use meshbrush_render::scene::Overlay;
+use meshbrush_render::scene::{Camera, Overlay};
 use meshbrush_study::pixels::PixelTriangles;
-
-/// How strongly h̄ covers the mesh, 0 to 1.
-const TARGET_OPACITY: f32 = 0.75;
-/// How strongly the colours of layers do: the mesh stays readable.
-const LAYER_OPACITY: f32 = 0.55;
 
 /// The data from which colours are made.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,15 +19,37 @@ struct OverlayState {
     kind: FieldOverlay,
     document: u64,
     mesh: u64,
+    /// The rectangle of the domain, in world units.
+    domain: Rect,
+    /// The rectangle of the pixels, in world units.
     bounds: Rect,
-    colors: LevelColors,
+    /// [columns, rows] of the pixels.
+    size: [u32; 2],
+    palette: OverlayPalette,
+}
+
+impl OverlayState {
+    /// Returns whether each triangle has one colour. Those of the visible part of the mesh are found pixel by
+    /// pixel of the screen, so that they are exact at any zoom.
+    fn is_of_triangles(kind: FieldOverlay) -> bool {
+        matches!(kind, FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age)
+    }
+
+    fn new(kind: FieldOverlay, session: &Session, palette: OverlayPalette, camera: &Camera) -> Self {
+        let (document, follower) = (session.document(), session.follower());
+        let domain = document.settings().domain.bounds;
+        let (bounds, size) = match Self::is_of_triangles(kind) {
+            true => (camera.visible_world(), camera.size_px()),
+            false => (domain, pixels_over(&domain)),
+        };
+        let (document, mesh) = (document.revision(), follower.revision());
+        Self { kind, document, mesh, domain, bounds, size, palette }
+    }
 }
 
 /// Colours by pixel, row by row from the lowest.
 struct Pixels {
     rgba: Vec<[u8; 4]>,
-    /// [columns, rows].
-    size: [u32; 2],
 }
 
 /// The colours of an overlay, computed again only when what they show has changed.
@@ -50,36 +66,31 @@ impl OverlayColors {
         &'a mut self,
         kind: FieldOverlay,
         session: &Session,
-        colors: LevelColors,
+        palette: OverlayPalette,
+        camera: &Camera,
         jobs: &Jobs,
     ) -> Option<Overlay<'a>> {
         if kind == FieldOverlay::None {
             self.latest.stop(jobs);
             return None;
         }
-        let (document, follower) = (session.document(), session.follower());
-        let bounds = document.settings().domain.bounds;
-        let (document_state, mesh) = (document.revision(), follower.revision());
-        let state = OverlayState { kind, document: document_state, mesh, bounds, colors };
+        let beyond = palette.neutral();
+        let state = OverlayState::new(kind, session, palette, camera);
         self.take_ready(jobs);
         self.latest.want(&state, jobs);
-        // Those of another domain or another kind are of no use.
-        self.latest.keep_if(|found| found.kind == kind && found.bounds == bounds);
+        // Those of another domain, another kind or another theme are of no use.
+        self.latest.keep_if(|found| {
+            (found.kind, found.domain, &found.palette) == (kind, state.domain, &state.palette)
+        });
         if !self.latest.is_running() && !self.latest.has(&state) {
             let compute = colors_of(state.clone(), session);
             self.latest.start_wanted(state, compute, jobs);
             let has_ended = self.latest.is_running() && !self.latest.take(jobs);
             self.note(has_ended);
         }
-        let (_, Pixels { rgba, size: [columns, rows] }) = self.latest.last()?;
-        let opacity = match kind {
-            FieldOverlay::Target => TARGET_OPACITY,
-            FieldOverlay::Layer | FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
-                LAYER_OPACITY
-            }
-            FieldOverlay::Risk | FieldOverlay::None => 1.0,
-        };
-        Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, opacity, revision: self.revision })
+        let (OverlayState { bounds, size: [columns, rows], .. }, Pixels { rgba }) = self.latest.last()?;
+        let (bounds, revision) = (*bounds, self.revision);
+        Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, beyond, revision })
     }
 
     fn take_ready(&mut self, jobs: &Jobs) {
@@ -100,36 +111,38 @@ fn colors_of(
     let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
-    let of_mesh = matches!(state.kind, FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age);
-    let mesh = of_mesh.then(|| follower.shared_mesh());
+    let mesh = OverlayState::is_of_triangles(state.kind).then(|| follower.shared_mesh());
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
     move |wanted| {
-        let size = pixels_over(&state.bounds);
+        let OverlayState { bounds, size, palette, .. } = &state;
         let goes_on = &|| wanted.goes_on();
-        let rgba = match state.kind {
-            FieldOverlay::Risk => risk_colors(&layers, &paint, state.bounds, size, goes_on)?,
-            FieldOverlay::Layer => layer_colors(&field.sampled_while(&paint, state.bounds, size, goes_on)?.1),
-            FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age => {
-                let mesh = mesh.expect("the mesh is shared for these overlays");
-                let pixels = PixelTriangles::new(&mesh, state.bounds, size);
-                wanted.goes_on().then_some(())?;
-                if let Some(ages) = ages {
-                    pixels.ages(&ages).into_iter().map(age_color).collect()
-                } else if state.kind == FieldOverlay::Slack {
-                    let (target, _) = field.sampled_while(&paint, state.bounds, size, goes_on)?;
-                    pixels.slack(&target).into_iter().map(slack_color).collect()
-                } else {
-                    let (domain, rule, limits) = rule.expect("the rule is taken along for this overlay");
-                    let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
-                    let forced = pixels.forced(&criterion, &limits);
-                    forced.into_iter().map(|forced| if forced { FORCED } else { [0; 4] }).collect()
-                }
+        let sampled = || field.sampled_while(&paint, *bounds, *size, goes_on);
+        let triangles = mesh.as_ref().map(|mesh| PixelTriangles::new(mesh, *bounds, *size));
+        let rgba = match (triangles, ages, rule) {
+            (Some(triangles), Some(ages), _) => {
+                triangles.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
             }
-            _ => target_colors(&field, &field.sampled_while(&paint, state.bounds, size, goes_on)?.0, &state),
+            (Some(triangles), _, Some((domain, rule, limits))) => {
+                let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+                triangles.colors(goes_on, palette.neutral(), |id| {
+                    palette.forced(triangles.is_forced(id, &criterion, &limits))
+                })
+            }
+            (Some(triangles), ..) => {
+                let mut squares = SettledSquares::default();
+                triangles.colors(goes_on, palette.neutral(), |id| {
+                    palette.slack(triangles.slack(id, &field, &paint, &mut squares))
+                })
+            }
+            _ if state.kind == FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
+            _ if state.kind == FieldOverlay::Layer => {
+                sampled().map(|(_, layers)| layers.into_iter().map(|layer| palette.layer(layer)).collect())
+            }
+            _ => sampled().map(|(target, _)| target_colors(&field, &target, palette)),
         };
-        Some(Pixels { rgba, size })
+        Some(Pixels { rgba: rgba? })
     }
 }
 
@@ -137,12 +150,11 @@ fn colors_of(
 fn risk_colors(
     layers: &[Layer],
     paint: &PaintLayers,
-    bounds: Rect,
-    size: [u32; 2],
+    state: &OverlayState,
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Vec<[u8; 4]>> {
-    let table: [[u8; 4]; 256] = std::array::from_fn(|i| risk_color(i as u8));
-    let grid = Raster::filled(bounds, size, 0u8);
+    let table: [[u8; 4]; 256] = std::array::from_fn(|i| state.palette.risk(i as u8));
+    let grid = Raster::filled(state.bounds, state.size, 0u8);
     let centers = grid.pixel_centers();
     let risk = |point| {
         let visible = layers.iter().filter(|layer| layer.visible);
@@ -152,43 +164,9 @@ fn risk_colors(
     grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| color((x, y)))).collect()
 }
 
-/// Returns the colours of the layers that decide h̄; transparent where none asks for anything.
-fn layer_colors(decisions: &[Option<LayerId>]) -> Vec<[u8; 4]> {
-    let color = |layer: &Option<LayerId>| layer.map_or([0; 4], |id| layer_color32(id).to_array());
-    decisions.iter().map(color).collect()
-}
-
-fn target_colors(field: &SizeField, target: &Raster, state: &OverlayState) -> Vec<[u8; 4]> {
+fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -> Vec<[u8; 4]> {
     let level = |target: f32| field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63) as u8;
-    target.values().iter().map(|&target| state.colors.of(level(target))).collect()
-}
-
-/// The colour of triangles that only compatibility asked for.
-pub const FORCED: [u8; 4] = [0xff, 0x8a, 0x1e, 0xff];
-
-/// Halvings from which on slack has its strongest colour.
-pub const MOST_SLACK: f32 = 4.0;
-
-/// Returns a colour from transparent to white, by the number of halvings by which the mesh is finer than h̄
-/// requires.
-pub fn slack_color(halvings: f32) -> [u8; 4] {
-    let share = (halvings / MOST_SLACK).clamp(0.0, 1.0);
-    [0xff, 0xff, 0xff, if halvings.is_nan() { 0 } else { (share * 255.0) as u8 }]
-}
-
-/// Edits from which on a triangle counts as old.
-pub const OLD_AGE: u32 = 10;
-
-/// Returns a colour from white for the last edit to transparent for old triangles, and for those from before
-/// the first edit.
-pub fn age_color(edits_ago: Option<u32>) -> [u8; 4] {
-    let age = edits_ago.map_or(OLD_AGE, |age| age.min(OLD_AGE));
-    [0xff, 0xff, 0xff, (255 * (OLD_AGE - age) / OLD_AGE) as u8]
-}
-
-/// Returns a colour from transparent to a warm red; alpha carries the risk.
-pub fn risk_color(risk: u8) -> [u8; 4] {
-    [0xff, 0x5a - risk / 6, 0x3c, (f32::from(risk) * 0.8) as u8]
+    target.values().iter().map(|&target| palette.level(level(target))).collect()
 }
 
 #[cfg(test)]
@@ -206,10 +184,13 @@ mod tests {
         let jobs = Jobs::new(&Context::default());
         jobs.hold();
         let session = Session::new(example(Example::ALL[0])).expect("the example has a mesh");
-        let colors = View::default().level_colors(session.document().settings());
+        let view = View::default();
+        let palette = OverlayPalette::new(view.ground, view.level_colors(session.document().settings()));
+        let lattice = session.mesh().lattice();
+        let camera = Camera::fit(lattice, lattice.bounds(), [100, 100], 0.0);
         let mut shown = OverlayColors::default();
         for kind in [FieldOverlay::Target, FieldOverlay::None].repeat(50) {
-            assert!(shown.overlay(kind, &session, colors.clone(), &jobs).is_none());
+            assert!(shown.overlay(kind, &session, palette.clone(), &camera, &jobs).is_none());
             assert!(jobs.threads(Kind::Compute) <= 1);
         }
         assert_eq!(jobs.started(), 1, "the first one has not ended for the window");

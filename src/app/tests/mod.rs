@@ -20,6 +20,7 @@ mod messages;
 mod numbers;
 mod orientation;
 mod other_window;
+mod overlays;
 pub mod pictures;
 mod project;
 mod recipes;

@@ -53,7 +53,7 @@ pub fn picture(window: &mut Window) -> Picture {
     Picture { width: image.width() as usize, rgba: image.into_raw() }
 }
 
-fn pixel(picture: &Picture, at: Pos2) -> [u8; 3] {
+pub fn pixel(picture: &Picture, at: Pos2) -> [u8; 3] {
     let start = 4 * (at.y.round() as usize * picture.width + at.x.round() as usize);
     picture.rgba[start..start + 3].try_into().unwrap()
 }

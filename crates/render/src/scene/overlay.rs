@@ -3,9 +3,11 @@ use glam::{DVec2, dvec2};
 use super::Camera;
 use meshbrush_mesh::geometry::Rect;
 
-/// A raster of colours drawn over the mesh, such as the painted field.
+/// A raster of colours that takes the place of the colours of the mesh, such as the painted field.
 ///
-/// It is sampled at the nearest pixel, so that its own resolution is visible.
+/// The picture of the mesh is multiplied by it: drawn with [`Style::under`](super::Style::under), triangles
+/// have exactly the colours of the raster, and edges are a dark tint of them. It is sampled at the nearest
+/// pixel, so that its own resolution is visible.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlay<'a> {
     /// The rectangle it covers, in world units.
@@ -14,10 +16,10 @@ pub struct Overlay<'a> {
     pub columns: u32,
     /// Number of rows.
     pub rows: u32,
-    /// Red, green, blue, alpha, not premultiplied, row by row from the lower left.
+    /// Red, green, blue and an unused byte, row by row from the lower left.
     pub rgba: &'a [[u8; 4]],
-    /// Opacity from 0 to 1.
-    pub opacity: f32,
+    /// The colour beyond the rectangle.
+    pub beyond: [u8; 4],
     /// Changes with the contents. Renderers that keep a copy compare it.
     pub revision: u64,
 }

@@ -57,6 +57,17 @@ impl Style {
         Self { ground: opaque(Ground::Light.canvas()), edge_shade: 0.72, ..Self::dark(level_colors) }
     }
 
+    /// Returns this appearance below an overlay: white triangles, which take the colours of the overlay. The
+    /// ground keeps its colour where the overlay has the given one.
+    pub fn under(self, neutral: [u8; 4]) -> Self {
+        let quotient = |i: usize| {
+            let share = f32::from(self.ground[i]) / f32::from(neutral[i].max(1));
+            (255.0 * share).round().min(255.0) as u8
+        };
+        let ground = opaque(std::array::from_fn(quotient));
+        Self { level_colors: [[0xff; 4]; LEVELS].into(), ground, ..self }
+    }
+
     /// Returns this appearance for a screen with `px_per_point` pixels per point: edges keep their apparent
     /// width.
     pub fn at_density(mut self, px_per_point: f32) -> Self {

@@ -205,7 +205,8 @@ fn an_overlay_and_a_level_filter_agree() {
     let style = Style { shown_levels: 0b1111_0000, ..Style::dark(colors()) };
     let rgba: Vec<[u8; 4]> = (0..20 * 30u32).map(|i| [(i % 20 * 12) as u8, (i / 3) as u8, 90, 180]).collect();
     let bounds = Rect::new(dvec2(0.1, 0.25), dvec2(0.9, 0.85));
-    let overlay = Overlay { bounds, columns: 20, rows: 30, rgba: &rgba, opacity: 0.6, revision: 1 };
+    let overlay =
+        Overlay { bounds, columns: 20, rows: 30, rgba: &rgba, beyond: [40, 80, 120, 255], revision: 1 };
     gpu.show(&mesh, 1).unwrap();
     gpu.show_overlay(Some(&overlay)).unwrap();
     for zoom in [1.0, 20.0, 1e5] {

@@ -1,7 +1,7 @@
 //! The uniform data of the shaders.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{IVec2, Vec2};
+use glam::{IVec2, Vec2, Vec4};
 
 use crate::colormap::LEVELS;
 use crate::render::{HUGE_PX, SEAM_SLACK_PX};
@@ -80,8 +80,7 @@ pub(super) struct OverlayView {
     fraction: Vec2,
     texels_per_px: Vec2,
     half_size_px: Vec2,
-    opacity: f32,
-    unused: [u32; 3],
+    beyond: Vec4,
 }
 
 impl OverlayView {
@@ -93,8 +92,7 @@ impl OverlayView {
             fraction: (map.at_center - whole).as_vec2(),
             texels_per_px: map.per_px.as_vec2(),
             half_size_px: camera.half_size_px().as_vec2(),
-            opacity: overlay.opacity,
-            unused: [0; 3],
+            beyond: Vec4::from(overlay.beyond.map(f32::from)) / 255.0,
         }
     }
 }

@@ -1,4 +1,4 @@
-// Draws a raster over the canvas with nearest sampling at any zoom.
+// Multiplies the canvas by a raster with nearest sampling at any zoom.
 
 struct View {
     // Column and row in the middle of the canvas: whole texels, and the rest from 0 to 1.
@@ -6,10 +6,8 @@ struct View {
     fraction: vec2<f32>,
     texels_per_px: vec2<f32>,
     half_size_px: vec2<f32>,
-    opacity: f32,
-    unused_0: u32,
-    unused_1: u32,
-    unused_2: u32,
+    // The colour beyond the raster.
+    beyond: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -35,8 +33,7 @@ fn fs_main(in: Corner) -> @location(0) vec4<f32> {
     let texel = view.texel + vec2<i32>(floor(view.fraction + in.px * view.texels_per_px));
     let size = vec2<i32>(textureDimensions(raster));
     if any(texel < vec2(0)) || any(texel >= size) {
-        discard;
+        return view.beyond;
     }
-    let color = textureLoad(raster, texel, 0);
-    return vec4(color.rgb, color.a * view.opacity);
+    return textureLoad(raster, texel, 0);
 }

@@ -20,7 +20,7 @@ struct OverlayTexture {
     texture: wgpu::Texture,
     group: wgpu::BindGroup,
     bounds: Rect,
-    opacity: f32,
+    beyond: [u8; 4],
     revision: u64,
 }
 
@@ -37,7 +37,18 @@ impl OverlayPass {
             entries: &[uniform_entry(0), texel_entry(1)],
         });
         let shader = device.create_shader_module(wgpu::include_wgsl!("overlay.wgsl"));
-        let blend = wgpu::BlendState::ALPHA_BLENDING;
+        let blend = wgpu::BlendState {
+            color: wgpu::BlendComponent {
+                src_factor: wgpu::BlendFactor::Dst,
+                dst_factor: wgpu::BlendFactor::Zero,
+                operation: wgpu::BlendOperation::Add,
+            },
+            alpha: wgpu::BlendComponent {
+                src_factor: wgpu::BlendFactor::Zero,
+                dst_factor: wgpu::BlendFactor::One,
+                operation: wgpu::BlendOperation::Add,
+            },
+        };
         Self {
             pipeline: render_pipeline(device, &shader, &[&layout], format, Some(blend)),
             layout,
@@ -67,7 +78,7 @@ impl OverlayPass {
         if stale {
             write(queue, &shown.texture, overlay);
         }
-        (shown.bounds, shown.opacity, shown.revision) = (overlay.bounds, overlay.opacity, overlay.revision);
+        (shown.bounds, shown.beyond, shown.revision) = (overlay.bounds, overlay.beyond, overlay.revision);
         self.shown = Some(shown);
         Ok(())
     }
@@ -80,7 +91,7 @@ impl OverlayPass {
             columns,
             rows,
             rgba: &[],
-            opacity: shown.opacity,
+            beyond: shown.beyond,
             revision: shown.revision,
         };
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&OverlayView::new(camera, &placement)));
@@ -110,8 +121,8 @@ impl OverlayPass {
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&view) },
             ],
         });
-        let Overlay { bounds, opacity, revision, .. } = *overlay;
-        Ok(OverlayTexture { texture, group, bounds, opacity, revision })
+        let Overlay { bounds, beyond, revision, .. } = *overlay;
+        Ok(OverlayTexture { texture, group, bounds, beyond, revision })
     }
 }
 

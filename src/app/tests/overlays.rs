@@ -1,0 +1,146 @@
+//! The colours of overlays on the canvas are those of their legends, in both themes and at any zoom.
+
+use eframe::egui::{Pos2, Rect, ThemePreference, pos2, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec2, dvec2};
+
+use super::pictures::{Picture, drawn_window, picture, pixel};
+use super::{FREE, RESTING_PLACE, Window, canvas, in_world, on_screen, send, stroke, wait_for_jobs};
+use crate::app::command::{Command, ViewCommand};
+use crate::app::view::FieldOverlay;
+
+/// The middle of a place with painted risk in the first example.
+const PAINTED: DVec2 = dvec2(0.72, 0.74);
+
+fn show(window: &mut Window, theme: ThemePreference, overlay: FieldOverlay) -> Picture {
+    send(window, Command::View(ViewCommand::Theme(theme)));
+    send(window, Command::View(ViewCommand::SetOverlay(overlay)));
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    // Its colours are computed on another thread.
+    wait_for_jobs(window);
+    picture(window)
+}
+
+/// Returns the colour that most pixels around a point have: none of an edge.
+fn usual_color(image: &Picture, middle: Pos2) -> [u8; 3] {
+    let offsets = (-3..=3).flat_map(|y| (-3..=3).map(move |x| vec2(x as f32, y as f32)));
+    let colors: Vec<[u8; 3]> = offsets.map(|offset| pixel(image, middle + offset)).collect();
+    let count = |color: &[u8; 3]| colors.iter().filter(|other| *other == color).count();
+    *colors.iter().max_by_key(|color| count(color)).unwrap()
+}
+
+/// Returns the content of the legend whose spoken text begins so, in points.
+fn legend(window: &Window, spoken: &str) -> Rect {
+    let place = window.get_by_label_contains(spoken).rect();
+    Rect::from_min_max(place.min + vec2(10.0, 27.0), place.max - vec2(10.0, 7.0))
+}
+
+/// Returns the colours of a scale of so many cells.
+fn cells(window: &Window, image: &Picture, spoken: &str, count: usize) -> Vec<[u8; 3]> {
+    let bar = legend(window, spoken);
+    let x = |cell: usize| bar.left() + bar.width() * (cell as f32 + 0.5) / count as f32;
+    (0..count).map(|cell| pixel(image, pos2(x(cell), bar.top() + 6.0))).collect()
+}
+
+#[track_caller]
+fn assert_same(found: [u8; 3], expected: [u8; 3], tolerance: u8, what: &str) {
+    let differs = |i: usize| found[i].abs_diff(expected[i]) > tolerance;
+    assert!(!(0..3).any(differs), "{what}: {found:?} on the canvas, {expected:?} in the legend");
+}
+
+const THEMES: [ThemePreference; 2] = [ThemePreference::Dark, ThemePreference::Light];
+
+#[test]
+fn the_legends_of_fields_have_the_colours_of_the_canvas() {
+    let mut window = drawn_window();
+    let [free, painted] = [FREE + dvec2(0.004, 0.002), PAINTED].map(|point| on_screen(&window, point));
+    for theme in THEMES {
+        let image = show(&mut window, theme, FieldOverlay::Layer);
+        let rows = legend(&window, "Legend: layers");
+        let row = |number: f32| pixel(&image, pos2(rows.left() + 9.0, rows.top() + 18.0 * number + 9.0));
+        assert_same(usual_color(&image, painted), row(0.0), 1, "painted risk");
+        assert_same(usual_color(&image, free), row(2.0), 1, "the base");
+
+        let image = show(&mut window, theme, FieldOverlay::Risk);
+        let scale = cells(&window, &image, "Legend: risk", 17);
+        let risk = window.state().session().document().risk_at(PAINTED).unwrap();
+        assert!(risk > 0.5, "{risk}");
+        assert_same(usual_color(&image, painted), scale[(16.0 * risk).round() as usize], 10, "risk");
+        assert_same(usual_color(&image, free), scale[0], 1, "no risk");
+
+        let image = show(&mut window, theme, FieldOverlay::Target);
+        let rows = legend(&window, "Legend: diameters");
+        let deepest = crate::app::view::deepest_level(window.state().session().document().settings());
+        let height = rows.height() / (f32::from(deepest) + 1.0);
+        let session = window.state().session();
+        let level =
+            session.follower().field().level_of_diameter(session.decision_at(PAINTED).target).unwrap();
+        let row =
+            |level: u32| pixel(&image, pos2(rows.left() + 9.0, rows.top() + height * (level as f32 + 0.5)));
+        assert_same(usual_color(&image, painted), row(level), 1, "h̄");
+        assert_same(usual_color(&image, free), row(0), 1, "h̄ of the base");
+    }
+}
+
+#[test]
+fn the_legends_of_triangles_have_the_colours_of_the_canvas() {
+    let mut window = drawn_window();
+    let far = dvec2(0.9, 0.12);
+    stroke(&mut window, FREE, FREE);
+    let [free, far_px] = [FREE, far].map(|point| on_screen(&window, point));
+    for theme in THEMES {
+        let image = show(&mut window, theme, FieldOverlay::Age);
+        let scale = cells(&window, &image, "Legend: edits ago", 11);
+        assert_same(usual_color(&image, free), scale[0], 1, "the last edit");
+        assert_same(usual_color(&image, far_px), scale[10], 1, "before the first edit");
+
+        let image = show(&mut window, theme, FieldOverlay::Slack);
+        let scale = cells(&window, &image, "Legend: slack", 16);
+        let mesh = window.state().session().mesh();
+        let triangle = mesh.locate(far).triangle().unwrap();
+        let middle = mesh.view().world_corners(triangle).iter().sum::<DVec2>() / 3.0;
+        let target = window.state().session().decision_at(middle).target;
+        let slack = (target / mesh.diameter(mesh.triangle(triangle).level())).log2();
+        assert_same(usual_color(&image, far_px), scale[(4.0 * slack) as usize], 10, "slack");
+
+        let image = show(&mut window, theme, FieldOverlay::Forced);
+        let rows = legend(&window, "Legend: triangles that only");
+        let forced = pixel(&image, rows.min + vec2(9.0, 9.0));
+        let inner = canvas(&window).shrink(150.0);
+        let columns = inner.left() as i32..inner.right() as i32;
+        let all = columns.flat_map(|x| (inner.top() as i32..inner.bottom() as i32).map(move |y| (x, y)));
+        let count = all.filter(|&(x, y)| pixel(&image, pos2(x as f32, y as f32)) == forced).count();
+        assert!(count > 200, "{count} pixels of forced triangles");
+    }
+}
+
+/// Each pixel has the colour of the triangle that it lies in, also where one covers much of the canvas.
+#[test]
+fn the_ages_of_triangles_are_exact_at_any_zoom() {
+    let mut window = drawn_window();
+    stroke(&mut window, FREE, FREE);
+    // The rim of what was painted.
+    let rim = FREE + dvec2(0.058, 0.0);
+    send(&mut window, Command::View(ViewCommand::LookAt(rim)));
+    for zoom in [1.0, 8.0, 30.0] {
+        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        let image = show(&mut window, ThemePreference::Dark, FieldOverlay::Age);
+        let scale = cells(&window, &image, "Legend: edits ago", 11);
+        let (inner, mut seen) = (canvas(&window).shrink(160.0), [0; 2]);
+        for (x, y) in (0..40).flat_map(|x| (0..30).map(move |y| (x, y))) {
+            let at = (inner.min + vec2(x as f32 / 40.0, y as f32 / 30.0) * inner.size()).round();
+            let session = window.state().session();
+            let Some(id) = session.mesh().locate(in_world(&window, at + vec2(0.5, 0.5))).triangle() else {
+                continue;
+            };
+            let is_new = session.ages().of(id) == Some(0);
+            let [red, ..] = pixel(&image, at);
+            let [new, old] = [scale[0], scale[10]].map(|color| color[0]);
+            // An edge is half as bright; one of a new triangle is brighter than an old triangle.
+            assert_eq!(red > (new / 2 - 20).max(old), is_new, "{at} at {zoom}: {red}, {new}, {old}");
+            seen[usize::from(is_new)] += 1;
+        }
+        assert!(seen.iter().sum::<usize>() > 500, "{seen:?}");
+    }
+}
