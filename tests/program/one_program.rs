@@ -188,11 +188,13 @@ fn paths(random: &mut fastrand::Rng) -> PathPlan {
         let polygons = [vec![circle(point(random), 0.2, random.usize(3..50))]];
         KeepOut { name: format!("Zone {number}"), mask: Mask::new(&polygons).unwrap() }
     };
-    PathPlan {
+    let plan = PathPlan {
         routes: (0..random.usize(..3)).map(|_| route(random)).collect(),
+        names: Vec::new(),
         cost,
         keep_out: (0..random.usize(..3)).map(|number| keep_out(number, random)).collect(),
-    }
+    };
+    plan.with_names((0..random.usize(..3)).map(|n| ["Ferry", "道 “2”"][n].to_owned()))
 }
 
 fn settings(random: &mut fastrand::Rng) -> Settings {
@@ -207,9 +209,9 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
     let diameter = between(random, 0.1, 0.3);
     let transfer = Transfer {
         h_min: between(random, 0.1, 0.2),
+        h_risk: between(random, 0.2, 0.3),
         h_max: between(random, 0.3, 1.5),
         shape: between(random, 0.5, 2.0),
-        h_risk: between(random, 0.2, 0.3),
     };
     let boundary = match random.u8(..4) {
         0 => BoundaryTreatment::Report,
@@ -330,9 +332,9 @@ fn options(settings: &Settings) -> Vec<String> {
     }
     add("spacing", settings.spacing.to_string());
     add("h-min", settings.transfer.h_min.to_string());
+    add("h-risk", settings.transfer.h_risk.to_string());
     add("h-max", settings.transfer.h_max.to_string());
     add("transfer-shape", settings.transfer.shape.to_string());
-    add("h-risk", settings.transfer.h_risk.to_string());
     add("rule", if settings.rule == RefinementRule::Area { "area" } else { "vertex" }.into());
     settings.gradation.iter().for_each(|gradation| add("gradation", gradation.to_string()));
     for layer in &settings.layers {

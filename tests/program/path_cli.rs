@@ -205,7 +205,12 @@ fn a_project_or_its_recipe_decides_places_cost_and_regions_unless_options_do() {
     let routes =
         vec![vec![dvec2(0.1, 0.1), dvec2(0.9, 0.1)], vec![dvec2(0.1, 0.9), dvec2(0.2, 0.8), dvec2(0.2, 0.9)]];
     let cost = PathCost::Weighted(Weights { length: 3.0, risk: 1.0 });
-    let plan = PathPlan { routes: routes.clone(), cost: cost.clone(), keep_out: [region("a", 0.0)].into() };
+    let plan = PathPlan {
+        routes: routes.clone(),
+        names: Vec::new(),
+        cost: cost.clone(),
+        keep_out: [region("a", 0.0)].into(),
+    };
     let settings = Settings { paths: Arc::new(plan), ..Settings::default() };
     let document = Document::new(settings, None).unwrap();
     let project = Project { settings: document.settings().clone(), paint: document.paint().clone() };

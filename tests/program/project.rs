@@ -69,7 +69,8 @@ fn paths(random: &mut fastrand::Rng) -> PathPlan {
         KeepOut { name, mask: Mask::new(polygons(&mut of_regions).region().unwrap().polygons()).unwrap() }
     };
     let keep_out = (0..2).map(&mut region).collect();
-    PathPlan { routes, cost, keep_out }
+    let names = (0..random.usize(..4)).map(|n| ["", "Ferry", "Шлях", "道"][n].to_owned());
+    PathPlan { routes, names: Vec::new(), cost, keep_out }.with_names(names)
 }
 
 /// Outlines with holes, crossing themselves and each other, at places where coordinates have many digits.

@@ -13,6 +13,9 @@ use crate::path::{CostDensity, FormulaCost, PathError, Waypoint, WeightedCost, W
 pub struct PathPlan {
     /// The places of each path, in world units: the start, the places in between in order, and the goal.
     pub routes: Vec<Vec<DVec2>>,
+    /// The names given to paths, in the order of the routes. An empty or a missing one is no name, and the
+    /// last one is not empty.
+    pub names: Vec<String>,
     /// The cost of paths.
     pub cost: PathCost,
     /// The regions that paths do not enter.
@@ -74,6 +77,56 @@ impl PathPlan {
         self.cost.density(RiskField::default()).map(|_| ())
     }
 
+    /// Returns the name of a path by the number of its route: the one given to it, or its number from 1.
+    pub fn name(&self, route: usize) -> String {
+        let given = self.names.get(route).filter(|name| !name.is_empty());
+        given.cloned().unwrap_or_else(|| format!("Path {}", route + 1))
+    }
+
+    /// Gives a path a name, or none where it is empty. Control characters and what is beyond
+    /// [`Self::LONGEST_NAME`] are left out.
+    pub fn set_name(&mut self, route: usize, name: &str) {
+        let valid = name.chars().filter(|c| !c.is_control()).take(Self::LONGEST_NAME).collect();
+        if route >= self.names.len() {
+            self.names.resize(route + 1, String::new());
+        }
+        self.names[route] = valid;
+        self.forget_empty_names();
+    }
+
+    /// Most letters of a name.
+    pub const LONGEST_NAME: usize = 80;
+
+    /// Removes a path with its name.
+    pub fn remove(&mut self, route: usize) {
+        self.routes.remove(route);
+        if route < self.names.len() {
+            self.names.remove(route);
+            self.forget_empty_names();
+        }
+    }
+
+    /// Removes all paths with their names.
+    pub fn clear(&mut self) {
+        self.routes.clear();
+        self.names.clear();
+    }
+
+    /// Returns the plan with other names. Names beyond those of the routes and empty ones at the end are left
+    /// out.
+    pub fn with_names(mut self, names: impl IntoIterator<Item = String>) -> Self {
+        self.names.clear();
+        for (route, name) in names.into_iter().enumerate().take(self.routes.len()) {
+            self.set_name(route, &name);
+        }
+        self
+    }
+
+    fn forget_empty_names(&mut self) {
+        let count = self.names.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
+        self.names.truncate(count);
+    }
+
     /// Returns all places with the number of their route and their number there, from 0.
     pub fn places(&self) -> impl Iterator<Item = ((usize, usize), DVec2)> + '_ {
         self.routes.iter().enumerate().flat_map(|(route, places)| {
@@ -90,8 +143,30 @@ impl PathPlan {
     pub fn bytes(&self) -> usize {
         let routes: usize =
             self.routes.iter().map(|route| size_of_val(route) + size_of_val(&route[..])).sum();
+        let path_names: usize = self.names.iter().map(|name| size_of_val(name) + name.capacity()).sum();
         let names: usize =
             self.keep_out.iter().map(|region| size_of_val(region) + region.name.capacity()).sum();
-        routes + names
+        routes + path_names + names
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_go_with_their_paths() {
+        let routes = vec![vec![DVec2::ZERO, DVec2::ONE]; 3];
+        let mut plan = PathPlan { routes, ..PathPlan::default() };
+        assert_eq!(plan.name(1), "Path 2");
+        plan.set_name(1, "Ferry\n");
+        plan.set_name(2, "Λιμάνι");
+        assert_eq!([plan.name(0), plan.name(1), plan.name(2)], ["Path 1", "Ferry", "Λιμάνι"]);
+        plan.remove(1);
+        assert_eq!([plan.name(0), plan.name(1)], ["Path 1", "Λιμάνι"]);
+        plan.set_name(1, "");
+        assert!(plan.names.is_empty(), "no name is given");
+        let plan = plan.with_names(["a", "", "b"].map(String::from));
+        assert_eq!(plan.names, ["a"]);
     }
 }

@@ -40,6 +40,8 @@ pub enum PathCommand {
     Delete,
     /// Removes all paths.
     DeleteAll,
+    /// Names the path that is shown. Further changes join this gesture.
+    Name(String),
     /// Makes the start the goal of the path that is shown.
     Swap,
     /// Sets what paths cost. Further changes join this gesture.

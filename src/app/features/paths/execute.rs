@@ -37,7 +37,12 @@ impl Feature for Paths {
             PathCommand::GoalAt(at) => self.end_path(at, ctx),
             PathCommand::ViaAt(at) => self.add_via(at, ctx),
             PathCommand::Delete => self.delete_place(ctx),
-            PathCommand::DeleteAll => self.change_paths(|plan| plan.routes.clear(), ctx),
+            PathCommand::DeleteAll => self.change_paths(PathPlan::clear, ctx),
+            PathCommand::Name(name) => {
+                if let Some(route) = self.tool.route_in(plan(ctx)) {
+                    self.set_paths(|plan| plan.set_name(route, &name), ctx);
+                }
+            }
             PathCommand::Swap => {
                 if let Some(route) = self.tool.route_in(plan(ctx)) {
                     self.tool.selected = None;
@@ -194,7 +199,7 @@ impl Paths {
             |plan| {
                 let places = &mut plan.routes[route];
                 if place == 0 || place + 1 == places.len() {
-                    plan.routes.remove(route);
+                    plan.remove(route);
                 } else {
                     places.remove(place);
                 }

@@ -1,18 +1,24 @@
 //! The paths of the document over the mesh, with their places.
 
-use eframe::egui::{Color32, Stroke};
+use eframe::egui::{Align2, Color32, Pos2, Rect, Role, Sense, Stroke, WidgetInfo, vec2};
 
-use super::tool::{ALTERNATIVE_COLOR, PATH_COLOR, POINTED_COLOR, PathPlace, paint_place};
+use super::colors::{ALTERNATIVE_COLOR, POINTED_COLOR, path_color};
+use super::tool::{PathPlace, paint_place};
 use super::work::FoundPath;
 use super::{corridor_marks, keep_out_marks};
-use crate::app::kit::marks::{paint_line, paint_line_preview};
+use crate::app::kit::marks::{paint_line, paint_line_preview, paint_rimmed_line};
 use crate::app::kit::{FrameState, OverMesh};
+use crate::app::theme::font;
 use meshbrush_core::path::Solution;
 
-/// Width of a path, in points.
-const WIDTH: f32 = 2.5;
+/// Width of the path that is shown in the panel, in points.
+const SELECTED_WIDTH: f32 = 4.0;
+/// Width of other paths.
+const WIDTH: f32 = 2.0;
 /// Width of an alternative.
 const THIN: f32 = 1.5;
+/// Most letters of a name beside an end of a path.
+const MOST_OF_NAME: usize = 24;
 /// The colour of a path that is not up to date.
 const OUTDATED: Color32 = Color32::from_gray(0xb0);
 
@@ -23,35 +29,80 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     paint_paths(state, over);
 }
 
-/// Draws all paths. Where there is none for a route as it is, the last one is grey, and the places are joined
-/// by dashed lines.
+/// Draws all paths, the one that is shown in the panel last and heavier. Where there is none for a route as
+/// it is, the last one is grey, and the places are joined by dashed lines.
 fn paint_paths(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let plan = &state.session.document().settings().paths;
-    let selected = state.features.paths.tool.selected_in(plan);
+    let selected = state.features.paths.tool.route_in(plan);
     paint_others(state, over);
-    for (number, route) in plan.routes.iter().enumerate() {
-        let shown = state.features.paths.finder.shown().get(number);
-        let problem = shown.and_then(|shown| shown.problem.as_ref());
-        if let Some(found) = shown.and_then(|shown| shown.found.as_ref()) {
-            let points = found.solution.points.iter().map(|&point| (over.screen_from_world)(point));
-            let color = if problem.is_some() { OUTDATED } else { PATH_COLOR };
-            paint_line(over.painter, points, color, WIDTH);
+    let others = (0..plan.routes.len()).filter(|&number| Some(number) != selected);
+    others.chain(selected).for_each(|number| paint_path(state, over, number));
+}
+
+fn paint_path(state: &FrameState<'_>, over: &OverMesh<'_>, number: usize) {
+    let plan = &state.session.document().settings().paths;
+    let tool = &state.features.paths.tool;
+    let is_selected = tool.route_in(plan) == Some(number);
+    let shown = state.features.paths.finder.shown().get(number);
+    let found = shown.and_then(|shown| shown.found.as_ref());
+    let problem = shown.and_then(|shown| shown.problem.as_ref());
+    let color = path_color(number);
+    if let Some(found) = found {
+        let points = found.solution.points.iter().map(|&point| (over.screen_from_world)(point));
+        let color = if problem.is_some() { OUTDATED } else { color };
+        match is_selected {
+            true => paint_rimmed_line(over.painter, points, color, SELECTED_WIDTH),
+            false => _ = paint_line(over.painter, points, color, WIDTH),
         }
-        let places: Vec<_> = route.iter().map(|&place| (over.screen_from_world)(place)).collect();
-        if problem.is_some() {
-            places.windows(2).for_each(|ends| paint_line_preview(over.painter, ends[0], ends[1]));
-        }
-        if Some(number) == state.features.paths.tool.route_in(plan) {
-            paint_marked(state, over, shown.and_then(|shown| shown.found.as_ref()));
-        }
-        for (n, &at) in places.iter().enumerate() {
-            let place = match n {
-                0 => PathPlace::Start,
-                n if n + 1 == places.len() => PathPlace::Goal,
-                _ => PathPlace::Via,
-            };
-            paint_place(over, at, place, selected == Some((number, n)));
-        }
+    }
+    let places: Vec<_> = plan.routes[number].iter().map(|&place| (over.screen_from_world)(place)).collect();
+    if problem.is_some() {
+        places.windows(2).for_each(|ends| paint_line_preview(over.painter, ends[0], ends[1]));
+    }
+    if is_selected {
+        paint_marked(state, over, found);
+    }
+    for (n, &at) in places.iter().enumerate() {
+        let place = match n {
+            0 => PathPlace::Start,
+            n if n + 1 == places.len() => PathPlace::Goal,
+            _ => PathPlace::Via,
+        };
+        paint_place(over, at, place, color, tool.selected_in(plan) == Some((number, n)));
+    }
+    for (end, at) in [("start", places.first()), ("goal", places.last())] {
+        let name = shortened(plan.name(number));
+        at.into_iter().for_each(|&at| label_end(over, at, &format!("{name}: {end}"), (number, end)));
+    }
+}
+
+/// Writes what an end of a path is beside it, on a dark ground in either theme.
+fn label_end(over: &OverMesh<'_>, at: Pos2, text: &str, of: (usize, &str)) {
+    if !over.canvas.contains(at) {
+        return;
+    }
+    let galley = over.painter.layout_no_wrap(text.to_owned(), font::caption(), Color32::WHITE);
+    let size = galley.size() + vec2(10.0, 4.0);
+    let is_right = at.x + 14.0 + size.x <= over.canvas.right();
+    let (anchor, align) = match is_right {
+        true => (at + vec2(14.0, 0.0), Align2::LEFT_CENTER),
+        false => (at - vec2(14.0, 0.0), Align2::RIGHT_CENTER),
+    };
+    let place: Rect = align.anchor_size(anchor, size);
+    let response = over.ui.interact(place, over.ui.scope_id().with(("end of a path", of)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    over.painter.rect_filled(place, 4.0, GROUND);
+    over.painter.galley(place.min + vec2(5.0, 2.0), galley, Color32::WHITE);
+}
+
+/// The ground of a label: white on it has a contrast above 7 over any colour.
+const GROUND: Color32 = Color32::from_black_alpha(215);
+
+/// Returns a name with as many letters as a label has room for.
+fn shortened(name: String) -> String {
+    match name.chars().count() {
+        ..=MOST_OF_NAME => name,
+        _ => name.chars().take(MOST_OF_NAME - 1).chain(['…']).collect(),
     }
 }
 

@@ -2,6 +2,7 @@
 //! corridors along them, and their files.
 
 mod alternatives;
+mod colors;
 mod command;
 mod corridor;
 mod corridor_layer;
@@ -25,6 +26,7 @@ mod work;
 
 pub use alternatives::AlternativesCommand;
 use alternatives::MOST_ALTERNATIVES;
+pub use colors::ALTERNATIVE_COLOR;
 use command::NO_PATH;
 pub use command::{CostKind, PathCommand};
 pub use corridor_marks::FILL as CORRIDOR_COLOR;
@@ -36,8 +38,8 @@ pub use front::FrontCommand;
 pub use keep_out::KeepOutCommand;
 use layer_kind::CORRIDOR;
 use panel::{OTHER_PATHS, PATH_PANEL};
+pub use tool::PATH;
 use tool::PathTool;
-pub use tool::{ALTERNATIVE_COLOR, PATH};
 use work::FoundPath;
 
 /// What the window keeps of paths; their places and their cost are in the document.

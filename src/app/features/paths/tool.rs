@@ -3,6 +3,7 @@
 use eframe::egui::{Color32, CursorIcon, Key, Pos2, Stroke};
 use glam::DVec2;
 
+use super::colors::path_color;
 use super::{OTHER_PATHS, PATH_PANEL, PathCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec};
@@ -88,7 +89,8 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
         over.painter.line_segment(ends, Stroke::new(3.0, Color32::from_black_alpha(150)));
         over.painter.line_segment(ends, Stroke::new(1.2, Color32::WHITE));
     }
-    paint_place(over, at, PathPlace::Start, true);
+    let number = state.session.document().settings().paths.routes.len();
+    paint_place(over, at, PathPlace::Start, path_color(number), true);
 }
 
 /// The role of a point of a path.
@@ -102,23 +104,16 @@ pub enum PathPlace {
     Goal,
 }
 
-/// The colour of paths and their places.
-pub const PATH_COLOR: Color32 = Color32::from_rgb(0xff, 0xe0, 0x3a);
-
-/// The colours of the alternatives of a path, and of the path that is pointed at in a list or a plot.
-pub const ALTERNATIVE_COLOR: Color32 = Color32::from_rgb(0x8f, 0xe0, 0xff);
-pub const POINTED_COLOR: Color32 = Color32::from_rgb(0xff, 0x8a, 0xdb);
-
-/// Draws a place of a path.
-pub fn paint_place(over: &OverMesh<'_>, at: Pos2, place: PathPlace, is_selected: bool) {
+/// Draws a place of a path in the colour of the path.
+pub fn paint_place(over: &OverMesh<'_>, at: Pos2, place: PathPlace, color: Color32, is_selected: bool) {
     let radius = if place == PathPlace::Via { 4.5 } else { 6.0 };
     let rim = Stroke::new(if is_selected { 2.2 } else { 1.2 }, Color32::WHITE);
     over.painter.circle_filled(at, radius + 2.5, Color32::from_black_alpha(200));
     match place {
         PathPlace::Goal => {
             over.painter.circle(at, radius, Color32::BLACK, rim);
-            over.painter.circle_filled(at, radius - 2.6, PATH_COLOR);
+            over.painter.circle_filled(at, radius - 2.6, color);
         }
-        _ => _ = over.painter.circle(at, radius, PATH_COLOR, rim),
+        _ => _ = over.painter.circle(at, radius, color, rim),
     }
 }

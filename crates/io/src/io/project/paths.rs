@@ -20,6 +20,9 @@ pub(super) struct SavedPaths {
     /// x and y of each place of each path, from the start to the goal.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     routes: Vec<Vec<[f64; 2]>>,
+    /// Since version 4: the names of paths, in their order; an empty one is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    names: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     cost: Option<SavedCost>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -52,6 +55,7 @@ impl SavedPaths {
         let is_usual = paths.cost == PathCost::default();
         Self {
             routes: paths.routes.iter().map(route).collect(),
+            names: paths.names.clone(),
             cost: (!is_usual).then_some(cost),
             keep_out: paths.keep_out.iter().map(SavedKeepOut::of).collect(),
         }
@@ -77,7 +81,9 @@ impl SavedPaths {
             }
         };
         let keep_out = self.keep_out.into_iter().map(SavedKeepOut::load).collect::<Result<_, _>>()?;
-        Ok(Arc::new(PathPlan { routes: self.routes.into_iter().map(route).collect(), cost, keep_out }))
+        let routes = self.routes.into_iter().map(route).collect();
+        let plan = PathPlan { routes, names: Vec::new(), cost, keep_out };
+        Ok(Arc::new(plan.with_names(self.names)))
     }
 }
 

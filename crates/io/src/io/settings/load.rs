@@ -117,8 +117,10 @@ impl<L> SavedSettings<L> {
         let paths = PathPlan {
             keep_out: keep_out.collect::<Result<_, _>>()?,
             routes: self.paths.routes()?,
+            names: Vec::new(),
             cost: self.paths.checked_cost()?,
         };
+        let paths = paths.with_names(self.paths.names.iter().cloned());
         let diameter = self.domain.boundary_diameter.unwrap_or(BoundaryTreatment::usual_diameter(spacing));
         Ok(Settings {
             name: name.to_owned(),

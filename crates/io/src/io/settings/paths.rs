@@ -21,7 +21,8 @@ impl SavedPaths {
     /// Returns the paths of a document, without its keep-out regions.
     pub(super) fn of(plan: &PathPlan) -> Self {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
-        let usual = Self { routes: plan.routes.iter().map(route).collect(), ..Self::default() };
+        let routes = plan.routes.iter().map(route).collect();
+        let usual = Self { routes, names: plan.names.clone(), ..Self::default() };
         match &plan.cost {
             cost if *cost == PathCost::default() => usual,
             PathCost::Weighted(Weights { length, risk }) => {
@@ -33,6 +34,12 @@ impl SavedPaths {
 
     /// Returns the places of each path, in world units.
     pub(super) fn routes(&self) -> Result<Vec<Vec<DVec2>>, KeyFault> {
+        if self.names.len() > self.routes.len() {
+            return Err(KeyFault::value(
+                "names",
+                "there are more names than paths; leave the last ones out.",
+            ));
+        }
         each("routes", &self.routes, |places: &Vec<[f64; 2]>| points(places, 2, "a path"))
     }
 

@@ -139,6 +139,9 @@ pub struct SavedPaths {
     /// x and y of each place of each path, in world units, from the start to the goal.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub routes: Vec<Vec<[f64; 2]>>,
+    /// The names of paths, in their order; an empty one is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
     /// Cost per unit of length, without risk.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub length_weight: Option<f64>,

@@ -7,11 +7,12 @@ mod others;
 
 use eframe::egui::{RichText, Ui};
 
-use crate::app::command::Command;
+use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{FoundPath, PathCommand};
 use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Icon, Section, ValueRow, dropdown_row, empty_state, format, plot_view};
+use crate::app::widgets::{Icon, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view};
+use meshbrush_core::document::PathPlan;
 use meshbrush_mesh::text::percent_above;
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
@@ -45,6 +46,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             empty_state(ui, Icon::PATH, "No path", text);
             return keep_out::rows(ui, state, commands);
         };
+        name_row(ui, plan, route, commands);
         let shown = state.features.paths.finder.shown().get(route);
         if let Some(problem) = shown.and_then(|shown| shown.problem.as_ref()) {
             let text = RichText::new(format!("{problem} The path that is shown is outdated."));
@@ -67,6 +69,21 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         button_rows(ui, [[("Delete all paths", true, path(PathCommand::DeleteAll))]], commands);
         export::rows(ui, state, commands);
     });
+}
+
+/// The name of the path, to be typed.
+fn name_row(ui: &mut Ui, plan: &PathPlan, route: usize, commands: &mut Vec<Command>) {
+    let mut name = plan.names.get(route).cloned().unwrap_or_default();
+    let usual = PathPlan::default().name(route);
+    let row = TextRow::new("Name", &mut name).hint(&usual);
+    let response = row.help("The name of the path, beside its ends on the canvas.").show(ui);
+    if response.changed() {
+        commands.push(Command::Path(PathCommand::Name(name)));
+    }
+    if response.lost_focus() {
+        commands.push(Command::Edit(EditCommand::EndGesture));
+    }
+    ui.add_space(4.0);
 }
 
 fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {

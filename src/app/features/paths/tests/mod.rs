@@ -4,6 +4,7 @@ mod corridor;
 mod cost;
 mod export;
 mod keep_out;
+mod names;
 mod others;
 
 use eframe::egui::accesskit::Role;
