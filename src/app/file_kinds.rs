@@ -25,6 +25,16 @@ pub static OPEN_ANY: FileKind = FileKind {
     ..FileKind::new(|path| Command::File(FileCommand::Open(path)))
 };
 
+/// Any file of data, which is asked about once it is read.
+pub static ADD_DATA: FileKind = FileKind {
+    title: "Add data",
+    act: FileAct::Add,
+    endings: || vec!["geojson", "json", "asc", "png", "csv"],
+    contents: "Grids, pictures, shapes and tables",
+    folder: "data",
+    ..FileKind::new(|path| Command::File(FileCommand::AddData(path)))
+};
+
 /// A project.
 pub static OPEN_PROJECT: FileKind = FileKind {
     title: "Open project",

@@ -75,7 +75,7 @@ impl App {
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         self.commands
-            .extend(dropped.iter().map(|file| Command::File(FileCommand::Open(file.path().to_owned()))));
+            .extend(dropped.iter().map(|file| Command::File(FileCommand::AddData(file.path().to_owned()))));
         let events = ctx.input(|input| input.events.clone());
         let mut used_keys = Vec::new();
         for (index, event) in events.iter().enumerate() {

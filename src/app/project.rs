@@ -380,6 +380,7 @@ fn leaves(command: &Command) -> bool {
     matches!(
         command,
         Command::File(FileCommand::New)
+            | Command::File(FileCommand::NewFromPage)
             | Command::File(FileCommand::OpenExample(_))
             | Command::Figure(FigureCommand::Open(_))
             | Command::File(FileCommand::Show(_))

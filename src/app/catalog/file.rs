@@ -7,7 +7,7 @@ use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
-use crate::app::file_kinds::{EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
+use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// Documents and files.
@@ -15,13 +15,16 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
     let has_paths = !state.session.document().settings().paths.routes.is_empty();
     let mut items = vec![
-        CatalogItem::new(File, "New", Command::File(FileCommand::New)).ctrl(Key::N),
+        CatalogItem::new(File, "New…", Command::File(FileCommand::NewFromPage)).ctrl(Key::N),
         CatalogItem::new(File, "Open…", Command::File(FileCommand::Ask(&OPEN_ANY))).ctrl(Key::O),
         CatalogItem::new(File, "Save", Command::File(FileCommand::Save)).ctrl(Key::S),
         CatalogItem::new(File, "Save as…", Command::File(FileCommand::Ask(&SAVE_PROJECT)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S),
         CatalogItem::new(File, "Save as recipe…", Command::File(FileCommand::Ask(&SAVE_RECIPE))),
-        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK))).group(),
+        CatalogItem::new(File, "Add data…", Command::File(FileCommand::Ask(&ADD_DATA)))
+            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::D)
+            .group(),
+        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK))),
         CatalogItem::new(
             File,
             "Open grid as target diameter…",

@@ -14,12 +14,16 @@ use meshbrush_core::document::{Document, Example};
 pub enum FileCommand {
     /// Opens an empty document.
     New,
+    /// Opens an empty document, and the page of what it can start from.
+    NewFromPage,
     /// Opens one of the documents that come with the program.
     OpenExample(Example),
     /// Asks for a file.
     Ask(FileRequest),
     /// Opens a file; its ending says what it is.
     Open(PathBuf),
+    /// Opens a project or a recipe; reads any other file, and asks what it is to be.
+    AddData(PathBuf),
     /// Reads a project, and opens it in place of the document.
     OpenProject(PathBuf),
     /// Reads a recipe, and opens a new document with its mesh.

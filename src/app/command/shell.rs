@@ -1,11 +1,12 @@
 //! Commands about the window around the document.
 
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::app::help::HelpTopic;
-use crate::app::kit::Tool;
+use crate::app::kit::{DataFile, Tool};
 
 /// One thing to do with tools, dialogs, help and messages.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +23,8 @@ pub enum ShellCommand {
     AskPlace,
     /// Opens it with a point typed in.
     AskPlaceNear(DVec2),
+    /// Asks what a file of data that was read is to be.
+    AskRole(Arc<DataFile>),
     /// Closes the open dialog.
     CloseDialog,
     /// Shows a topic of the help.

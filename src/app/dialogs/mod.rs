@@ -1,11 +1,16 @@
-//! The dialogs: the command palette, the questions for a file and for a place, About.
+//! The dialogs: the command palette, the page of a new document, the questions for a file, for what it is to
+//! be, and for a place, About.
 
+mod add_data;
 mod file;
 mod folders;
 mod go_to;
+mod start;
 mod system;
 
+use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::Arc;
 
 use eframe::egui::Context;
 
@@ -15,7 +20,7 @@ use super::command::{Command, FileCommand, ShellCommand};
 use super::document_id::DocumentId;
 use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
-use crate::app::kit::{CatalogItem, FileAct, FileRequest, FrameState};
+use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
@@ -35,6 +40,8 @@ pub enum Dialog {
     About,
     /// The question for a place on the canvas.
     GoTo,
+    /// The page of what a new document can start from.
+    Start,
 }
 
 /// The open dialog, and the question for a file.
@@ -42,6 +49,8 @@ pub enum Dialog {
 pub struct Dialogs {
     open: Option<Dialog>,
     file: Option<FileDialog>,
+    /// Files of data that were read, and are asked about one after the other.
+    data: VecDeque<Arc<DataFile>>,
     folders: LastFolders,
     system: SystemDialog,
     /// Whether files are asked for in the desktop's own dialog.
@@ -56,12 +65,19 @@ impl Dialogs {
 
     /// Closes it.
     pub fn close(&mut self) {
-        (self.open, self.file) = (None, None);
+        if self.open.take().is_none() && self.file.take().is_none() {
+            self.data.pop_front();
+        }
     }
 
     /// Returns whether a dialog is open.
     pub fn is_open(&self) -> bool {
-        self.open.is_some() || self.file.as_ref().is_some_and(FileDialog::is_shown)
+        self.open.is_some() || !self.data.is_empty() || self.file.as_ref().is_some_and(FileDialog::is_shown)
+    }
+
+    /// Asks what a file of data is to be, after those that are asked about already.
+    pub fn ask_role(&mut self, file: Arc<DataFile>) {
+        self.data.push_back(file);
     }
 
     /// Returns whether a file is being asked for.
@@ -160,7 +176,12 @@ impl Dialogs {
             Some(Dialog::Palette) => palette(ctx, &catalog(state), commands),
             Some(Dialog::About) => about(ctx, commands),
             Some(Dialog::GoTo) => go_to::ask(ctx, state, commands),
-            None => {}
+            Some(Dialog::Start) => start::show(ctx, state, commands),
+            None => {
+                if let Some(file) = self.data.front() {
+                    add_data::ask(ctx, state, file, commands);
+                }
+            }
         }
     }
 

@@ -8,10 +8,11 @@ use eframe::egui::{Context, ViewportCommand};
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, Opened};
-use crate::app::file_kinds::SAVE_PROJECT;
+use crate::app::dialogs::Dialog;
+use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
-use crate::app::kit::FileRequest;
+use crate::app::kit::{FileRequest, look_at};
 use crate::app::{files, journal, project};
 use meshbrush_core::document::Document;
 
@@ -19,12 +20,17 @@ impl App {
     pub(in crate::app) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
         match command {
             FileCommand::New => self.open(files::new_document()),
+            FileCommand::NewFromPage => {
+                self.open(files::new_document());
+                self.dialogs.open(Dialog::Start);
+            }
             FileCommand::OpenExample(example) => self.open(files::example(example)),
             FileCommand::Ask(request) => self.ask_for_file(request),
             FileCommand::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),
                 Err(problem) => self.fail(problem),
             },
+            FileCommand::AddData(path) => self.add_data(path),
             FileCommand::OpenProject(path) => home::open(&mut self.background, &path),
             FileCommand::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
             FileCommand::Show(opened) => self.show_opened(opened),
@@ -65,6 +71,16 @@ impl App {
             FileCommand::AnswerRecovery(answer) => {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
+        }
+    }
+
+    /// Opens a file that is a document; reads any other one, and asks what it is to be.
+    fn add_data(&mut self, path: PathBuf) {
+        let name = path.file_name().unwrap_or_default();
+        if ADD_DATA.takes(name) {
+            look_at(&mut self.background, &path);
+        } else {
+            self.send(Command::File(FileCommand::Open(path)));
         }
     }
 

@@ -88,6 +88,7 @@ impl App {
                 fill_in_place(ctx, self.view.typed_point(point));
                 self.dialogs.open(Dialog::GoTo);
             }
+            ShellCommand::AskRole(file) => self.dialogs.ask_role(file),
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => self.help = Some(topic),
             ShellCommand::CloseHelp => self.help = None,

@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use super::{CatalogItem, Ctx, FileKind, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel, Tool};
+use super::{
+    CatalogItem, Ctx, DataRole, FileKind, FrameState, GestureHelp, LayerKindRow, OverMesh, Panel, Tool,
+};
 use crate::app::command::Command;
 
 /// A feature of the window: a folder under `features` with its state, its commands and what they do, its
@@ -41,6 +43,8 @@ pub struct Row {
     pub tools: &'static [Tool],
     /// Kinds of files that are opened by their ending.
     pub files: &'static [&'static FileKind],
+    /// The uses of files of data that the feature has.
+    pub roles: &'static [DataRole],
     /// Gestures of the pointer, for the list of keys.
     pub gestures: &'static [GestureHelp],
     /// Kinds of layers.
@@ -61,6 +65,7 @@ impl Row {
         panels: &[],
         tools: &[],
         files: &[],
+        roles: &[],
         gestures: &[],
         layer_kinds: &[],
         marks_below: |_, _| {},

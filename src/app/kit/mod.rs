@@ -9,6 +9,8 @@
 //! ```
 
 mod ctx;
+mod data_file;
+mod empty_document;
 mod entry;
 mod feature;
 mod file_kind;
@@ -25,6 +27,8 @@ mod radius_row;
 mod tool;
 
 pub use ctx::{Ctx, NO_LIMIT};
+pub use data_file::{DataContents, DataFile, DataRole, RasterFacts, look_at};
+pub use empty_document::{EmptyDocument, show_over_extent};
 pub use entry::{CatalogItem, DIGITS, Menu};
 pub use feature::{Feature, Row};
 pub use file_kind::{FileAct, FileKind, FileRequest};

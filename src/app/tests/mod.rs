@@ -1,6 +1,7 @@
 //! The window driven as a person drives it, by role and label, without a display. Most tests need no graphics
 //! driver.
 
+mod add_data;
 #[cfg(unix)]
 mod background;
 mod budget;

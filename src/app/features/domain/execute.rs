@@ -1,7 +1,9 @@
 //! Runs the commands about the domain.
 
 use super::load::{load_domain, load_outline};
-use super::{DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, entries};
+use super::{
+    DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
+};
 use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
 
@@ -10,6 +12,7 @@ impl Feature for DomainEditor {
     const ROW: Row = Row {
         tools: &[&DOMAIN],
         files: &[&OPEN_DOMAIN],
+        roles: &ROLES,
         panels: &[&DOMAIN_PANEL, &FIT],
         entries: entries::entries,
         ..Row::EMPTY

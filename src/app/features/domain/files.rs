@@ -1,7 +1,7 @@
 //! The kinds of files that domains are read from.
 
 use crate::app::command::{Command, DomainCommand};
-use crate::app::kit::{FileAct, FileKind};
+use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// Polygons as the domain of a new document.
 pub static OPEN_DOMAIN: FileKind = FileKind {
@@ -22,3 +22,23 @@ pub static ADD_OUTLINE: FileKind = FileKind {
     folder: "domains",
     ..FileKind::new(|path| Command::Domain(DomainCommand::AddOutline(path)))
 };
+
+/// The uses of a file that the domain has.
+pub static ROLES: [DataRole; 2] = [
+    DataRole {
+        place: 10,
+        title: "Domain of a new document",
+        sentence: "A new document opens, and the polygons are its domain.",
+        kind: &OPEN_DOMAIN,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+        refusal: |file, _| file.lacks_polygons(),
+    },
+    DataRole {
+        place: 11,
+        title: "Outline of this document",
+        sentence: "The polygons are added to the domain of this document, or become it.",
+        kind: &ADD_OUTLINE,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+        refusal: |file, _| file.lacks_polygons(),
+    },
+];

@@ -13,6 +13,7 @@ mod tool;
 
 pub use command::DomainCommand;
 use command::OutlineChange;
+use files::ROLES;
 pub use files::{ADD_OUTLINE, OPEN_DOMAIN};
 use fit::FIT;
 use panel::DOMAIN_PANEL;

@@ -2,7 +2,8 @@
 
 use super::kinds::kind_of;
 use super::{
-    KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, TRANSFER, entries, list, load, marks,
+    KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load,
+    marks,
 };
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
@@ -14,6 +15,7 @@ impl Feature for LayerEditor {
     type Command = LayerCommand;
     const ROW: Row = Row {
         files: &[&OPEN_RISK],
+        roles: &ROLES,
         panels: &[&LAYERS, &TRANSFER],
         layer_kinds: &KINDS,
         marks_below: marks::paint,

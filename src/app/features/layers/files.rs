@@ -1,7 +1,7 @@
 //! The kinds of files that layers are read from.
 
 use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::FileKind;
+use crate::app::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
 
 /// A picture or a grid as risk.
 pub static OPEN_RISK: FileKind = FileKind {
@@ -42,7 +42,7 @@ pub static OPEN_VALUES: FileKind = FileKind {
 /// Points, lines and polygons as a layer of distances.
 pub static OPEN_SHAPES: FileKind = FileKind {
     title: "Open shapes to measure the distance to",
-    endings: || vec!["geojson", "json"],
+    endings: || vec!["geojson", "json", "csv"],
     contents: "Points, lines and polygons",
     folder: "shapes",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenShapes(path)))
@@ -51,7 +51,7 @@ pub static OPEN_SHAPES: FileKind = FileKind {
 /// Points, lines and polygons in place of those of a layer.
 pub static REPLACE_SHAPES: FileKind = FileKind {
     title: "Open other shapes for this layer",
-    endings: || vec!["geojson", "json"],
+    endings: || vec!["geojson", "json", "csv"],
     contents: "Points, lines and polygons",
     folder: "shapes",
     ..FileKind::new(|path| Command::Layer(LayerCommand::ReplaceShapes(path)))
@@ -65,3 +65,78 @@ pub static OPEN_MASK: FileKind = FileKind {
     folder: "domains",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenMask(path)))
 };
+
+/// The uses of a file that layers have.
+pub static ROLES: [DataRole; 6] = [
+    DataRole {
+        place: 12,
+        title: "Shapes to measure the distance to",
+        sentence: "A layer is fine at the shapes, and grows with the distance to them.",
+        kind: &OPEN_SHAPES,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. } | DataContents::Points(_)),
+        refusal: |_, _| None,
+    },
+    DataRole {
+        place: 13,
+        title: "Mask of the selected layer",
+        sentence: "The selected layer counts only inside the polygons.",
+        kind: &OPEN_MASK,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+        refusal: |file, state| file.lacks_polygons().or_else(|| no_layer(state)),
+    },
+    DataRole {
+        place: 20,
+        title: "Risk",
+        sentence: "A layer of risk from 0 to 1; the curve from risk to diameter says how fine that is.",
+        kind: &OPEN_RISK,
+        is_for: is_raster,
+        refusal: |file, _| {
+            refused_values(file, |least, greatest| least >= 0.0 && greatest <= 1.0, "from 0 to 1")
+        },
+    },
+    DataRole {
+        place: 21,
+        title: "Values through a curve",
+        sentence: "A layer whose curve gives the diameter for each value, such as finer where the water is shallow.",
+        kind: &OPEN_VALUES,
+        is_for: is_raster,
+        refusal: |file, _| refused_values(file, |_, _| true, ""),
+    },
+    DataRole {
+        place: 22,
+        title: "Target diameter",
+        sentence: "A layer of target diameters, in the unit of the document.",
+        kind: &OPEN_DIAMETERS,
+        is_for: is_raster,
+        refusal: |file, _| match file.contents {
+            DataContents::Grid(_) => refused_values(file, |least, _| least > 0.0, "above 0"),
+            _ => Some("Diameters are read from grids (.asc).".into()),
+        },
+    },
+    DataRole {
+        place: 23,
+        title: "Band of values",
+        sentence: "A layer with one diameter where the value lies between two numbers.",
+        kind: &OPEN_BAND,
+        is_for: is_raster,
+        refusal: |file, _| refused_values(file, |_, _| true, ""),
+    },
+];
+
+fn is_raster(contents: &DataContents) -> bool {
+    matches!(contents, DataContents::Grid(_) | DataContents::Picture(_))
+}
+
+fn no_layer(state: &FrameState<'_>) -> Option<String> {
+    let is_missing = state.session.document().active_layer().is_none();
+    is_missing.then(|| "No layer is selected.".into())
+}
+
+/// Returns why the least and the greatest value of a raster are not allowed.
+fn refused_values(file: &DataFile, is_allowed: fn(f64, f64) -> bool, rule: &str) -> Option<String> {
+    match file.raster()?.values {
+        Some([least, greatest]) if is_allowed(least, greatest) => None,
+        Some(_) => Some(format!("The values of the file are not all {rule}.")),
+        None => Some("No pixel of the file has a value.".into()),
+    }
+}

@@ -1,75 +1,118 @@
-//! Opening and writing the files of layers: rasters, shapes, masks and threats.
+//! Reads the files of layers: rasters, shapes and masks.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::with_mask;
+use crate::app::kit::{EmptyDocument, show_over_extent, with_mask};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, Shapes};
-use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues};
+use meshbrush_core::layers::{
+    DistanceTo, Layer, LayerId, LayerKind, RasterReading, RasterSource, ShapeList, Shapes,
+};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_io::io::layers::{
+    RasterError, RasterFile, RasterFormat, RasterFrame, RasterLoader, RasterValues,
+};
 use meshbrush_io::io::{self, Meter};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
+
+/// The space that an empty document leaves around shapes, as a share of their longer side.
+const SHARE_AROUND_SHAPES: f64 = 0.1;
 
 /// Reads a picture or a grid, and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
-    let (bounds, transfer) = frame_of(session);
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| {
-        match raster_of(&file, RasterValues::Risk, bounds, transfer, meter) {
-            Ok(source) => {
-                let kind = LayerKind::Raster { source, reading: RasterReading::Risk };
-                let commands = vec![
-                    Command::Layer(LayerCommand::Add(Box::new(kind))),
-                    Command::Edit(EditCommand::EndGesture),
-                ];
-                Outcome::Read { path: file, commands }
-            }
-            Err(problem) => Outcome::NotRead(problem),
-        }
+    load_raster(session, background, path, RasterValues::Risk, |source, _| {
+        Some(LayerKind::Raster { source, reading: RasterReading::Risk })
     });
 }
 
 /// Reads a picture or a grid, and adds it as a layer of target diameters.
 pub fn load_diameters(session: &Session, background: &mut Background, path: &Path) {
-    let (bounds, transfer) = frame_of(session);
-    load_layer(background, path, move |file, meter| {
-        let source = raster_of(file, RasterValues::Diameter, bounds, transfer, meter)?;
-        Ok(LayerKind::Raster { source, reading: RasterReading::Diameter })
+    load_raster(session, background, path, RasterValues::Diameter, |source, _| {
+        Some(LayerKind::Raster { source, reading: RasterReading::Diameter })
     });
 }
 
 /// Reads a picture or a grid, and adds a band of its values.
 pub fn load_band(session: &Session, background: &mut Background, path: &Path) {
-    let (bounds, transfer) = frame_of(session);
-    load_layer(background, path, move |file, meter| {
-        let source = raster_of(file, RasterValues::Any, bounds, transfer, meter)?;
-        LayerKind::band_of(source, &transfer).ok_or_else(|| no_values(file))
-    });
+    load_raster(session, background, path, RasterValues::Any, LayerKind::band_of);
 }
 
 /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.
 pub fn load_values(session: &Session, background: &mut Background, path: &Path) {
-    let (bounds, transfer) = frame_of(session);
-    load_layer(background, path, move |file, meter| {
-        let source = raster_of(file, RasterValues::Any, bounds, transfer, meter)?;
-        LayerKind::curve_of(source, &transfer).ok_or_else(|| no_values(file))
+    load_raster(session, background, path, RasterValues::Any, LayerKind::curve_of);
+}
+
+/// Reads a picture or a grid, and adds what it becomes as a layer. An empty document takes its extent.
+fn load_raster(
+    session: &Session,
+    background: &mut Background,
+    path: &Path,
+    values: RasterValues,
+    kind_of: fn(RasterSource, &Transfer) -> Option<LayerKind>,
+) {
+    let Settings { domain, transfer, .. } = session.document().settings();
+    let frame = RasterFrame { domain: domain.bounds, transfer: *transfer };
+    let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    background.start(Aim::Read, path, move |meter| {
+        let read = || {
+            let source = raster_of(&file, values, &frame, meter)?;
+            let bounds = source.raster.raster().bounds();
+            let over = empty.and_then(|empty| empty.over(&file, bounds, LengthUnit::None));
+            let transfer = over.as_ref().map_or(frame.transfer, |settings| settings.transfer);
+            let kind = kind_of(source, &transfer).ok_or_else(|| no_values(&file))?;
+            match over {
+                Some(settings) => commands_in_empty(settings, kind, &file),
+                None => check_place(&bounds, &frame.domain, &file).map(|()| commands_to_add(kind)),
+            }
+        };
+        match read() {
+            // Only what the window opens by its ending is among the recent files.
+            Ok(commands) if values == RasterValues::Risk => Outcome::Read { path: file, commands },
+            Ok(commands) => Outcome::PartRead(commands),
+            Err(problem) => Outcome::NotRead(problem),
+        }
     });
 }
 
-/// Returns the rectangle that pictures cover, in world units, and the scale of those of diameters.
-fn frame_of(session: &Session) -> (Rect, Transfer) {
-    let Settings { domain, transfer, .. } = session.document().settings();
-    (domain.bounds, *transfer)
+fn commands_to_add(kind: LayerKind) -> Vec<Command> {
+    vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::Edit(EditCommand::EndGesture)]
 }
 
-/// Reads points, lines and polygons, and adds a layer of the distance to them.
+/// Returns the commands that show a document over the extent of a file, with a layer of it on top.
+fn commands_in_empty(mut settings: Settings, kind: LayerKind, path: &Path) -> Result<Vec<Command>, String> {
+    let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
+    settings.layers.push(Layer::new(id, kind.name(), kind));
+    let mut commands = show_over_extent(settings, path)?;
+    commands.push(Command::Layer(LayerCommand::Select(id)));
+    Ok(commands)
+}
+
+/// Reads points, lines and polygons, and adds a layer of the distance to them. An empty document takes their
+/// extent.
 pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) {
     let transfer = session.document().settings().transfer;
-    load_layer(background, path, move |file, meter| {
-        Ok(LayerKind::distance_to(shapes_of(file, meter)?, &transfer, Settings::USUAL_GRADATION))
+    let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    background.start(Aim::Read, path, move |meter| {
+        let read = || {
+            let (to, extent, unit) = shapes_of(&file, meter)?;
+            let room = SHARE_AROUND_SHAPES * extent.size().max_element();
+            let over = empty.and_then(|empty| empty.over(&file, extent.expanded(room), unit));
+            let transfer = over.as_ref().map_or(transfer, |settings| settings.transfer);
+            let kind = LayerKind::distance_to(to, &transfer, Settings::USUAL_GRADATION);
+            over.map_or_else(
+                || Ok(commands_to_add(kind.clone())),
+                |settings| commands_in_empty(settings, kind.clone(), &file),
+            )
+        };
+        match read() {
+            Ok(commands) => Outcome::PartRead(commands),
+            Err(problem) => Outcome::NotRead(problem),
+        }
     });
 }
 
@@ -78,23 +121,7 @@ pub fn replace_shapes(session: &Session, background: &mut Background, path: &Pat
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match shapes_of(&file, meter) {
-        Ok(to) => Outcome::PartRead(vec![Command::Layer(LayerCommand::MeasureTo(layer, to))]),
-        Err(problem) => Outcome::NotRead(problem),
-    });
-}
-
-/// Reads a file, and adds what it becomes as a layer.
-fn load_layer(
-    background: &mut Background,
-    path: &Path,
-    kind_of: impl FnOnce(&Path, &Meter) -> Result<LayerKind, String> + Send + 'static,
-) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match kind_of(&file, meter) {
-        Ok(kind) => Outcome::PartRead(vec![
-            Command::Layer(LayerCommand::Add(Box::new(kind))),
-            Command::Edit(EditCommand::EndGesture),
-        ]),
+        Ok((to, ..)) => Outcome::PartRead(vec![Command::Layer(LayerCommand::MeasureTo(layer, to))]),
         Err(problem) => Outcome::NotRead(problem),
     });
 }
@@ -105,24 +132,32 @@ pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
     with_mask(background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
 }
 
-/// The shapes of a file. The distance within a polygon is 0.
-fn shapes_of(path: &Path, meter: &Meter) -> Result<DistanceTo, String> {
-    let list = io::shapes::read(path, meter).map_err(|error| error.to_string())?.shapes;
+/// Returns the shapes of a file, or the points of a table, with their extent and the unit of coordinates. The
+/// distance within a polygon is 0.
+fn shapes_of(path: &Path, meter: &Meter) -> Result<(DistanceTo, Rect, LengthUnit), String> {
+    let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let (list, unit) = if is_table {
+        let points = io::points::read(path).map_err(|error| error.to_string())?;
+        (ShapeList { points, ..ShapeList::default() }, LengthUnit::None)
+    } else {
+        let file = io::shapes::read(path, meter).map_err(|error| error.to_string())?;
+        (file.shapes, file.unit)
+    };
     let shapes = Shapes::new(list, true).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(DistanceTo::Shapes { name: name_of(path), shapes })
+    let extent = shapes.extent();
+    Ok((DistanceTo::Shapes { name: name_of(path), shapes }, extent, unit))
 }
 
-/// Returns the raster of a picture over `bounds`, or of a grid, which has to cover some of `bounds`.
+/// Returns the raster of a file: a grid at its place, and a picture where its world file says, or else over
+/// the domain.
 fn raster_of(
     path: &Path,
     values: RasterValues,
-    bounds: Rect,
-    transfer: Transfer,
+    frame: &RasterFrame,
     meter: &Meter,
 ) -> Result<RasterSource, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
-    let frame = RasterFrame { domain: bounds, transfer };
-    let raster = RasterLoader::new(meter).load(&file, values, &frame).map_err(|error| match (&error, values) {
+    let raster = RasterLoader::new(meter).load(&file, values, frame).map_err(|error| match (&error, values) {
         (RasterError::Value(_), RasterValues::Risk) => {
             format!(
                 "{error} If they are target diameters, use *Open grid as target diameter…* in the menu File."
@@ -130,15 +165,31 @@ fn raster_of(
         }
         _ => error.to_string(),
     })?;
-    let grid = raster.raster().bounds();
-    if grid.intersection(&bounds).is_none_or(|common| !common.is_proper()) {
-        let (file, grid, document) = (path.display(), extent(&grid), extent(&bounds));
-        return Err(format!(
-            "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
-             the Domain panel first."
-        ));
-    }
+    let beside = match file.format {
+        RasterFormat::Png => io::world_file::bounds_beside(path, raster.raster().size()),
+        RasterFormat::Asc => Ok(None),
+    };
+    let raster = match beside.map_err(|error| error.to_string())? {
+        Some(bounds) => placed(raster.raster(), bounds),
+        None => raster,
+    };
     Ok(RasterSource { name: name_of(path), raster })
+}
+
+fn placed(raster: &Raster, bounds: Rect) -> Arc<RasterPyramid> {
+    Arc::new(RasterPyramid::new(Raster::from_values(bounds, raster.size(), raster.values().to_vec())))
+}
+
+/// Checks that a raster covers some of the document.
+fn check_place(grid: &Rect, document: &Rect, path: &Path) -> Result<(), String> {
+    if grid.intersection(document).is_some_and(|common| common.is_proper()) {
+        return Ok(());
+    }
+    let (file, grid, document) = (path.display(), extent(grid), extent(document));
+    Err(format!(
+        "{file}: the grid lies outside this document: it covers {grid}, and the document {document}. Set the bounds in \
+         the Domain panel first, or open the file in an empty document, which takes its extent."
+    ))
 }
 
 fn no_values(path: &Path) -> String {

@@ -17,8 +17,8 @@ pub mod tests;
 mod transfer;
 
 pub use command::LayerCommand;
-use files::{OPEN_BAND, OPEN_MASK, OPEN_SHAPES, OPEN_VALUES, REPLACE_SHAPES};
-pub use files::{OPEN_DIAMETERS, OPEN_RISK};
+use files::{OPEN_BAND, OPEN_MASK, OPEN_SHAPES, REPLACE_SHAPES, ROLES};
+pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use kinds::KINDS;
 use panel::LAYERS;
 use pictures::LayerPictures;

@@ -9,7 +9,7 @@ use super::front::FrontFinder;
 use super::keep_out::load;
 use super::{
     AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_PANEL,
-    PathCommand, PathTool, Paths, entries, export, marks,
+    PathCommand, PathTool, Paths, ROLES, entries, export, marks,
 };
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
@@ -24,6 +24,7 @@ impl Feature for Paths {
         tools: &[&PATH],
         panels: &[&PATH_PANEL, &OTHER_PATHS],
         layer_kinds: &[&CORRIDOR],
+        roles: &ROLES,
         marks_below: marks::paint,
         entries: entries::entries,
         ..Row::EMPTY

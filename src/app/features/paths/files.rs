@@ -2,7 +2,7 @@
 
 use super::{KeepOutCommand, PathCommand};
 use crate::app::command::Command;
-use crate::app::kit::{FileAct, FileKind};
+use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_render::render::path_export::PathFormat;
 
 /// Polygons as a region that paths stay out of.
@@ -28,3 +28,13 @@ pub static EXPORT_PATH: FileKind = FileKind {
     },
     ..FileKind::new(|path| Command::Path(PathCommand::ExportAs(path)))
 };
+
+/// The use of a file that paths have.
+pub static ROLES: [DataRole; 1] = [DataRole {
+    place: 14,
+    title: "Keep-out region of paths",
+    sentence: "Paths stay out of the polygons; the mesh does not change.",
+    kind: &OPEN_KEEP_OUT,
+    is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+    refusal: |file, _| file.lacks_polygons(),
+}];

@@ -31,7 +31,7 @@ use command::NO_PATH;
 pub use command::{CostKind, PathCommand};
 pub use corridor_marks::FILL as CORRIDOR_COLOR;
 pub use files::EXPORT_PATH;
-use files::OPEN_KEEP_OUT;
+use files::{OPEN_KEEP_OUT, ROLES};
 pub use finder::PathFinder;
 use front::FRONT_PATHS;
 pub use front::FrontCommand;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{BACKGROUND, BackgroundPicture, PictureCommand};
+use super::{BACKGROUND, BackgroundPicture, PictureCommand, ROLES};
 use crate::app::background::{Aim, Outcome, name_of};
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{Ctx, Feature, Row};
@@ -12,7 +12,7 @@ use meshbrush_io::io;
 
 impl Feature for BackgroundPicture {
     type Command = PictureCommand;
-    const ROW: Row = Row { panels: &[&BACKGROUND], ..Row::EMPTY };
+    const ROW: Row = Row { panels: &[&BACKGROUND], roles: &ROLES, ..Row::EMPTY };
 
     fn execute(&mut self, command: PictureCommand, ctx: &mut Ctx<'_>) {
         match command {

@@ -1,7 +1,7 @@
 //! The kinds of files that the picture behind the mesh is read from.
 
 use crate::app::command::{Command, PictureCommand};
-use crate::app::kit::FileKind;
+use crate::app::kit::{DataContents, DataRole, FileKind};
 
 /// A picture to trace.
 pub static OPEN_PICTURE: FileKind = FileKind {
@@ -11,3 +11,13 @@ pub static OPEN_PICTURE: FileKind = FileKind {
     folder: "backgrounds",
     ..FileKind::new(|path| Command::Picture(PictureCommand::Open(path)))
 };
+
+/// The use of a file that the picture has.
+pub static ROLES: [DataRole; 1] = [DataRole {
+    place: 24,
+    title: "Background picture",
+    sentence: "A picture behind the mesh, to trace; it does not change the mesh.",
+    kind: &OPEN_PICTURE,
+    is_for: |contents| matches!(contents, DataContents::Picture(_)),
+    refusal: |_, _| None,
+}];

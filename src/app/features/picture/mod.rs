@@ -12,6 +12,7 @@ mod texture;
 pub use command::PictureCommand;
 pub use corners::show as show_corners;
 pub use files::OPEN_PICTURE;
+use files::ROLES;
 pub use panel::BACKGROUND;
 pub use texture::BackgroundTexture;
 

@@ -26,6 +26,10 @@ pub enum PinsCommand {
     Delete,
     /// Removes all pins.
     DeleteAll,
+    /// Reads a table of points, and adds a pin at each.
+    Open(PathBuf),
+    /// Pins points that were read.
+    AddAll(Vec<DVec2>),
     /// Reads the values of pins for some milliseconds.
     Read,
     /// Makes the table of the pins, and copies it.

@@ -1,10 +1,13 @@
 //! Commands about pins.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
 
+use super::files::ROLES;
+use super::load::load_pins;
 use super::table::{copy_table, counted, export_table, nearest_pin};
 use super::{PINS, Pins, PinsCommand, entries, entries_at, marks};
 use crate::app::command::{Command, InspectCommand};
@@ -16,7 +19,8 @@ const TABLE_BUDGET: Duration = Duration::from_millis(3);
 
 impl Feature for Pins {
     type Command = PinsCommand;
-    const ROW: Row = Row { panels: &[&PINS], marks: marks::paint, entries, entries_at, ..Row::EMPTY };
+    const ROW: Row =
+        Row { panels: &[&PINS], roles: &ROLES, marks: marks::paint, entries, entries_at, ..Row::EMPTY };
 
     fn execute(&mut self, command: PinsCommand, ctx: &mut Ctx<'_>) {
         match command {
@@ -32,6 +36,8 @@ impl Feature for Pins {
             PinsCommand::Select(number) => self.select(number, ctx),
             PinsCommand::Delete => self.delete(ctx),
             PinsCommand::DeleteAll => set_pins(Vec::new(), ctx),
+            PinsCommand::Open(path) => load_pins(ctx.background, &path),
+            PinsCommand::AddAll(points) => add_all(points, ctx),
             PinsCommand::Read => {
                 let budget = if ctx.reproducible { NO_LIMIT } else { TABLE_BUDGET };
                 self.reader.advance(ctx.session, ctx.view.quantity, Instant::now() + budget);
@@ -98,6 +104,21 @@ impl Pins {
         self.selected = None;
         set_pins(pins, ctx);
     }
+}
+
+/// Adds a pin at each point that has none, as one gesture.
+fn add_all(points: Vec<DVec2>, ctx: &mut Ctx<'_>) {
+    let mut pins = pins_of(ctx).to_vec();
+    let before = pins.len();
+    let mut known: HashSet<[u64; 2]> = pins.iter().map(bits).collect();
+    pins.extend(points.into_iter().filter(|point| known.insert(bits(point))));
+    let added = pins.len() - before;
+    set_pins(pins, ctx);
+    ctx.session.tell(format!("Added: {}.", counted(added)));
+}
+
+fn bits(point: &DVec2) -> [u64; 2] {
+    [point.x.to_bits(), point.y.to_bits()]
 }
 
 fn pins_of<'a>(ctx: &'a Ctx<'_>) -> &'a [DVec2] {

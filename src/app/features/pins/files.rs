@@ -1,7 +1,7 @@
 //! The table of the pins as a file.
 
 use crate::app::command::{Command, PinsCommand};
-use crate::app::kit::{FileAct, FileKind};
+use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// The table of the pins.
 pub static EXPORT_PINS: FileKind = FileKind {
@@ -14,3 +14,23 @@ pub static EXPORT_PINS: FileKind = FileKind {
     command_after_browsing: |path| Command::Pins(PinsCommand::Export(path)),
     ..FileKind::new(|path| Command::Pins(PinsCommand::ExportAs(path)))
 };
+
+/// Points as pins.
+pub static OPEN_PINS: FileKind = FileKind {
+    title: "Open table of points as pins",
+    act: FileAct::Add,
+    endings: || vec!["csv"],
+    contents: "Tables of points",
+    folder: "points",
+    ..FileKind::new(|path| Command::Pins(PinsCommand::Open(path)))
+};
+
+/// The use of a file that pins have.
+pub static ROLES: [DataRole; 1] = [DataRole {
+    place: 15,
+    title: "Pins",
+    sentence: "Pins are added at the points; the mesh does not change.",
+    kind: &OPEN_PINS,
+    is_for: |contents| matches!(contents, DataContents::Points(_)),
+    refusal: |_, _| None,
+}];

@@ -4,6 +4,7 @@ mod command;
 mod entries;
 mod execute;
 mod files;
+mod load;
 mod marks;
 mod panel;
 mod table;

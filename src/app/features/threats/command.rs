@@ -24,7 +24,8 @@ pub enum ThreatsCommand {
     Select(usize),
     /// Removes the selected threat.
     Delete,
-    /// Reads a table of threats in place of those of the selected layer.
+    /// Reads a table of threats in place of those of the selected layer, or as a new layer if that is of
+    /// another kind.
     Open(PathBuf),
     /// Writes the threats of the selected layer as a table, and asks before another file is replaced.
     SaveAs(PathBuf),

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::table::{load_threats, save_threats};
 use super::tool::grip_at;
-use super::{THREATS, THREATS_KIND, ThreatEditor, ThreatGrip, ThreatsCommand, entries, threats_layer};
+use super::{ROLES, THREATS, THREATS_KIND, ThreatEditor, ThreatGrip, ThreatsCommand, entries, threats_layer};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::notices::Offer;
@@ -17,8 +17,13 @@ const USUAL_PEAK: f64 = 0.8;
 
 impl Feature for ThreatEditor {
     type Command = ThreatsCommand;
-    const ROW: Row =
-        Row { tools: &[&THREATS], layer_kinds: &[&THREATS_KIND], entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row = Row {
+        tools: &[&THREATS],
+        layer_kinds: &[&THREATS_KIND],
+        roles: &ROLES,
+        entries: entries::entries,
+        ..Row::EMPTY
+    };
 
     fn execute(&mut self, command: ThreatsCommand, ctx: &mut Ctx<'_>) {
         match command {

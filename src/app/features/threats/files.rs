@@ -1,7 +1,7 @@
 //! Tables of threats as files.
 
 use crate::app::command::{Command, ThreatsCommand};
-use crate::app::kit::{FileAct, FileKind};
+use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 
 /// A table in place of the threats of a layer.
 pub static OPEN_THREATS: FileKind = FileKind {
@@ -23,3 +23,13 @@ pub static SAVE_THREATS: FileKind = FileKind {
     command_after_browsing: |path| Command::Threats(ThreatsCommand::Save(path)),
     ..FileKind::new(|path| Command::Threats(ThreatsCommand::SaveAs(path)))
 };
+
+/// The use of a file that threats have.
+pub static ROLES: [DataRole; 1] = [DataRole {
+    place: 30,
+    title: "Threats",
+    sentence: "The threats of the selected layer are replaced, or a layer of threats is added.",
+    kind: &OPEN_THREATS,
+    is_for: |contents| matches!(contents, DataContents::Threats(_)),
+    refusal: |_, _| None,
+}];

@@ -11,7 +11,7 @@ mod tests;
 mod tool;
 
 pub use command::ThreatsCommand;
-use files::{OPEN_THREATS, SAVE_THREATS};
+use files::{OPEN_THREATS, ROLES, SAVE_THREATS};
 use glam::DVec2;
 use layer_kind::THREATS_KIND;
 pub use tool::THREATS;

@@ -10,9 +10,10 @@ use crate::app::widgets::format;
 use meshbrush_core::layers::{LayerKind, Threats};
 use meshbrush_io::io;
 
-/// Reads a table of threats in place of those of the selected layer.
+/// Reads a table of threats in place of those of the selected layer, or as a new layer if the selected one is
+/// of another kind.
 pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
-    let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
+    let layer = threats_layer(session.document()).map(|(layer, _)| layer.id);
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| {
         let list = match io::threats::read(&file, meter) {
@@ -21,7 +22,11 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
         };
         match Threats::new(list) {
             Ok(threats) => {
-                let change = LayerCommand::SetKind(layer, Box::new(LayerKind::Threats(threats)));
+                let kind = Box::new(LayerKind::Threats(threats));
+                let change = match layer {
+                    Some(layer) => LayerCommand::SetKind(layer, kind),
+                    None => LayerCommand::Add(kind),
+                };
                 Outcome::PartRead(vec![
                     Command::Edit(EditCommand::EndGesture),
                     Command::Layer(change),

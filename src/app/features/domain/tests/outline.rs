@@ -7,7 +7,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ShellCommand};
+use crate::app::command::{
+    Command, DomainCommand, EditCommand, FileCommand, LayerCommand, PinsCommand, ShellCommand,
+};
 use crate::app::tests::{
     TALL, Window, area, document, entries, fingerprint, folder, has_raster, level_at, paint, send, settings,
     wait_for_notice, wait_until, window, window_of, window_with,
@@ -101,6 +103,11 @@ fn an_outline_elsewhere_or_far_too_large_is_refused_with_a_sentence() {
     }
 }
 
+/// Pins a point: an empty document would take the extent of the first grid.
+fn keep_extent(window: &mut Window) {
+    send(window, Command::Pins(PinsCommand::Add(dvec2(0.5, 0.5))));
+}
+
 /// Writes a grid of two pixels, of which the right one has no value.
 fn write_grid(file: &Path, corner: f64, value: f64) -> PathBuf {
     let header = format!("ncols 2\nnrows 1\nxllcorner {corner}\nyllcorner 0.25\ncellsize 0.25\n");
@@ -114,6 +121,7 @@ fn a_grid_opens_as_target_diameters_and_is_saved_with_the_document() {
     let file = |name: &str| folder.join(name);
     let mut window = window_of(TALL);
     send(&mut window, Command::File(FileCommand::New));
+    keep_extent(&mut window);
     send(&mut window, Command::Layer(LayerCommand::OpenDiameters(write_grid(&file("zero.asc"), 0.25, 0.0))));
     assert!(wait_for_notice(&mut window).contains("it must be positive"));
     send(
@@ -140,6 +148,7 @@ fn a_grid_opens_as_risk_at_its_own_place() {
     let grid = |name: &str, corner: f64, value: f64| write_grid(&folder.join(name), corner, value);
     let mut window = window();
     send(&mut window, Command::File(FileCommand::New));
+    keep_extent(&mut window);
     send(&mut window, Command::File(FileCommand::Open(grid("large.asc", 0.25, 7.0))));
     assert!(wait_for_notice(&mut window).contains("it must lie from 0 to 1"));
     send(&mut window, Command::Shell(ShellCommand::Escape));

@@ -1,0 +1,132 @@
+//! Reads a file of data on another thread, to ask what it is to be.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{DataContents, DataFile, Preview, RasterFacts};
+use crate::app::background::{Aim, Background, Outcome};
+use crate::app::command::{Command, ShellCommand};
+use meshbrush_core::layers::{ShapeList, Threat};
+use meshbrush_core::raster::Raster;
+use meshbrush_io::io::png::Behind;
+use meshbrush_io::io::{self, Meter};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
+
+/// Corners of the circle that shows the range of a threat.
+const CIRCLE: u32 = 48;
+/// Most circles in the picture of a table of threats.
+const MOST_CIRCLES: usize = 2000;
+
+/// Reads a file of data, and then asks what it is to be.
+pub fn look_at(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| match read(&file, meter) {
+        Ok(data) => Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(Arc::new(data)))]),
+        Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Reads a file of data.
+///
+/// # Errors
+/// Fails with a sentence when the file is of no use, or the work was cancelled.
+fn read(path: &Path, meter: &Meter) -> Result<DataFile, String> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let seen = match ending.as_str() {
+        "asc" => grid(path, meter)?,
+        "png" => picture(path, meter)?,
+        "csv" => table(path, meter)?,
+        _ => shapes(path, meter)?,
+    };
+    let Seen { contents, extent, unit, preview } = seen;
+    Ok(DataFile { path: path.to_owned(), bytes: meter.total().unwrap_or(0), contents, extent, unit, preview })
+}
+
+/// What was seen of a file.
+struct Seen {
+    contents: DataContents,
+    extent: Option<Rect>,
+    unit: LengthUnit,
+    preview: Preview,
+}
+
+fn grid(path: &Path, meter: &Meter) -> Result<Seen, String> {
+    let raster = io::asc::read_metered(path, meter).map_err(|error| error.to_string())?;
+    let facts = facts(&raster);
+    Ok(Seen {
+        contents: DataContents::Grid(facts),
+        extent: Some(raster.bounds()),
+        unit: LengthUnit::None,
+        preview: Preview::of_raster(&raster, facts.values),
+    })
+}
+
+fn picture(path: &Path, meter: &Meter) -> Result<Seen, String> {
+    let read = io::png::read_metered(path, Rect::UNIT, Behind::White, meter);
+    let raster = read.map_err(|error| error.to_string())?;
+    let extent = io::world_file::bounds_beside(path, raster.size()).map_err(|error| error.to_string())?;
+    let facts = facts(&raster);
+    Ok(Seen {
+        contents: DataContents::Picture(facts),
+        extent,
+        unit: LengthUnit::None,
+        preview: Preview::of_raster(&raster, facts.values),
+    })
+}
+
+fn facts(raster: &Raster) -> RasterFacts {
+    let finite = raster.values().iter().filter(|value| value.is_finite()).map(|&value| f64::from(value));
+    let values = finite.fold(None, |range: Option<[f64; 2]>, value| {
+        let [least, greatest] = range.unwrap_or([value; 2]);
+        Some([least.min(value), greatest.max(value)])
+    });
+    let missing = raster.values().iter().filter(|value| value.is_nan()).count();
+    RasterFacts { size: raster.size(), values, missing }
+}
+
+fn shapes(path: &Path, meter: &Meter) -> Result<Seen, String> {
+    let file = io::shapes::read(path, meter).map_err(|error| error.to_string())?;
+    let ShapeList { points, lines, polygons } = &file.shapes;
+    let contents =
+        DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
+    Ok(drawn(contents, &file.shapes, file.unit))
+}
+
+/// A table of threats, or else of points.
+fn table(path: &Path, meter: &Meter) -> Result<Seen, String> {
+    let no_threats = match io::threats::read(path, meter) {
+        Ok(threats) => {
+            return Ok(drawn(DataContents::Threats(threats.len()), &circles(&threats), LengthUnit::None));
+        }
+        Err(error) => error.to_string(),
+    };
+    let points = io::points::read(path).map_err(|_| {
+        format!(
+            "{no_threats} As a table of points it needs a header with x and y, and numbers in both columns."
+        )
+    })?;
+    let contents = DataContents::Points(points.len());
+    Ok(drawn(contents, &ShapeList { points, ..ShapeList::default() }, LengthUnit::None))
+}
+
+/// Returns the ranges of threats as circles.
+fn circles(threats: &[Threat]) -> ShapeList {
+    let angle = |corner: u32| f64::from(corner) * TAU / f64::from(CIRCLE);
+    let circle = |threat: &Threat| {
+        (0..CIRCLE).map(|corner| threat.at + threat.range * DVec2::from_angle(angle(corner))).collect()
+    };
+    let polygons = threats.iter().take(MOST_CIRCLES).map(|threat| vec![circle(threat)]).collect();
+    ShapeList { points: threats.iter().map(|threat| threat.at).collect(), polygons, ..ShapeList::default() }
+}
+
+fn drawn(contents: DataContents, shapes: &ShapeList, unit: LengthUnit) -> Seen {
+    let rings = shapes.lines.iter().chain(shapes.polygons.iter().flatten()).flatten();
+    let all = shapes.points.iter().chain(rings);
+    let extent = all.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b));
+    let preview = Preview::of_shapes(shapes, extent.unwrap_or(Rect::UNIT));
+    Seen { contents, extent, unit, preview }
+}

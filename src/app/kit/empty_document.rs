@@ -1,0 +1,58 @@
+//! An empty document takes the extent of the first file that is opened into it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::app::background::name_of;
+use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
+use crate::app::session::Session;
+use meshbrush_core::document::{Document, Settings, extent};
+use meshbrush_core::domain::Domain;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
+
+/// The settings of a document in which nothing was painted, and which has the usual domain and layers.
+#[derive(Clone, Debug)]
+pub struct EmptyDocument(Settings);
+
+impl EmptyDocument {
+    /// Returns the settings of the document if it is empty.
+    pub fn of(session: &Session) -> Option<Self> {
+        let (document, usual) = (session.document(), Settings::default());
+        let settings = document.settings();
+        let has_usual_lengths = settings.domain == usual.domain
+            && settings.spacing == usual.spacing
+            && settings.transfer == usual.transfer
+            && settings.layers == usual.layers;
+        let has_no_data = document.paint().is_blank()
+            && settings.background.is_none()
+            && settings.pins.is_empty()
+            && settings.paths == usual.paths;
+        (has_usual_lengths && has_no_data).then(|| Self(settings.clone()))
+    }
+
+    /// Returns the settings over the extent of a file, with lengths in proportion to it; `None` if the extent
+    /// has no area, or is the extent that the document has.
+    pub fn over(&self, file: &Path, extent: Rect, unit: LengthUnit) -> Option<Settings> {
+        if !extent.is_proper() || extent == self.0.domain.bounds {
+            return None;
+        }
+        let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let unit = if unit == LengthUnit::None { self.0.unit } else { unit };
+        let Settings { rule, cleaning, gradation, max_triangles, max_memory, .. } = self.0;
+        let usual = Settings::for_domain(name, Domain::rectangle(extent));
+        Some(Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual })
+    }
+}
+
+/// Returns the commands that show settings over the extent of a file, and say so.
+///
+/// # Errors
+/// Fails with a sentence when no mesh can be built for them.
+pub fn show_over_extent(settings: Settings, file: &Path) -> Result<Vec<Command>, String> {
+    let (name, bounds) = (name_of(file), extent(&settings.domain.bounds));
+    let document = Document::new(settings, None).map_err(|error| format!("{}: {error}", file.display()))?;
+    let opened = Opened { document: Arc::new(document), home: None };
+    let news = format!("The document was empty, so it takes the extent of {name}: {bounds}.");
+    Ok(vec![Command::File(FileCommand::Show(opened)), Command::Shell(ShellCommand::Tell(news))])
+}

@@ -1,0 +1,251 @@
+//! Adding data of any kind: what a file is to be, an empty document, and the page of a new document.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::accesskit::{Role, Toggled};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use glam::dvec2;
+
+use super::project::Dropped;
+use super::{
+    Window, active, click_button, document, entries, key, notice, open_menu, paint, send, settings, value_of,
+    wait_for_notice, wait_until, window,
+};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use meshbrush_core::domain::BoundaryTreatment;
+use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
+
+/// Depths over a part of the earth, in metres, far from the domain of a new document.
+const DEPTHS: &str = "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 4000000\ncellsize 1000\n\
+                      NODATA_value -9999\n-30 -20 -10\n-5 -9999 60\n";
+const COAST: &str =
+    "{\"type\": \"Polygon\", \"coordinates\": [[[20, 30], [24, 30], [24, 33], [20, 33], [20, 30]]]}";
+const LINE: &str = "{\"type\": \"LineString\", \"coordinates\": [[0.2, 0.2], [0.8, 0.7]]}";
+const THREATS: &str = "x,y,range,peak,law\n0.3,0.4,0.1,0.8,radar\n0.6,0.6,0.2,0.5,disc\n";
+const POINTS: &str = "x,y\n0.3,0.4\n0.6,0.6\n0.3,0.4\n";
+
+fn written(test: &str, name: &str, text: &str) -> PathBuf {
+    let file = super::folder("app-add-data", test).join(name);
+    fs::write(&file, text).unwrap();
+    file
+}
+
+fn drop_file(window: &mut Window, file: &Path) {
+    window.input_mut().dropped_files.push(Arc::new(Dropped(file.to_owned())));
+    window.run();
+}
+
+fn is_asked(window: &Window) -> bool {
+    window.query_by_label("What is the file to be?").is_some()
+}
+
+/// Drops a file on the window, and waits for the question about it.
+fn drop_and_wait(window: &mut Window, file: &Path) {
+    drop_file(window, file);
+    wait_until(window, is_asked);
+}
+
+/// Returns the roles that can be chosen, and the chosen one.
+fn roles(window: &Window) -> (Vec<String>, Option<String>) {
+    let canvas = super::canvas(window);
+    let radios = window.query_all_by_role(Role::RadioButton);
+    // The panels beside the dialog have choices, too.
+    let of_dialog = radios.filter(|node| canvas.contains(node.rect().center()));
+    let mut found = (Vec::new(), None);
+    for data in of_dialog.map(|node| node.accesskit_node().data().clone()) {
+        let title = data.label().unwrap_or_default().to_owned();
+        if data.is_disabled() {
+            continue;
+        }
+        if data.toggled() == Some(Toggled::True) {
+            found.1 = Some(title.clone());
+        }
+        found.0.push(title);
+    }
+    found
+}
+
+fn choose_role(window: &mut Window, title: &str) {
+    window.get_by_role_and_label(Role::RadioButton, title).click();
+    window.run();
+    click_button(window, "Add");
+}
+
+fn new_document(window: &mut Window) {
+    send(window, Command::File(FileCommand::New));
+}
+
+#[test]
+fn a_dropped_grid_of_depths_is_asked_about_and_gives_an_empty_document_its_extent() {
+    let file = written("depths", "depths.asc", DEPTHS);
+    let mut window = window();
+    new_document(&mut window);
+    drop_and_wait(&mut window, &file);
+    assert_eq!(value_of(&window, Role::Definition, "Contents"), "grid, 3 × 2");
+    assert_eq!(value_of(&window, Role::Definition, "Values"), "−30 … 60");
+    assert_eq!(value_of(&window, Role::Definition, "Without a value"), "17 %");
+    assert!(window.query_by_role_and_label(Role::Image, "Picture of depths.asc").is_some());
+    assert!(window.query_by_label_contains("takes the extent of the file").is_some());
+    let (possible, chosen) = roles(&window);
+    assert_eq!(possible, ["Values through a curve", "Band of values"], "neither risks nor diameters");
+    assert_eq!(chosen.as_deref(), Some("Values through a curve"));
+    click_button(&mut window, "Add");
+    wait_until(&mut window, |window| settings(window).layers.len() == 4);
+    let bounds = Rect::new(dvec2(500_000.0, 4_000_000.0), dvec2(503_000.0, 4_002_000.0));
+    assert_eq!(settings(&window).domain.bounds, bounds);
+    assert!(
+        notice(&window).contains("was empty, so it takes the extent of depths.asc"),
+        "{}",
+        notice(&window)
+    );
+    let LayerKind::Raster { reading: RasterReading::Curve(curve), .. } = &active(&window).kind else {
+        panic!("the new layer is selected: {:?}", active(&window));
+    };
+    assert!(curve.knots().iter().all(|knot| knot[1] > 1.0), "diameters of the new extent: {curve:?}");
+    assert!(!is_asked(&window));
+}
+
+#[test]
+fn a_document_with_paint_keeps_its_extent() {
+    let file = written("painted", "depths.asc", DEPTHS);
+    let mut window = window();
+    new_document(&mut window);
+    paint(&mut window, 0.5);
+    drop_and_wait(&mut window, &file);
+    assert!(window.query_by_label_contains("takes the extent of the file").is_none());
+    click_button(&mut window, "Add");
+    let problem = wait_for_notice(&mut window);
+    assert!(problem.contains("outside this document") && problem.contains("empty document"), "{problem}");
+    assert_eq!(settings(&window).domain.bounds, Rect::UNIT);
+}
+
+#[test]
+fn shapes_give_an_empty_document_their_extent_and_unit() {
+    let file = written("shapes", "coast.geojson", COAST);
+    let mut window = window();
+    new_document(&mut window);
+    drop_and_wait(&mut window, &file);
+    let (possible, chosen) = roles(&window);
+    assert_eq!(chosen.as_deref(), Some("Domain of a new document"));
+    assert!(possible.iter().any(|role| role == "Keep-out region of paths"), "{possible:?}");
+    choose_role(&mut window, "Shapes to measure the distance to");
+    wait_until(&mut window, |window| settings(window).layers.len() == 4);
+    assert!(matches!(&active(&window).kind, LayerKind::Distance { to: DistanceTo::Shapes { .. }, .. }));
+    let bounds = settings(&window).domain.bounds;
+    assert!(bounds.min.x < 20.0 && bounds.max.y > 33.0 && bounds.size().x < 5.0, "{bounds:?}");
+    assert_eq!(settings(&window).unit, LengthUnit::Degree);
+}
+
+#[test]
+fn polygons_become_a_domain_an_outline_a_mask_or_a_region() {
+    let file = written("polygons", "coast.geojson", COAST);
+    let mut window = window();
+    drop_and_wait(&mut window, &file);
+    click_button(&mut window, "Add");
+    wait_until(&mut window, |window| settings(window).name == "coast");
+    assert_ne!(settings(&window).boundary, BoundaryTreatment::Report);
+    drop_and_wait(&mut window, &file);
+    choose_role(&mut window, "Mask of the selected layer");
+    wait_until(&mut window, |window| active(window).mask.is_some());
+    drop_and_wait(&mut window, &file);
+    choose_role(&mut window, "Keep-out region of paths");
+    wait_until(&mut window, |window| settings(window).paths.keep_out.len() == 1);
+}
+
+#[test]
+fn a_line_can_only_be_measured_to_and_the_reason_is_told() {
+    let file = written("line", "line.geojson", LINE);
+    let mut window = window();
+    drop_and_wait(&mut window, &file);
+    let (possible, chosen) = roles(&window);
+    assert_eq!(possible, ["Shapes to measure the distance to"]);
+    assert_eq!(chosen.as_deref(), Some("Shapes to measure the distance to"));
+    assert!(window.query_all_by_label_contains("has no polygons").count() > 0);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    wait_until(&mut window, |window| matches!(&active(window).kind, LayerKind::Distance { .. }));
+}
+
+#[test]
+fn tables_become_threats_or_pins() {
+    let threats = written("threats", "threats.csv", THREATS);
+    let points = written("points", "points.csv", POINTS);
+    let mut window = window();
+    new_document(&mut window);
+    drop_and_wait(&mut window, &threats);
+    assert_eq!(roles(&window).0, ["Threats"]);
+    click_button(&mut window, "Add");
+    wait_until(&mut window, |window| matches!(&active(window).kind, LayerKind::Threats(_)));
+    let LayerKind::Threats(threats) = &active(&window).kind else { panic!("a layer of threats") };
+    assert_eq!(threats.list().len(), 2);
+    assert_eq!(settings(&window).layers.len(), 4, "the layer that was selected stays as it is");
+    drop_and_wait(&mut window, &points);
+    choose_role(&mut window, "Pins");
+    wait_until(&mut window, |window| settings(window).pins.len() == 2);
+    assert!(notice(&window).contains("2 pins"), "a point that is there twice is one pin");
+}
+
+#[test]
+fn two_dropped_files_are_asked_about_one_after_the_other() {
+    let [a, b] = ["a.geojson", "b.geojson"].map(|name| written(name, name, LINE));
+    let mut window = window();
+    drop_file(&mut window, &a);
+    drop_and_wait(&mut window, &b);
+    let is_about = |window: &Window, name: &str| window.query_by_label(&format!("Add {name}")).is_some();
+    wait_until(&mut window, |window| is_about(window, "a.geojson") || is_about(window, "b.geojson"));
+    let first_is_a = is_about(&window, "a.geojson");
+    let before = entries(&window);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    let other = if first_is_a { "b.geojson" } else { "a.geojson" };
+    wait_until(&mut window, |window| is_about(window, other));
+    click_button(&mut window, "Cancel");
+    assert!(!is_asked(&window));
+    assert_eq!(entries(&window), before, "nothing was added");
+}
+
+#[test]
+fn add_data_asks_for_a_file_and_tells_what_is_wrong_with_it() {
+    let bad = written("bad", "bad.csv", "a,b\n1,2\n");
+    let mut window = window();
+    open_menu(&mut window, "File");
+    window.get_by_label_contains("Add data…").click();
+    window.run();
+    super::type_into(&mut window, "Path", &bad.display().to_string());
+    wait_until(&mut window, |window| window.query_by_label_contains("needs a header with x and y").is_some());
+    assert!(window.query_by_label("Add data").is_some(), "another file can be given");
+}
+
+#[test]
+fn a_new_document_starts_from_a_page() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::N);
+    assert!(document(&window).paint().is_blank() && settings(&window).domain.bounds == Rect::UNIT);
+    assert!(window.query_by_label("New document").is_some());
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(window.query_by_label("New document").is_none(), "the rectangle has the focus");
+    key(&mut window, Modifiers::COMMAND, Key::N);
+    click_button(&mut window, "Coast…");
+    assert!(window.query_by_label("Open domain").is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    key(&mut window, Modifiers::COMMAND, Key::N);
+    click_button(&mut window, "Aegean Sea");
+    assert_eq!(settings(&window).name, "Aegean Sea");
+}
+
+#[test]
+fn a_picture_lies_where_its_world_file_says() {
+    let file = written("placed", "map.png", "");
+    fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/jacksboro_slope.png"), &file).unwrap();
+    fs::write(file.with_extension("pgw"), "2\n0\n0\n-2\n101\n899\n").unwrap();
+    let mut window = window();
+    new_document(&mut window);
+    send(&mut window, Command::Layer(LayerCommand::OpenImage(file)));
+    wait_until(&mut window, |window| settings(window).layers.len() == 4);
+    let bounds = settings(&window).domain.bounds;
+    assert_eq!((bounds.min.x, bounds.max.y), (100.0, 900.0));
+    assert_eq!(bounds.size().x, 2.0 * 403.0);
+}
