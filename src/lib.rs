@@ -61,7 +61,7 @@ pub use meshbrush_core::document::{
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
-    Combine, Coverage, CurveError, Decision, DiameterLimit, DistanceTo, InvalidLayer, Layer, LayerId,
+    Combine, Coverage, CurveError, Decision, DiameterLimit, DistanceTo, FineAt, InvalidLayer, Layer, LayerId,
     LayerKind, LeastTarget, Mask, PaintChange, PaintLayers, Quantity, RasterReading, RasterSource, RiskField,
     SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, Threat, ThreatError, ThreatLaw,
     Threats, ValueCurve,

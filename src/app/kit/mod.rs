@@ -36,7 +36,9 @@ pub use formula_row::FormulaRow;
 pub use frame_state::FrameState;
 pub use gesture::{CLICK_SLACK, GRIP_POINTS, Gesture, Pointer, Press, SettingsDrag, nearest_within};
 pub use gesture_help::{GestureHelp, GesturePlace};
-pub use layer_kind::{Addition, LayerKindRow, add_layer, kinds_of_layers, range_rows, set_kind_once};
+pub use layer_kind::{
+    Addition, LayerKindRow, add_layer, kinds_of_layers, range_rows, set_kind, set_kind_once,
+};
 pub use mask_file::with_mask;
 pub use menu_item::menu_item;
 pub use panel::{Panel, PanelGroup, button_rows, end_gesture_when_released, remark, set_once};

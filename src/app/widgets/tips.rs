@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 193] = [
+static SENTENCES: [(&str, &str); 197] = [
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -97,6 +97,13 @@ static SENTENCES: [(&str, &str); 193] = [
     ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
     ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
     ("What the values mean/Curve", "A curve gives the target diameter for each value of the raster."),
+    (
+        "Curve of the values",
+        "The target diameter for each value of the raster; behind it, how often each value occurs. A click adds a knot.",
+    ),
+    ("Fine at low", "Makes the curve fine at the least values, and coarse at the greatest."),
+    ("Fine near 0", "Makes the curve fine at the values nearest to 0, as in shallow water or at a shore."),
+    ("Fine at high", "Makes the curve fine at the greatest values, and coarse at the least."),
     ("Add knot", "Adds a knot halfway between the two that are furthest apart; it changes no diameter."),
     (
         "Open shapes…",

@@ -18,6 +18,17 @@ pub struct ValueCurve {
     knots: Vec<[f64; 2]>,
 }
 
+/// The values of a raster at which a curve is fine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FineAt {
+    /// The least values.
+    Least,
+    /// The values nearest to 0, such as those of shallow water.
+    Zero,
+    /// The greatest values.
+    Greatest,
+}
+
 /// Why knots make no curve.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -88,6 +99,47 @@ impl ValueCurve {
             knots.push([f64::from(values.greatest), at_greatest]);
         }
         Self::new(knots).ok()
+    }
+
+    /// Returns a curve that is fine at some values of a raster, with a knot at the median of the values on
+    /// each side of them. `sorted` are finite values in ascending order; diameters are in world units. `None`
+    /// if there is no value, or a number is not valid.
+    pub fn fine_at(place: FineAt, sorted: &[f32], finest: f64, coarsest: f64) -> Option<Self> {
+        let (&least, &greatest) = (sorted.first()?, sorted.last()?);
+        let fine = match place {
+            FineAt::Least => least,
+            FineAt::Greatest => greatest,
+            FineAt::Zero => 0.0f32.clamp(least, greatest),
+        };
+        let below = &sorted[..sorted.partition_point(|&value| value < fine)];
+        let above = &sorted[sorted.partition_point(|&value| value <= fine)..];
+        let between = (finest * coarsest).sqrt();
+        let median = |side: &[f32]| side.get(side.len() / 2).map(|&value| (value, between));
+        let knots = [
+            below.first().map(|&value| (value, coarsest)),
+            median(below),
+            Some((fine, finest)),
+            median(above),
+            above.last().map(|&value| (value, coarsest)),
+        ];
+        let mut knots: Vec<(f32, f64)> = knots.into_iter().flatten().collect();
+        // Where the median is the end, the end counts: it is the coarser of the two.
+        knots.dedup_by(|next, kept| {
+            let is_same = next.0 == kept.0;
+            kept.1 = if is_same { kept.1.max(next.1) } else { kept.1 };
+            is_same
+        });
+        Self::new(knots.into_iter().map(|(value, diameter)| [f64::from(value), diameter]).collect()).ok()
+    }
+
+    /// Returns this function with another knot [value, target diameter].
+    ///
+    /// # Errors
+    /// Fails when a number is not valid, or there is a knot of this value.
+    pub fn with_inserted(&self, knot: [f64; 2]) -> Result<Self, CurveError> {
+        let mut knots = self.knots.clone();
+        knots.insert(knots.partition_point(|&[value, _]| value < knot[0]), knot);
+        Self::new(knots)
     }
 
     /// Returns this function with one more knot, halfway between the two neighbours that are furthest
@@ -194,6 +246,34 @@ mod tests {
         assert_eq!(full.with_another_knot(), None);
         let widest = ValueCurve::new(vec![[f64::MIN, 0.5], [f64::MAX, 0.1]]).unwrap();
         assert_eq!(widest.with_another_knot().unwrap().knots()[1][0], 0.0);
+    }
+
+    #[test]
+    fn a_curve_is_fine_at_low_high_or_shallow_values() {
+        let knots = |place, values: &[f32]| {
+            ValueCurve::fine_at(place, values, 0.01, 0.16).map(|curve| curve.knots().to_vec())
+        };
+        let depths = [-90.0, -30.0, -10.0, 20.0, 60.0];
+        let ends = |first: f64, last: f64| vec![[-90.0, first], [-10.0, 0.04], [60.0, last]];
+        let shore = [[-90.0, 0.16], [-30.0, 0.04], [0.0, 0.01], [60.0, 0.16]];
+        assert_eq!(knots(FineAt::Zero, &depths), Some(shore.to_vec()));
+        assert_eq!(knots(FineAt::Greatest, &depths), Some(ends(0.16, 0.01)));
+        let low = [[-90.0, 0.01], [20.0, 0.04], [60.0, 0.16]];
+        assert_eq!(knots(FineAt::Least, &depths), Some(low.to_vec()));
+        assert_eq!(knots(FineAt::Zero, &depths[3..]), Some(vec![[20.0, 0.01], [60.0, 0.16]]));
+        assert_eq!(knots(FineAt::Zero, &depths[..1]), Some(vec![[-90.0, 0.01]]));
+        assert_eq!(knots(FineAt::Zero, &[]), None);
+    }
+
+    #[test]
+    fn a_knot_is_inserted_in_its_order() {
+        let curve = ValueCurve::new(vec![[0.0, 0.1], [100.0, 2.1]]).unwrap();
+        assert_eq!(
+            curve.with_inserted([50.0, 1.0]).unwrap().knots(),
+            [[0.0, 0.1], [50.0, 1.0], [100.0, 2.1]]
+        );
+        assert_eq!(curve.with_inserted([-1.0, 1.0]).unwrap().knots()[0], [-1.0, 1.0]);
+        assert!(matches!(curve.with_inserted([100.0, 1.0]), Err(CurveError::Order { .. })));
     }
 
     #[test]

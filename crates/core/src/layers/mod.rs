@@ -29,7 +29,7 @@ mod usual;
 
 pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};
-pub use curve::{CurveError, ValueCurve};
+pub use curve::{CurveError, FineAt, ValueCurve};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
 pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{DistanceTo, LayerKind, RasterReading, RasterSource, Shapes, ValueCurve};
+use super::{DistanceTo, FineAt, LayerKind, RasterReading, RasterSource, Shapes, ValueCurve};
 use crate::field::Transfer;
 
 impl LayerKind {
@@ -16,10 +16,11 @@ impl LayerKind {
         Some(Self::Band { source, between: [least + third, greatest - third], diameter })
     }
 
-    /// Returns a raster through a curve that is finest at its least value. `None` if no pixel has a finite
-    /// value.
+    /// Returns a raster through a curve that is finest where its values are nearest to 0, as in shallow
+    /// water. `None` if no pixel has a finite value.
     pub fn curve_of(source: RasterSource, transfer: &Transfer) -> Option<Self> {
-        let curve = ValueCurve::over(source.raster.finite_range()?, [transfer.h_min, transfer.h_max])?;
+        let values = source.raster.sorted_sample();
+        let curve = ValueCurve::fine_at(FineAt::Zero, &values, transfer.h_min, transfer.h_max)?;
         Some(Self::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) })
     }
 
@@ -62,12 +63,13 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_spans_the_finite_values() {
+    fn a_curve_spans_the_finite_values_and_is_finest_near_0() {
         let knots = |values| match LayerKind::curve_of(source(values), &TRANSFER)? {
             LayerKind::Raster { reading: RasterReading::Curve(curve), .. } => Some(curve.knots().to_vec()),
             other => panic!("{other:?}"),
         };
-        assert_eq!(knots([-30.0, f32::NAN, 60.0, f32::INFINITY]), Some(vec![[-30.0, 0.01], [60.0, 0.16]]));
+        let shore = vec![[-30.0, 0.16], [0.0, 0.01], [60.0, 0.16]];
+        assert_eq!(knots([-30.0, f32::NAN, 60.0, f32::INFINITY]), Some(shore));
         assert_eq!(knots([5.0; 4]), Some(vec![[5.0, 0.01]]));
         assert_eq!(knots([f32::NAN; 4]), None);
     }

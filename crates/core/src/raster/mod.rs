@@ -3,6 +3,7 @@
 
 mod pyramid;
 mod ranges;
+mod sample;
 mod tiled;
 
 use std::ops::Range;

@@ -1,5 +1,6 @@
 //! Widgets that change a value or run a command.
 
+mod curve_plot;
 mod dropdown;
 mod grab;
 mod knot_row;
@@ -18,6 +19,7 @@ mod tool_button;
 mod transfer;
 mod transfer_plot;
 
+pub use curve_plot::{CurveChange, CurvePlot};
 pub use dropdown::dropdown_row;
 pub use knot_row::{KnotAnswer, KnotRow};
 pub use layer_row::{LayerRow, LayerRowAnswer};

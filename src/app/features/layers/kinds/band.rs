@@ -33,7 +33,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let help =
         "Target diameter where the value of the raster is in the band; elsewhere the layer asks for nothing.";
     changed |= row.unit(state.unit().symbol()).help(help).show(ui).changed();
-    source_rows(ui, source);
+    source_rows(ui, state, source);
     if changed {
         let source = source.clone();
         set_kind_once(layer, LayerKind::Band { source, between: [least, greatest], diameter }, commands);

@@ -1,13 +1,101 @@
 //! The curve from the values of a raster to target diameters.
 
 use std::ops::RangeInclusive;
+use std::sync::{Arc, Weak};
 
-use eframe::egui::Ui;
+use eframe::egui::{Id, Response, Ui};
 
-use crate::app::kit::remark;
-use crate::app::widgets::{ActionButton, KnotAnswer, KnotRow};
-use meshbrush_core::layers::ValueCurve;
+use crate::app::kit::{FrameState, remark};
+use crate::app::widgets::{ActionButton, CurveChange, CurvePlot, KnotAnswer, KnotRow};
+use meshbrush_core::layers::{FineAt, RasterSource, ValueCurve};
+use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::LengthUnit;
+
+/// Bars of the histogram.
+const BARS: usize = 48;
+
+/// A sample of the values of a raster, in egui's memory while its curve is shown.
+#[derive(Clone)]
+struct Sample {
+    /// The raster that it is of.
+    raster: Weak<RasterPyramid>,
+    /// Finite values, in ascending order.
+    sorted: Arc<Vec<f32>>,
+    /// How often the values occur, from the least to the greatest: the highest is 1.
+    histogram: Arc<Vec<f32>>,
+}
+
+impl Sample {
+    fn of(ui: &Ui, raster: &Arc<RasterPyramid>) -> Self {
+        let id = Id::unique("sample of the values of a raster");
+        let kept = ui.data(|data| data.get_temp::<Self>(id));
+        let is_current = |kept: &Self| kept.raster.upgrade().is_some_and(|kept| Arc::ptr_eq(&kept, raster));
+        kept.filter(is_current).unwrap_or_else(|| {
+            let sorted = raster.sorted_sample();
+            let histogram = Arc::new(histogram(&sorted));
+            let sample = Self { raster: Arc::downgrade(raster), sorted: Arc::new(sorted), histogram };
+            ui.data_mut(|data| data.insert_temp(id, sample.clone()));
+            sample
+        })
+    }
+}
+
+/// Returns how often values occur in equal parts of their range: the highest is 1.
+fn histogram(sorted: &[f32]) -> Vec<f32> {
+    let (Some(&least), Some(&greatest)) = (sorted.first(), sorted.last()) else { return Vec::new() };
+    let [least, greatest] = [least, greatest].map(f64::from);
+    let mut counts = [0.0f32; BARS];
+    for &value in sorted {
+        let share = (f64::from(value) - least) / (greatest - least).max(f64::MIN_POSITIVE);
+        counts[((share * BARS as f64) as usize).min(BARS - 1)] += 1.0;
+    }
+    let highest = counts.iter().copied().fold(1.0, f32::max);
+    counts.iter().map(|count| count / highest).collect()
+}
+
+/// Shows the plot of a curve. Returns the curve if it was changed, and a response that says when a gesture is
+/// complete.
+pub fn curve_plot(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    source: &RasterSource,
+    curve: &ValueCurve,
+) -> (Option<ValueCurve>, Response) {
+    let sample = Sample::of(ui, &source.raster);
+    let end = |value: Option<&f32>| value.map_or(0.0, |&value| f64::from(value));
+    let values = [end(sample.sorted.first()), end(sample.sorted.last())];
+    let mark = state.pointer.and_then(|point| source.raster.sample(point)).map(f64::from);
+    let (knots, unit) = (curve.knots(), state.unit());
+    let plot = CurvePlot { knots, values, histogram: &sample.histogram, mark, unit };
+    let (change, response) = plot.show(ui);
+    let changed = match change {
+        Some(CurveChange::Moved(place, knot)) => curve.with_knot(place, knot).ok(),
+        Some(CurveChange::Added(knot)) => curve.with_inserted(knot).ok(),
+        Some(CurveChange::Removed(place)) => curve.without_knot(place).ok(),
+        None => None,
+    };
+    (changed, response)
+}
+
+/// Shows buttons that make the usual curves. Returns the curve of the one that was clicked.
+pub fn usual_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) -> Option<ValueCurve> {
+    let transfer = state.session.document().settings().transfer;
+    let mut chosen = None;
+    ui.add_space(4.0);
+    ui.horizontal_wrapped(|ui| {
+        for (name, place) in [
+            ("Fine at low", FineAt::Least),
+            ("Fine near 0", FineAt::Zero),
+            ("Fine at high", FineAt::Greatest),
+        ] {
+            if ui.add(ActionButton::new(name)).clicked() {
+                let sample = Sample::of(ui, &source.raster);
+                chosen = ValueCurve::fine_at(place, &sample.sorted, transfer.h_min, transfer.h_max);
+            }
+        }
+    });
+    chosen
+}
 
 /// Shows the knots of a curve. Returns the curve once it was changed.
 pub fn curve_rows(ui: &mut Ui, curve: &ValueCurve, unit: LengthUnit) -> Option<ValueCurve> {
@@ -44,4 +132,18 @@ fn values_between(knots: &[[f64; 2]], place: usize) -> RangeInclusive<f64> {
     let least = place.checked_sub(1).map_or(f64::MIN, |before| knots[before][0].next_up());
     let greatest = knots.get(place + 1).map_or(f64::MAX, |after| after[0].next_down());
     least..=greatest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_histogram_counts_values_in_equal_parts_of_their_range() {
+        let bars = histogram(&[0.0, 0.0, 0.0, 0.0, 24.0, 48.0]);
+        assert_eq!(bars.len(), BARS);
+        assert_eq!((bars[0], bars[24], bars[47]), (1.0, 0.25, 0.25));
+        assert_eq!(histogram(&[5.0])[0], 1.0, "one value");
+        assert!(histogram(&[]).is_empty());
+    }
 }

@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use eframe::egui::Ui;
 
-use super::curve::curve_rows;
+use super::curve::{curve_plot, curve_rows, usual_curves};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
+use crate::app::kit::{
+    Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once,
+};
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
@@ -60,21 +62,43 @@ impl Meaning {
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     let LayerKind::Raster { source, reading } = &layer.kind else { return };
     let mut meaning = Meaning::of(reading);
-    let mut set = |reading| {
-        set_kind_once(layer, LayerKind::Raster { source: source.clone(), reading }, commands);
-    };
     if segmented(ui, "What the values mean", &mut meaning, &Meaning::CHOICES).changed() {
         match read_as(meaning, source, reading, &state.session.document().settings().transfer) {
-            Ok(reading) => set(reading),
+            Ok(reading) => {
+                set_kind_once(layer, LayerKind::Raster { source: source.clone(), reading }, commands);
+            }
             Err(problem) => commands.push(Command::Shell(ShellCommand::Report(problem))),
         }
-    } else if let RasterReading::Curve(curve) = reading
-        && let Some(curve) = curve_rows(ui, curve, state.unit())
-    {
-        set(RasterReading::Curve(Arc::new(curve)));
+    } else if let RasterReading::Curve(curve) = reading {
+        curve_controls(ui, state, layer, source, curve, commands);
     }
     ui.add_space(4.0);
-    source_rows(ui, source);
+    source_rows(ui, state, source);
+}
+
+/// Shows the curve as a plot and as numbers. A drag in the plot is one gesture.
+fn curve_controls(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    layer: &Layer,
+    source: &RasterSource,
+    curve: &ValueCurve,
+    commands: &mut Vec<Command>,
+) {
+    let kind = |curve| {
+        let reading = RasterReading::Curve(Arc::new(curve));
+        LayerKind::Raster { source: source.clone(), reading }
+    };
+    ui.add_space(4.0);
+    let (plotted, response) = curve_plot(ui, state, source, curve);
+    if let Some(curve) = plotted {
+        set_kind(layer, kind(curve), commands);
+    }
+    end_gesture_when_released(&response, commands);
+    let chosen = usual_curves(ui, state, source);
+    if let Some(curve) = chosen.or(curve_rows(ui, curve, state.unit())) {
+        set_kind_once(layer, kind(curve), commands);
+    }
 }
 
 /// Returns the reading of a raster with another meaning. A new curve is fine where the layer was fine: where
@@ -108,8 +132,15 @@ fn read_as(
     })
 }
 
-/// Shows the source of a raster, and its size.
-pub fn source_rows(ui: &mut Ui, source: &RasterSource) {
+/// Shows the value of a raster at the pointer, its source, and its size.
+pub fn source_rows(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) {
+    let text = match state.pointer.map(|point| source.raster.sample(point)) {
+        Some(Some(value)) => format::digits(f64::from(value), 5),
+        Some(None) => "none".into(),
+        None => "–".into(),
+    };
+    let help = "The value of the raster at the pointer on the canvas, in the unit that the raster has.";
+    ValueRow::new("Value at the pointer", &text).help(help).show(ui);
     ValueRow::new("File", &source.name).help("The file that the layer was read from.").show(ui);
     let [columns, rows] = source.raster.raster().size().map(|side| format::count(u64::from(side)));
     let pixels = format!("{columns} × {rows}");

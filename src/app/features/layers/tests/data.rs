@@ -5,15 +5,16 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::stack::{choose_in, select};
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::tests::{
-    TALL, Window, active, choose, click_button, entries, folder, key, level_at, notice, open_menu, send,
-    settings, triangles, type_into, value_of, wait_for_notice, wait_until, window_of,
+    RESTING_PLACE, TALL, Window, active, choose, click_button, entries, folder, key, level_at, move_to,
+    notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,
+    window_of,
 };
 use meshbrush_core::document::Example;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
@@ -155,7 +156,8 @@ fn a_grid_of_any_values_opens_through_a_curve() {
     type_into(&mut window, "Path", depths.to_str().unwrap());
     wait_until(&mut window, |window| active(window).name == "depths.asc");
     let transfer = settings(&window).transfer;
-    let expected = vec![[-30.0, transfer.h_min], [60.0, transfer.h_max]];
+    // Fine where the depth is nearest to 0.
+    let expected = vec![[-30.0, transfer.h_max], [0.0, transfer.h_min], [60.0, transfer.h_max]];
     assert_eq!(knots(&window), expected);
     for (meaning, rule) in [("Risk", "must lie from 0 to 1"), ("Diameter", "must be positive")] {
         choose_in(&mut window, "What the values mean", meaning);
@@ -163,6 +165,69 @@ fn a_grid_of_any_values_opens_through_a_curve() {
         assert_eq!(knots(&window), expected);
     }
     assert_eq!(entries(&window), 1);
+}
+
+/// Returns a window with a grid of depths through a curve, which is selected.
+fn window_with_curve(test: &str) -> Window {
+    let depths = written(test, "depths.asc", DEPTHS);
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Layer(LayerCommand::OpenValues(depths)));
+    wait_until(&mut window, |window| active(window).name == "depths.asc");
+    window
+}
+
+#[test]
+fn knots_of_a_curve_are_dragged_added_and_removed_in_its_plot() {
+    let mut window = window_with_curve("plot");
+    let plot = |window: &Window| window.get_by_role_and_label(Role::Image, "Curve of the values").rect();
+    let knot = |window: &Window, number: usize| {
+        window.get_by_role_and_label(Role::Slider, &format!("Curve knot {number}")).rect().center()
+    };
+    let before = knots(&window);
+    let (at, coarse) = (knot(&window, 2), triangles(&window));
+    window.drag_at(at);
+    window.run();
+    for step in 1..=3 {
+        window.hover_at(at + vec2(5.0, -15.0) * step as f32);
+        window.run();
+    }
+    window.drop_at(at + vec2(15.0, -45.0));
+    window.run();
+    let after = knots(&window);
+    assert!(after[1][0] > before[1][0] && after[1][1] > 2.0 * before[1][1], "{after:?}");
+    assert_eq!((after[0], after[2]), (before[0], before[2]));
+    assert_eq!(entries(&window), 2, "a drag is one gesture");
+    assert!(triangles(&window) < coarse, "the mesh follows");
+
+    let free = knot(&window, 2).lerp(knot(&window, 3), 0.5) + vec2(0.0, 20.0);
+    window.drag_at(free);
+    window.drop_at(free);
+    window.run();
+    assert_eq!((knots(&window).len(), entries(&window)), (4, 3), "a click adds a knot");
+    assert!(knot(&window, 3).distance(free) < 2.0, "{:?} {free:?}", knot(&window, 3));
+    assert!(plot(&window).contains(free));
+    window.get_by_role_and_label(Role::Slider, "Curve knot 3").focus();
+    window.run();
+    let diameter = knots(&window)[2][1];
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    assert!(knots(&window)[2][1] > diameter);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(knots(&window), after);
+    click_button(&mut window, "Fine at high");
+    assert_eq!(knots(&window).last().unwrap(), &[60.0, settings(&window).transfer.h_min]);
+}
+
+#[test]
+fn the_value_of_the_raster_at_the_pointer_is_shown() {
+    let mut window = window_with_curve("pointer");
+    let value = |window: &Window| value_of(window, Role::Definition, "Value at the pointer");
+    for (x, y, expected) in [(0.2, 0.8, "−30"), (0.2, 0.2, "60"), (0.8, 0.2, "none")] {
+        move_to(&mut window, dvec2(x, y));
+        assert_eq!(value(&window), expected);
+    }
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    assert_eq!(value(&window), "–");
 }
 
 #[test]
