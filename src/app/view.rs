@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::command::ViewCommand;
 use super::readout::Quantity;
-use super::widgets::format;
+use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
@@ -209,6 +209,10 @@ impl View {
             ViewCommand::ShowAllLevels => self.hidden_levels = 0,
             ViewCommand::HighlightNeighbour(id) => self.hovered_neighbour = id,
             ViewCommand::Theme(theme) => self.set_theme(theme, ctx),
+            ViewCommand::Reveal(place) => {
+                (self.panels, self.revealed_panel) = (true, Some(place.panel));
+                reveal(ctx, place.section, place.control);
+            }
             ViewCommand::TogglePanels => self.toggle_panels(),
         }
     }

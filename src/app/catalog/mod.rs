@@ -4,12 +4,18 @@ mod edit;
 mod file;
 mod gestures;
 mod help;
+mod places;
+mod synonyms;
 mod tool;
 mod view;
 
 use super::features::ROWS;
 use crate::app::kit::{CatalogItem, FrameState};
 pub use gestures::gestures;
+pub use places::PLACES;
+#[cfg(test)]
+pub use synonyms::starts as synonym_starts;
+pub use synonyms::words_of;
 
 /// Returns every command with a title, in menu order, with its present state.
 pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -3,6 +3,7 @@
 use eframe::egui::ThemePreference;
 use glam::DVec2;
 
+use crate::app::kit::Place;
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::TriangleId;
@@ -43,6 +44,8 @@ pub enum ViewCommand {
     HighlightNeighbour(Option<TriangleId>),
     /// Dark, light, or as the desktop has it.
     Theme(ThemePreference),
+    /// Opens a section of the panels, and scrolls to it or to a control in it.
+    Reveal(&'static Place),
     /// Shows or hides the panels.
     TogglePanels,
 }

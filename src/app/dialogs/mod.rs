@@ -15,12 +15,12 @@ use std::sync::Arc;
 use eframe::egui::Context;
 
 use super::REPORT;
-use super::catalog::catalog;
-use super::command::{Command, FileCommand, ShellCommand};
+use super::catalog::{PLACES, catalog, words_of};
+use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use super::document_id::DocumentId;
 use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
-use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState};
+use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
@@ -202,14 +202,27 @@ impl Dialogs {
 
 fn palette(ctx: &Context, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
     let keys: Vec<String> = catalog.iter().map(CatalogItem::keys_text).collect();
-    let items: Vec<_> = (catalog.iter().zip(&keys))
-        .map(|(item, keys)| PaletteItem { title: &item.title, keys, enabled: item.enabled })
-        .collect();
+    let commands_of_catalog = (catalog.iter().zip(&keys)).map(|(item, keys)| {
+        let words = words_of(&item.title);
+        PaletteItem { title: &item.title, words, keys, enabled: item.enabled }
+    });
+    let titles: Vec<String> = PLACES.iter().map(Place::title).collect();
+    let places = (PLACES.iter().zip(&titles)).map(|(place, title)| PaletteItem {
+        title,
+        words: place.words,
+        keys: "",
+        enabled: true,
+    });
+    let items: Vec<_> = commands_of_catalog.chain(places).collect();
     match widgets::command_palette(ctx, &items) {
         PaletteAnswer::Open => {}
         PaletteAnswer::Closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
         PaletteAnswer::Chosen(index) => {
-            commands.extend([Command::Shell(ShellCommand::CloseDialog), catalog[index].command.clone()]);
+            let place =
+                || PLACES.get(index - catalog.len()).map(|place| Command::View(ViewCommand::Reveal(place)));
+            let command = catalog.get(index).map(|item| item.command.clone()).or_else(place);
+            commands.push(Command::Shell(ShellCommand::CloseDialog));
+            commands.extend(command);
         }
     }
 }

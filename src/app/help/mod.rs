@@ -4,6 +4,7 @@ mod keys;
 mod manual;
 mod markdown;
 mod page;
+mod search;
 
 #[cfg(test)]
 pub use keys::page as keys_page;
@@ -21,6 +22,8 @@ pub enum HelpTopic {
     Keys,
     /// A page of the manual, by its file.
     Page(&'static str),
+    /// A heading of a page: the file of the page, and the number of the block of the heading.
+    Heading(&'static str, usize),
 }
 
 impl HelpTopic {
@@ -34,8 +37,13 @@ impl HelpTopic {
     fn title(self) -> &'static str {
         match self {
             Self::Keys => "Keyboard and mouse",
-            Self::Page(file) => manual::page_of(file).map_or("", |page| page.title),
+            Self::Page(file) | Self::Heading(file, _) => manual::page_of(file).map_or("", |page| page.title),
         }
+    }
+
+    /// Returns the entry of the list that is marked.
+    fn in_list(self) -> Self {
+        if let Self::Heading(file, _) = self { Self::Page(file) } else { self }
     }
 }
 
@@ -63,12 +71,17 @@ pub fn show(ctx: &Context, topic: HelpTopic, catalog: &[CatalogItem], commands: 
 }
 
 fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+    let mut query = String::new();
     egui::Panel::left("topics of the help").frame(Frame::NONE).resizable(false).exact_size(LIST_WIDTH).show(
         ui,
         |ui| {
+            query = search::field(ui);
+            ui.add_space(8.0);
             let pages = manual::PAGES.iter().map(|page| HelpTopic::Page(page.file));
             for other in std::iter::once(HelpTopic::Keys).chain(pages) {
-                if ui.selectable_label(other == topic, other.title()).clicked() {
+                let is_shown = query.is_empty() && other == topic.in_list();
+                if ui.selectable_label(is_shown, other.title()).clicked() {
+                    search::clear(ui);
                     commands.push(Command::Shell(ShellCommand::ShowHelp(other)));
                 }
             }
@@ -77,12 +90,24 @@ fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &m
     egui::CentralPanel::default().frame(Frame::new().inner_margin(Margin { left: 16, ..Margin::ZERO })).show(
         ui,
         |ui| {
+            if !query.is_empty() {
+                let area = ScrollArea::vertical().id_salt("results").auto_shrink(false);
+                area.show(ui, |ui| search::results(ui, &query, commands));
+                return;
+            }
             // Each topic keeps how far it was scrolled.
             ScrollArea::vertical().id_salt(topic.title()).auto_shrink(false).show(ui, |ui| match topic {
                 HelpTopic::Keys => keys::show(ui, catalog),
                 HelpTopic::Page(file) => {
                     if let Some(page) = manual::page_of(file) {
-                        page::show(ui, page, commands);
+                        page::show(ui, page, None, commands);
+                    }
+                }
+                HelpTopic::Heading(file, block) => {
+                    if let Some(page) = manual::page_of(file) {
+                        page::show(ui, page, Some(block), commands);
+                        // From now on the page is scrolled by hand.
+                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(file))));
                     }
                 }
             });

@@ -19,8 +19,9 @@ const CELL_GAP: f32 = 16.0;
 /// Indentation of a list for each level.
 const INDENT: f32 = 18.0;
 
-/// Draws a page over the available width. Links to other pages send commands.
-pub fn show(ui: &mut Ui, page: &Page, commands: &mut Vec<Command>) {
+/// Draws a page over the available width, and scrolls to the block `to`, if there is one. Links to other
+/// pages send commands.
+pub fn show(ui: &mut Ui, page: &Page, to: Option<usize>, commands: &mut Vec<Command>) {
     // Parsed once: a page is drawn in every frame.
     let id = Id::unique(page.file);
     let parsed = ui.data(|data| data.get_temp::<Arc<Vec<Block>>>(id)).unwrap_or_else(|| {
@@ -29,7 +30,10 @@ pub fn show(ui: &mut Ui, page: &Page, commands: &mut Vec<Command>) {
         parsed
     });
     ui.spacing_mut().item_spacing.y = 8.0;
-    for block in parsed.iter() {
+    for (number, block) in parsed.iter().enumerate() {
+        if to == Some(number) {
+            ui.scroll_to_cursor(Some(egui::Align::TOP));
+        }
         show_block(ui, block, commands);
     }
     ui.add_space(16.0);

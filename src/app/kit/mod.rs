@@ -23,6 +23,7 @@ pub mod marks;
 mod mask_file;
 mod menu_item;
 mod panel;
+mod place;
 mod radius_row;
 mod tool;
 
@@ -42,5 +43,6 @@ pub use layer_kind::{
 pub use mask_file::with_mask;
 pub use menu_item::menu_item;
 pub use panel::{Panel, PanelGroup, button_rows, end_gesture_when_released, remark, set_once};
+pub use place::Place;
 pub use radius_row::radius_row;
 pub use tool::{OverMesh, Tool, ToolSpec, all_tools};

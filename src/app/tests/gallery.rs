@@ -85,12 +85,12 @@ fn power(value: &CurveValues, risk: f64) -> f64 {
 }
 
 const COMMANDS: [PaletteItem<'static>; 6] = [
-    PaletteItem { title: "Save", keys: "Ctrl+S", enabled: true },
-    PaletteItem { title: "Save as…", keys: "Ctrl+Shift+S", enabled: true },
-    PaletteItem { title: "Undo", keys: "Ctrl+Z", enabled: true },
-    PaletteItem { title: "Redo", keys: "Ctrl+Shift+Z", enabled: false },
-    PaletteItem { title: "Fit view", keys: "Home", enabled: true },
-    PaletteItem { title: "Export mesh", keys: "", enabled: true },
+    PaletteItem { title: "Save", words: "", keys: "Ctrl+S", enabled: true },
+    PaletteItem { title: "Save as…", words: "", keys: "Ctrl+Shift+S", enabled: true },
+    PaletteItem { title: "Undo", words: "", keys: "Ctrl+Z", enabled: true },
+    PaletteItem { title: "Redo", words: "", keys: "Ctrl+Shift+Z", enabled: false },
+    PaletteItem { title: "Fit view", words: "", keys: "Home", enabled: true },
+    PaletteItem { title: "Export mesh", words: "", keys: "", enabled: true },
 ];
 
 fn brush(ui: &mut Ui, state: &mut State) {

@@ -94,3 +94,26 @@ fn the_page_of_keys_is_the_list_in_the_window() {
     let written = std::fs::read_to_string(path).unwrap_or_default();
     assert!(written == page, "docs/keys.md is not the list of keys: UPDATE_DOCS=1 cargo test --lib keys");
 }
+
+#[test]
+fn the_manual_is_searched_and_a_result_opens_at_its_heading() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::F1);
+    window.get_by_role_and_label(Role::TextInput, "Search the manual").focus();
+    window.run();
+    window.get_by_role_and_label(Role::TextInput, "Search the manual").type_text("gaussian radar");
+    window.run();
+    assert!(!has_heading(&window, "First steps"), "the results are in place of the page");
+    window.get_by_role_and_label(Role::Link, "Risk and diameter › Risks of threats").click();
+    window.run();
+    let heading = window.get_by_role_and_label(Role::Heading, "Risks of threats").rect();
+    let title = window.get_by_role_and_label(Role::Heading, "Risk and diameter").rect();
+    let field = window.get_by_role_and_label(Role::TextInput, "Search the manual").rect();
+    assert!((heading.top() - field.top()).abs() < 60.0, "{heading:?} is at the top, {field:?}");
+    assert!(title.bottom() < field.top(), "the page is scrolled: {title:?}");
+    window.get_by_role_and_label(Role::TextInput, "Search the manual").focus();
+    window.run();
+    window.get_by_role_and_label(Role::TextInput, "Search the manual").type_text("nosuchword");
+    window.run();
+    assert!(window.query_by_label_contains("No page has all of these words").is_some());
+}

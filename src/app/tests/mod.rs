@@ -22,6 +22,7 @@ mod numbers;
 mod orientation;
 mod other_window;
 mod overlays;
+mod palette;
 pub mod pictures;
 mod project;
 mod recipes;

@@ -10,6 +10,7 @@ mod display;
 mod floating;
 pub mod format;
 mod paint;
+mod reveal;
 pub mod tips;
 pub mod typed;
 mod vanished;
@@ -17,6 +18,7 @@ mod vanished;
 pub use controls::*;
 pub use display::*;
 pub use floating::*;
+pub use reveal::reveal;
 pub use vanished::VanishedButtons;
 
 /// Returns whether a gesture that may have changed a value is complete: the pointer was released, or a value

@@ -7,7 +7,7 @@ use egui::emath::GuiRounding as _;
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 
 use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::tips;
+use crate::app::widgets::{reveal, tips};
 
 /// Returns one line of text.
 pub(super) fn line(ui: &Ui, text: &str, font: FontId, color: Color32) -> Arc<Galley> {
@@ -111,6 +111,7 @@ pub(super) fn row(ui: &mut Ui) -> Rect {
 pub(super) fn label(ui: &Ui, rect: Rect, text: &str, help: &str) {
     let galley = elided(ui, text, font::body(), tokens(ui).label, rect.width());
     let cut = galley.elided;
+    reveal::show_control(ui, rect, text);
     at_left(ui, rect, galley);
     if cut || !help.is_empty() {
         let response = ui.interact(rect, ui.scope_id().with(("label", text)), egui::Sense::hover());

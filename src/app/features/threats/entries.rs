@@ -2,17 +2,22 @@
 
 use eframe::egui::Key;
 
-use super::{THREATS, ThreatsCommand};
-use crate::app::command::Command;
+use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand, threats_layer};
+use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// The key deletes a threat only while the tool is selected.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let ask =
+        |title: &str, request| CatalogItem::new(Menu::Tool, title, Command::File(FileCommand::Ask(request)));
+    let has_threats = threats_layer(state.session.document()).is_some();
+    let open = ask("Open table of threats…", &OPEN_THREATS).group();
+    let save = ask("Save table of threats…", &SAVE_THREATS).enabled(has_threats);
     if state.tools.tool != &THREATS {
-        return Vec::new();
+        return vec![open, save];
     }
     let is_selected = state.features.threats.selected_in(state.session.document()).is_some();
     let delete = Command::Threats(ThreatsCommand::Delete);
     let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete).key(Key::Delete).group();
-    vec![item.enabled(is_selected)]
+    vec![item.enabled(is_selected), open, save]
 }

@@ -5,6 +5,7 @@ use egui::collapsing_header::CollapsingState;
 
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::reveal;
 
 /// A section of a panel with a title in small capitals.
 ///
@@ -55,7 +56,8 @@ impl<'a> Section<'a> {
         let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.open);
         ui.add_space(12.0);
         let header = self.header(ui, id, state.is_open());
-        if self.reveal {
+        let (opens, scrolls) = reveal::of_section(ui, self.title, self.id);
+        if self.reveal || opens {
             state.set_open(true);
         } else if header.clicked() {
             state.set_open(!state.is_open());
@@ -65,7 +67,7 @@ impl<'a> Section<'a> {
             ui.push_id(self.id, contents).inner
         });
         state.store(ui.ctx());
-        if self.reveal {
+        if self.reveal || scrolls {
             scroll_to(ui, header.rect.with_max_y(ui.cursor().top()));
         }
         ui.add_space(12.0 - metrics::ROW_GAP);

@@ -6,7 +6,7 @@ use eframe::egui::{
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::tips;
+use crate::app::widgets::{reveal, tips};
 
 /// Segments side by side, one of them chosen: `Risk | Diameter`. Takes the full width.
 ///
@@ -21,6 +21,7 @@ pub fn segmented<T: PartialEq + Copy>(
     let (id, rect) = ui.allocate_space(vec2(ui.available_width(), metrics::ROW + 4.0));
     let mut group = ui.interact(rect, id, Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::RadioGroup, ui.is_enabled(), name));
+    reveal::show_control(ui, rect, name);
     paint_well(ui, rect);
     let before = *value;
     for (i, (choice, label)) in choices.iter().enumerate() {

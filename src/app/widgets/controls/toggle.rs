@@ -4,7 +4,7 @@ use eframe::egui::{Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetIn
 
 use super::{Icon, paint};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::tips;
+use crate::app::widgets::{reveal, tips};
 
 /// Shows a check box with its name; the whole row is the target. The response has `changed` when `on` did.
 pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
@@ -15,6 +15,7 @@ pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
         response.mark_changed();
     }
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, ui.is_enabled(), *on, label));
+    reveal::show_control(ui, row, label);
     let square = Rect::from_center_size(pos2(row.left() + 8.0, row.center().y), vec2(16.0, 16.0));
     paint_box(ui, square, &response, *on);
     let ink = if response.hovered() { tokens(ui).value } else { tokens(ui).text };

@@ -15,7 +15,7 @@ use super::slider::{key_steps, requested_value};
 use super::transfer_plot::{Axis, Plot, area_under};
 use super::{format, paint};
 use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::tips;
+use crate::app::widgets::{reveal, tips};
 use meshbrush_mesh::text::LengthUnit;
 
 /// Height of the plot; the numbers are in a row below it.
@@ -379,6 +379,7 @@ impl<'a> TransferCurve<'a> {
     fn number(&mut self, ui: &mut Ui, id: Id, rect: Rect, handle: Handle) -> Response {
         let name = paint::line(ui, handle.name(), font::small_value(), tokens(ui).label);
         let cell = rect.with_min_x(rect.left() + name.size().x + 8.0).shrink2(vec2(8.0, 0.0));
+        reveal::show_control(ui, rect, handle.name());
         paint::at_left(ui, rect, name);
         let (name, help) = (format!("{} value", handle.name()), tips::sentence(handle.name()));
         let (response, entered) = self.with_input(handle, |input| {

@@ -20,6 +20,8 @@ const ROWS: usize = 10;
 pub struct PaletteItem<'a> {
     /// The action of the command, in words.
     pub title: &'a str,
+    /// Other words by which it is found.
+    pub words: &'a str,
     /// The shortcut of the command; empty if it has none.
     pub keys: &'a str,
     /// Whether it can be chosen now.
@@ -168,7 +170,8 @@ impl Keys {
 /// Returns the items that match, with the characters that do: those whose words begin so first, in their own
 /// order.
 fn ranked(query: &str, items: &[PaletteItem<'_>]) -> Vec<(usize, Vec<usize>)> {
-    let matches = items.iter().enumerate().filter_map(|(i, item)| Some((i, find(query, item.title)?)));
+    let matches =
+        items.iter().enumerate().filter_map(|(i, item)| Some((i, find(query, item.title, item.words)?)));
     let mut found: Vec<_> = matches.collect();
     found.sort_by_key(|(_, found)| found.rank);
     found.into_iter().map(|(i, found)| (i, found.places)).collect()

@@ -1,0 +1,53 @@
+//! Other words by which commands are found: those of other programs, and those of what a command acts on.
+
+/// The beginning of a title, and other words for it.
+static SYNONYMS: [(&str, &str); 38] = [
+    ("New…", "create empty blank document start page"),
+    ("Open…", "load read file import"),
+    ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
+    ("Open picture as risk…", "image raster png import"),
+    ("Open grid as target diameter…", "raster asc size import"),
+    ("Open background picture…", "image map trace png"),
+    ("Open domain…", "coast outline polygon geojson import boundary"),
+    ("Add outline to this document…", "coast polygon geojson import boundary"),
+    ("Save as recipe…", "toml export script"),
+    ("Export mesh…", "save write vtu msh node 2dm csv obj stl svg png sms gmsh paraview drawing picture"),
+    ("Export path…", "save write route geojson csv svg png line"),
+    ("Export as test…", "record session replay"),
+    ("Undo", "back revert"),
+    ("Redo", "again repeat"),
+    ("Clear paint", "erase delete all remove"),
+    ("Query", "inspect identify pick info triangle"),
+    ("Brush", "paint draw"),
+    ("Eraser", "rubber delete remove paint"),
+    ("Path", "route line cost shortest safest"),
+    ("Threats", "radar danger"),
+    ("Pan", "move hand scroll"),
+    ("Boundary", "markers pieces names"),
+    ("Add layer: picture or grid, through a curve…", "raster depths shallow dem terrain values"),
+    ("Add layer: threats", "radar danger table"),
+    ("Fit domain", "zoom all whole extent home reset view"),
+    ("Go to…", "find jump coordinate point triangle number"),
+    ("Edges", "wireframe lines triangles"),
+    ("No overlay", "none off hide overlays"),
+    ("Overlay", "show colour field"),
+    ("Contour lines", "isolines levels"),
+    ("Show only the level of the triangle", "isolate one level alone"),
+    ("Hide or show the level of the triangle", "isolate toggle one level"),
+    ("Show the corridor", "nearly best routes band"),
+    ("Show the front", "pareto trade length risk"),
+    ("Panels", "hide sidebar full screen canvas only tab"),
+    ("Find a command…", "palette search menu"),
+    ("Keyboard and mouse", "shortcuts keys gestures bindings help"),
+    ("Step through", "teach animate algorithm bisection demonstration"),
+];
+
+/// Returns other words for a command by its title.
+pub fn words_of(title: &str) -> &'static str {
+    SYNONYMS.iter().find(|(start, _)| title.starts_with(start)).map_or("", |(_, words)| words)
+}
+
+#[cfg(test)]
+pub fn starts() -> impl Iterator<Item = &'static str> {
+    SYNONYMS.iter().map(|(start, _)| *start)
+}
