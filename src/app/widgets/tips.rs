@@ -85,10 +85,16 @@ static SENTENCES: [(&str, &str); 197] = [
     ),
     (
         "How the risk falls/Radar",
-        "The peak up to half the range, then as the power that a radar receives, r⁻⁴.",
+        "At the distance r from a threat of range R: the peak up to r = R/2, then the peak × ((R/r)⁴ − 1) / 15, 0 from r = R.",
     ),
-    ("How the risk falls/Gaussian", "A bell curve; its standard deviation is a third of the range."),
-    ("How the risk falls/Disc", "The peak up to three quarters of the range, then a smooth rim."),
+    (
+        "How the risk falls/Gaussian",
+        "At the distance r from a threat of range R: the peak × (e^(−4.5 (r/R)²) − e^(−4.5)) / (1 − e^(−4.5)), 0 from r = R.",
+    ),
+    (
+        "How the risk falls/Disc",
+        "At the distance r from a threat of range R: the peak up to r = 3R/4, then the peak × t² (3 − 2t) with t = 4 (1 − r/R), 0 from r = R.",
+    ),
     ("What the formula gives/Diameter", "The formula gives the target diameter itself."),
     (
         "What the formula gives/Risk",
@@ -304,7 +310,7 @@ static SENTENCES: [(&str, &str); 197] = [
     ),
     (
         "Level · orientation",
-        "How often bisection made it; and the order of v₁ v₂ v₃. In files all triangles are anticlockwise.",
+        "How often bisection made it; and the order of the report. Here and in files v₁ v₂ v₃ are anticlockwise.",
     ),
     ("Diameter", "The longest edge of the triangle, in the unit of the document."),
     ("Point", "The x and y that you clicked, in the unit of the document."),

@@ -43,6 +43,19 @@ fn is_near(a: DVec2, b: DVec2) -> bool {
 }
 
 #[test]
+fn the_laws_are_told_as_formulas() {
+    let mut window = window_with_threats();
+    click(&mut window, FREE, Modifiers::NONE);
+    for (law, formula) in
+        [("Radar", "((R/r)⁴ − 1) / 15"), ("Gaussian", "e^(−4.5 (r/R)²)"), ("Disc", "t² (3 − 2t)")]
+    {
+        let choice = window.get_by_role_and_label(Role::RadioButton, law);
+        let help = choice.accesskit_node().description().unwrap_or_default();
+        assert!(help.contains(formula), "{law}: {help}");
+    }
+}
+
+#[test]
 fn a_click_places_a_threat_and_the_mesh_follows() {
     let mut window = window_with_threats();
     let (before, empty) = (triangles(&window), fingerprint(&window));

@@ -13,7 +13,7 @@ use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view};
 use meshbrush_core::document::PathPlan;
-use meshbrush_mesh::text::percent_above;
+use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
 pub use others::OTHER_PATHS;
@@ -28,6 +28,16 @@ const NO_PROOF: &str = "There is no proof for this path.";
 /// Widths of the interval that can be asked for, with their names.
 const WIDTHS: [(f64, &str); 5] =
     [(1.0, "As it is"), (0.05, "5 %"), (0.01, "1 %"), (0.001, "0.1 %"), (0.0001, "0.01 %")];
+
+/// The sentences about the bounds of the cost, and about the lengths.
+const PROVED: &str = "The best of all paths through the domain costs at most so much less than this one. It is \
+                      proved for the domain itself, not for the mesh, and not estimated.";
+const LEAST_POSSIBLE: &str = "Two proved bounds of the cost of the best path: no path through the domain costs less than \
+                              the first number, and one that was found costs the second.";
+const IN_THE_PLANE: &str =
+    "The length in the plane, in the unit of the document. Costs are summed up over this length.";
+const IN_DEGREES: &str = "The length in degrees, as if one of longitude were as long as one of latitude. Costs are summed \
+                          up over this length, so a path of least cost is not the shortest in metres.";
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
@@ -95,16 +105,20 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         false => "…".to_owned(),
     };
     let optimum = format!("{} … {}", number(solution.lower), number(solution.upper));
+    let metric = if state.unit() == LengthUnit::Degree { IN_DEGREES } else { IN_THE_PLANE };
     let rows = [
-        ("Cost", number(solution.cost), "The cost density, summed up along the path."),
-        ("Proved", gap, "How much less the best path can cost at most; the bound is proved, not estimated."),
-        ("Least possible cost", optimum, "The best path costs no less and no more than these."),
-        ("Length", format::length(solution.length, state.unit()), "In the unit of the document."),
+        ("Cost", number(solution.cost), "The integral of the cost per length along the path that is shown."),
+        ("Proved", gap, PROVED),
+        ("Least possible cost", optimum, LEAST_POSSIBLE),
+        ("Length", format::length(solution.length, state.unit()), metric),
         ("Accumulated risk", number(solution.risk), "The risk, summed up along the path."),
         ("Highest risk", number(solution.highest_risk), "The highest risk on the way, 0 to 1."),
     ];
     for (label, value, help) in rows {
         ValueRow::new(label, &value).help(help).show(ui);
+    }
+    if state.unit() == LengthUnit::Degree {
+        remark(ui, "Lengths and costs are measured in degrees of the plane, not in metres on the earth.");
     }
     let mut width = state.features.paths.finder.width();
     if dropdown_row(ui, "Prove within", &mut width, &WIDTHS).changed() {

@@ -2,14 +2,15 @@
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{Window, is_complete, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
-use crate::app::tests::{click, entries, key, send, settings, tips, type_into, wait_until};
-use meshbrush_core::document::PathCost;
+use crate::app::tests::{click, entries, key, send, set, settings, tips, type_into, wait_until};
+use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
+use meshbrush_mesh::text::LengthUnit;
 
 fn solution(window: &Window) -> Solution {
     shown(window)[0].found.clone().unwrap().solution
@@ -20,6 +21,23 @@ fn formula(window: &Window) -> String {
         PathCost::Formula(formula) => formula.source().to_owned(),
         PathCost::Weighted(weights) => format!("{weights:?}"),
     }
+}
+
+#[test]
+fn the_figures_say_what_is_bounded_and_how_lengths_are_measured() {
+    let mut window = window_with_path();
+    let help = |window: &Window, name: &str| {
+        let row = window.get_by_role_and_label(Role::Definition, name);
+        row.accesskit_node().description().unwrap_or_default()
+    };
+    let least = help(&window, "Least possible cost");
+    assert!(least.contains("no path through the domain costs less than the first"), "{least}");
+    assert!(help(&window, "Proved").contains("not for the mesh"));
+    assert!(help(&window, "Length").contains("in the plane"));
+    let in_degrees = |window: &Window| window.query_by_label_contains("not in metres on the earth").is_some();
+    assert!(!in_degrees(&window));
+    set(&mut window, Setting::LengthUnit(LengthUnit::Degree));
+    assert!(in_degrees(&window) && help(&window, "Length").contains("not the shortest in metres"));
 }
 
 #[test]
