@@ -38,11 +38,12 @@ pub struct TriangleReadout {
     pub id: TriangleId,
     /// The level of the triangle.
     pub level: u32,
-    /// Which way its vertices run.
+    /// Which way its vertices run in the report's order.
     pub orientation: Orientation,
     /// The longest edge of the triangle, in world units.
     pub diameter: f64,
-    /// Ids and world coordinates, in the triangle's order.
+    /// Ids and world coordinates, as files list them: anticlockwise, the first two the ends of the bisection
+    /// edge.
     pub vertices: [(NodeId, DVec2); 3],
     /// The bisection neighbour first, anticlockwise.
     pub neighbours: [Neighbour; 3],
@@ -83,8 +84,10 @@ fn read_triangle(
     value: impl Fn(DVec2) -> f64,
 ) -> TriangleReadout {
     let triangle = mesh.triangle(id);
-    let zeta = barycentric(mesh.corners(id), mesh.lattice().lattice_from_world(point));
-    let vertices = triangle.vertices.map(|node| (node, mesh.world(node)));
+    let nodes = mesh.file_vertices(id);
+    let corners = nodes.map(|node| mesh.node(node));
+    let zeta = barycentric(corners, mesh.lattice().lattice_from_world(point));
+    let vertices = nodes.map(|node| (node, mesh.world(node)));
     let at_vertices = vertices.map(|(_, place)| value(place));
     TriangleReadout {
         id,

@@ -66,7 +66,7 @@ const NAME_DISTANCE: f32 = 15.0;
 /// Width and height of the ground of a name, in points.
 const NAME_SIZE: Vec2 = vec2(24.0, 17.0);
 
-/// Names the corners of a triangle v₁ v₂ v₃, where it is large enough.
+/// Names the corners of a triangle v₁ v₂ v₃ as files list them, where it is large enough.
 pub fn paint_corner_names(
     painter: &Painter,
     rect: Rect,
@@ -75,7 +75,7 @@ pub fn paint_corner_names(
     id: TriangleId,
 ) {
     let px_per_point = painter.pixels_per_point();
-    let corners = mesh.corners(id).map(|corner| camera.screen_from_lattice(corner));
+    let corners = mesh.file_vertices(id).map(|node| camera.screen_from_lattice(mesh.node(node)));
     let corners = corners.map(|px| point_from_px(rect, px, px_per_point));
     let Some(places) = corner_name_places(corners) else { return };
     for (at, name) in places.into_iter().zip(["v₁", "v₂", "v₃"]) {

@@ -77,6 +77,12 @@ impl<'a> MeshView<'a> {
         self.triangle(id).vertices.map(|v| self.world(v))
     }
 
+    /// Returns the vertices of a triangle as files list them: anticlockwise, the first two the ends of the
+    /// bisection edge.
+    pub fn file_vertices(&self, id: TriangleId) -> [NodeId; 3] {
+        self.triangle(id).edge_nodes().map(|(from, _)| from)
+    }
+
     /// Returns the triangles of the domain across the edges of one, its bisection neighbour first,
     /// anticlockwise.
     pub fn neighbours(&self, id: TriangleId) -> [Neighbour; 3] {

@@ -13,7 +13,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
-use meshbrush_mesh::mesh::Location;
+use meshbrush_mesh::mesh::{Location, NodeId};
 
 #[test]
 fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
@@ -87,9 +87,9 @@ fn the_inspector_counts_as_files_do() {
     );
     let shown = |number: usize| crate::app::widgets::format::count(number as u64);
     window.get_by_role_and_label(Role::Button, &format!("Triangle {}", shown(id.index())));
-    for (node, subscript) in extract.triangles()[id.index()].vertices.iter().zip(["₁", "₂", "₃"]) {
-        let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node.index())));
-        let corner = extract.world(*node);
+    for (node, subscript) in extract.cell(id).corners.into_iter().zip(["₁", "₂", "₃"]) {
+        let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node)));
+        let corner = extract.world(NodeId::from_index(node));
         assert!(row.starts_with(&format!("{:.2}", corner.x)), "{row} at {corner}");
     }
     let chips = extract.triangles()[id.index()].raw_neighbours.map(|n| shown(n.triangle().unwrap().index()));

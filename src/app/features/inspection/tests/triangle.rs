@@ -12,6 +12,7 @@ use crate::app::tests::{
     FREE, TALL, Window, click, entries, key, notice, on_screen, open_section, press_at, release_at, selected,
     send, settings, window, window_of,
 };
+use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::mesh::TriangleId;
 
 fn neighbour(window: &Window, id: TriangleId, place: usize) -> Option<TriangleId> {
@@ -124,6 +125,22 @@ fn ctrl_c_copies_every_value_in_full() {
     // The layer that decides, and what each layer asks for.
     let layers = settings(&window).layers.len();
     assert_eq!(text.lines().count(), 15 + 1 + layers, "{text}");
+}
+
+#[test]
+fn vertices_and_weights_are_in_the_order_of_files() {
+    let mut window = window_of(TALL);
+    for point in [dvec2(0.12, 0.7), dvec2(0.31, 0.44), dvec2(0.71, 0.735), dvec2(0.9, 0.13)] {
+        send(&mut window, Command::Inspect(InspectCommand::Query(point)));
+        let session = window.state().session();
+        let triangle = session.readout(window.state().view().quantity).unwrap().triangle.unwrap();
+        let cleaning = session.document().settings().derived_cleaning();
+        let derived = DerivedMesh::new(session.mesh(), session.follower().domain(), &cleaning);
+        let cell = derived.extract(session.mesh()).cell(triangle.id);
+        assert_eq!(triangle.vertices.map(|(node, _)| node.index()), cell.corners);
+        let weighted = (0..3).map(|i| triangle.zeta[i] * triangle.vertices[i].1).sum::<glam::DVec2>();
+        assert!(weighted.distance(point) < 1e-9, "each weight belongs to its vertex: {weighted}");
+    }
 }
 
 #[test]
