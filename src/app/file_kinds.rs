@@ -15,6 +15,15 @@ pub fn opened_by_ending() -> impl Iterator<Item = FileRequest> {
     [&OPEN_PROJECT, &OPEN_RECIPE].into_iter().chain(of_features.copied())
 }
 
+/// Returns the contents and the endings of the files that open, in words.
+pub fn files_that_open() -> String {
+    let kind = |kind: FileRequest| {
+        let endings: Vec<String> = (kind.endings)().iter().map(|ending| format!(".{ending}")).collect();
+        format!("{} ({})", kind.contents.to_lowercase(), endings.join(", "))
+    };
+    opened_by_ending().map(kind).collect::<Vec<_>>().join(", ")
+}
+
 /// Any file that can be opened.
 pub static OPEN_ANY: FileKind = FileKind {
     title: "Open",
@@ -106,4 +115,16 @@ pub static EXPORT_MESH: FileKind = FileKind {
 
 fn is_one_file(path: &Path) -> bool {
     ExportFormat::of(path).is_ok_and(|format| format.files(path).len() == 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_files_that_open_are_named_with_their_endings() {
+        let named = files_that_open();
+        assert!(named.starts_with("projects (.meshbrush), recipes (.toml), "), "{named}");
+        assert!(named.contains("pictures and grids (.png, "), "{named}");
+    }
 }

@@ -6,14 +6,14 @@ use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
 use super::command::{Command, FigureCommand, FileCommand};
-use super::file_kinds::opened_by_ending;
+use super::file_kinds::{files_that_open, opened_by_ending};
 use super::home::{self, Claims, Expected, Home};
 use super::replacing::{Loss, Replacing};
 use super::session::Session;
 use super::widgets::Answer;
 use meshbrush_io::io;
 use meshbrush_io::io::project::{ENDING, Project};
-use meshbrush_io::io::recipe::{self, RecipeFiles};
+use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_io::io::recording;
 use meshbrush_render::render::export::ExportFormat;
 
@@ -405,11 +405,7 @@ pub fn open_command(path: PathBuf) -> Result<Command, String> {
     let name = path.file_name().unwrap_or_default();
     match opened_by_ending().find(|kind| kind.takes(name)) {
         Some(kind) => Ok((kind.command)(path)),
-        None => Err(format!(
-            "{} cannot be opened: a project ends in .{ENDING}, a recipe in .{}, a domain of polygons in .geojson, a greyscale picture of risk in .png, a grid of risk in .asc.",
-            path.display(),
-            recipe::ENDING
-        )),
+        None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
     }
 }
 

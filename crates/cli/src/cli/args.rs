@@ -6,12 +6,14 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
+use super::help::{
+    file_help, output_help, output_long_help, risk_raster_help, target_raster_help, target_raster_long_help,
+};
 use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
 use super::path_args::PathArguments;
 use meshbrush_core::field::RefinementRule;
-use meshbrush_render::render::export::ExportFormat;
 
 /// Paint where detail matters; the mesh follows the brush.
 ///
@@ -19,8 +21,7 @@ use meshbrush_render::render::export::ExportFormat;
 #[derive(Debug, Parser)]
 #[command(name = "meshbrush", version, max_term_width = 100)]
 pub struct Arguments {
-    /// File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson), or a
-    /// greyscale picture (.png) or grid (.asc) as risk
+    #[arg(help = file_help())]
     pub file: Option<PathBuf>,
 
     /// Most threads that refine a mesh [default: one for each core]; the mesh is the same with any number
@@ -139,7 +140,7 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE", conflicts_with = "recipe")]
     pub project: Option<PathBuf>,
 
-    /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the .asc rasters lie]
+    /// Lower left and upper right corner of the domain [default: 0,0,1,1, or where the grids lie]
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true)]
     pub domain: Option<String>,
 
@@ -198,15 +199,11 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub risk: Vec<String>,
 
-    /// Target diameters by pixel: .asc (lengths), or .png (black is --h-min, white --h-max, even between)
-    ///
-    /// A .png covers the domain's bounding box, an .asc lies where its header says. A pixel without a value
-    /// (NODATA, or transparent) asks for nothing.
     #[arg(long, value_name = "FILE")]
+    #[arg(help = target_raster_help(), long_help = target_raster_long_help())]
     pub target_raster: Vec<PathBuf>,
 
-    /// Risk by pixel: .png (black 0, white 1; transparent 0) or .asc (values from 0 to 1)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help = risk_raster_help())]
     pub risk_raster: Vec<PathBuf>,
 
     /// Threats, whose risks combine as independent probabilities: a table x,y,range,peak,law; may be
@@ -308,20 +305,6 @@ impl From<RuleArgument> for RefinementRule {
             RuleArgument::Area => Self::Area,
         }
     }
-}
-
-/// Returns the help of `--output`, with the ending of every format.
-fn output_help() -> String {
-    let endings: String = ExportFormat::endings().map(|ending| format!(" .{ending}")).collect();
-    format!("File to write, may be repeated:{endings}")
-}
-
-fn output_long_help() -> String {
-    let help = output_help();
-    format!(
-        "{help}\n\nFiles carry the level of each triangle and the target diameter at each node; pictures do not. Beside \
-         .node, the files .ele, .neigh and .edge are written."
-    )
 }
 
 /// `meshbrush mesh`.

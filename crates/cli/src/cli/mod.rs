@@ -9,6 +9,7 @@ mod build;
 mod command_line;
 mod details;
 mod failure;
+mod help;
 mod input;
 mod locate;
 mod mesh;

@@ -14,10 +14,14 @@ use glam::DVec2;
 
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::{Flaw, Meter, Number, ReadError};
+use super::{Flaw, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
+
+/// The format, for the list of all formats of rasters.
+pub static RASTER: RasterFormatSpec =
+    RasterFormatSpec { ending: "asc", read: ReadRaster::Grid(read_metered) };
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///

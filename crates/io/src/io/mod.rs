@@ -40,6 +40,7 @@ pub mod points;
 mod positions;
 pub mod project;
 mod provenance;
+mod raster_file;
 pub mod recipe;
 pub mod recording;
 mod rows;
@@ -70,11 +71,15 @@ pub use meshbrush_mesh::text::Number;
 pub use meter::{Cancelled, Counted, Meter};
 use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
+pub use raster_file::{RasterFormat, RasterFormatSpec, ReadRaster};
 pub use stamp::{FileStamp, Stamping};
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 7] =
     [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
+
+/// The formats of rasters. A new one is a module and an entry here.
+static RASTER_FORMATS: [&RasterFormatSpec; 2] = [&png::RASTER, &asc::RASTER];
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
 ///

@@ -11,11 +11,15 @@ use png::{
 
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::{Flaw, Meter, Provenance, ReadError};
+use super::{Flaw, Meter, Provenance, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::document::Picture;
 use meshbrush_core::raster::{Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::Grouped;
+
+/// The format, for the list of all formats of rasters.
+pub static RASTER: RasterFormatSpec =
+    RasterFormatSpec { ending: "png", read: ReadRaster::Image(read_metered) };
 
 /// The colour behind transparent pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

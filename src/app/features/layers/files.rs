@@ -2,11 +2,20 @@
 
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
+use meshbrush_io::io::RasterFormat;
+
+fn raster_endings() -> Vec<&'static str> {
+    RasterFormat::all().map(RasterFormat::ending).collect()
+}
+
+fn grid_endings() -> Vec<&'static str> {
+    RasterFormat::all().filter(|format| format.is_grid()).map(RasterFormat::ending).collect()
+}
 
 /// A picture or a grid as risk.
 pub static OPEN_RISK: FileKind = FileKind {
     title: "Open picture as risk",
-    endings: || vec!["png", "asc"],
+    endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenImage(path)))
@@ -15,7 +24,7 @@ pub static OPEN_RISK: FileKind = FileKind {
 /// A grid as target diameters.
 pub static OPEN_DIAMETERS: FileKind = FileKind {
     title: "Open grid as target diameter",
-    endings: || vec!["asc"],
+    endings: grid_endings,
     contents: "Grids",
     folder: "pictures",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDiameters(path)))
@@ -24,7 +33,7 @@ pub static OPEN_DIAMETERS: FileKind = FileKind {
 /// A picture or a grid, for a band of its values.
 pub static OPEN_BAND: FileKind = FileKind {
     title: "Open picture or grid as band",
-    endings: || vec!["png", "asc"],
+    endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenBand(path)))
@@ -33,7 +42,7 @@ pub static OPEN_BAND: FileKind = FileKind {
 /// A picture or a grid through a curve of its values.
 pub static OPEN_VALUES: FileKind = FileKind {
     title: "Open picture or grid through a curve",
-    endings: || vec!["png", "asc"],
+    endings: raster_endings,
     contents: "Pictures and grids",
     folder: "pictures",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenValues(path)))

@@ -13,9 +13,7 @@ use meshbrush_core::layers::{
     DistanceTo, Layer, LayerId, LayerKind, RasterReading, RasterSource, ShapeList, Shapes,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
-use meshbrush_io::io::layers::{
-    RasterError, RasterFile, RasterFormat, RasterFrame, RasterLoader, RasterValues,
-};
+use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues};
 use meshbrush_io::io::{self, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -165,9 +163,9 @@ fn raster_of(
         }
         _ => error.to_string(),
     })?;
-    let beside = match file.format {
-        RasterFormat::Png => io::world_file::bounds_beside(path, raster.raster().size()),
-        RasterFormat::Asc => Ok(None),
+    let beside = match file.format.is_grid() {
+        false => io::world_file::bounds_beside(path, raster.raster().size()),
+        true => Ok(None),
     };
     let raster = match beside.map_err(|error| error.to_string())? {
         Some(bounds) => placed(raster.raster(), bounds),

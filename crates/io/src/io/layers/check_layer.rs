@@ -3,10 +3,9 @@ use std::sync::Arc;
 
 use super::checks::{number_where, point, points, positive_length, rect_of, rings};
 use super::{
-    RasterFile, RasterFormat, SavedDistanceTo, SavedKind, SavedLayer, SavedPolygon, SavedQuantity,
-    SavedShape, SavedThreat,
+    RasterFile, SavedDistanceTo, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat,
 };
-use crate::io::KeyFault;
+use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{RasterReading, ShapeList, Threat, ThreatError, ValueCurve};

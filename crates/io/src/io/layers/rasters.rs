@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::png::Behind;
-use super::super::{Meter, ReadError, asc, png};
+use super::super::{Meter, RasterFormat, ReadError, ReadRaster};
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::layers::RasterReading;
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -66,30 +66,6 @@ impl RasterFile {
     }
 }
 
-/// The kinds of raster files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RasterFormat {
-    /// A greyscale image, whose values are from 0 (black) to 1 (white).
-    Png,
-    /// A grid that says which rectangle it covers.
-    Asc,
-}
-
-impl RasterFormat {
-    /// Returns the format that the ending of a file name says.
-    ///
-    /// # Errors
-    /// Fails with a sentence when it is the ending of no raster.
-    pub fn of(path: &Path) -> Result<Self, String> {
-        let ending = path.extension().unwrap_or_default();
-        match ending {
-            _ if ending.eq_ignore_ascii_case("png") => Ok(Self::Png),
-            _ if ending.eq_ignore_ascii_case("asc") => Ok(Self::Asc),
-            _ => Err("a raster is a .png or an .asc file.".into()),
-        }
-    }
-}
-
 /// The place and the scale of rasters that have none of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterFrame {
@@ -119,8 +95,10 @@ impl RasterLoader {
     /// # Errors
     /// Fails when the file is of no use.
     pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
-        let says_place = file.format == RasterFormat::Asc && file.bounds.is_none();
-        if says_place { Ok(Some(self.grid(&file.path)?.raster().bounds())) } else { Ok(None) }
+        match (file.format.read(), file.bounds) {
+            (ReadRaster::Grid(read), None) => Ok(Some(self.grid(&file.path, read)?.raster().bounds())),
+            (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Image(_), _) => Ok(None),
+        }
     }
 
     /// Returns the raster of a file, in which risks are from 0 to 1 and diameters are positive. Pixels
@@ -135,7 +113,7 @@ impl RasterLoader {
         frame: &RasterFrame,
     ) -> Result<Arc<RasterPyramid>, RasterError> {
         let raster = self.pixels(file, values, frame)?;
-        if values == RasterValues::Diameter && file.format == RasterFormat::Png {
+        if values == RasterValues::Diameter && !file.format.is_grid() {
             return Ok(Arc::new(RasterPyramid::new(diameters(raster.raster(), &frame.transfer))));
         }
         let named = |problem| RasterError::Value(format!("{}: {problem}", file.path.display()));
@@ -150,17 +128,17 @@ impl RasterLoader {
         values: RasterValues,
         frame: &RasterFrame,
     ) -> Result<Arc<RasterPyramid>, ReadError> {
-        match (format, bounds) {
-            (RasterFormat::Asc, None) => self.grid(path),
-            (RasterFormat::Asc, Some(place)) => {
-                let grid = asc::read_metered(path, &self.meter)?;
+        match (format.read(), bounds) {
+            (ReadRaster::Grid(read), None) => self.grid(path, read),
+            (ReadRaster::Grid(read), Some(place)) => {
+                let grid = read(path, &self.meter)?;
                 let grid = Raster::from_values(*place, grid.size(), grid.values().to_vec());
                 Ok(Arc::new(RasterPyramid::new(grid)))
             }
-            (RasterFormat::Png, _) => {
+            (ReadRaster::Image(read), _) => {
                 let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
                 let place = bounds.unwrap_or(frame.domain);
-                let read = |meter: &Meter| png::read_metered(path, place, behind, meter);
+                let read = |meter: &Meter| read(path, place, behind, meter);
                 match bounds {
                     Some(_) => Ok(Arc::new(RasterPyramid::new(read(&self.meter)?))),
                     None => self.read_once((path.clone(), behind == Behind::Black), read),
@@ -169,8 +147,12 @@ impl RasterLoader {
         }
     }
 
-    fn grid(&mut self, path: &Path) -> Result<Arc<RasterPyramid>, ReadError> {
-        self.read_once((path.to_owned(), false), |meter| asc::read_metered(path, meter))
+    fn grid(
+        &mut self,
+        path: &Path,
+        read: fn(&Path, &Meter) -> Result<Raster, ReadError>,
+    ) -> Result<Arc<RasterPyramid>, ReadError> {
+        self.read_once((path.to_owned(), false), |meter| read(path, meter))
     }
 
     fn read_once(

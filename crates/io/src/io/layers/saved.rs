@@ -3,7 +3,8 @@ use std::path::PathBuf;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{RasterFormat, RasterValues, SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};
+use super::{RasterValues, SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};
+use crate::io::RasterFormat;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Threat, ThreatLaw};
 
@@ -216,8 +217,8 @@ impl SavedLayer {
 
     /// Returns whether it needs both ends of the scale from the smallest to the largest target diameter.
     pub fn uses_scale(&self) -> bool {
-        let is_image =
-            || self.file.as_ref().is_some_and(|file| RasterFormat::of(file) == Ok(RasterFormat::Png));
+        let format = || self.file.as_ref().and_then(|file| RasterFormat::of(file).ok());
+        let is_image = || format().is_some_and(|format| !format.is_grid());
         self.is_risk() || (self.read_as == Some(SavedQuantity::Diameter) && is_image())
     }
 
