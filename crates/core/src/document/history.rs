@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::sync::Arc;
 
 use super::{PathCost, Settings};
-use crate::layers::{DistanceTo, Layer, LayerId, LayerKind, Mask, RasterReading, RasterSource, Shapes};
+use crate::layers::{Layer, LayerId};
 use crate::paint::Patch;
 
 /// The data of one gesture that the document does not have now: before undo the old data, after it the new
@@ -41,15 +41,7 @@ pub(super) fn own_bytes(settings: &Settings) -> usize {
 
 /// Returns the bytes of the names of a layer and of the file that its data come from.
 fn name_bytes(layer: &Layer) -> usize {
-    let file = match &layer.kind {
-        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => source.name.capacity(),
-        LayerKind::Distance { to: DistanceTo::Shapes { name, .. }, .. } => name.capacity(),
-        LayerKind::Distance { .. }
-        | LayerKind::Paint(_)
-        | LayerKind::Formula { .. }
-        | LayerKind::Threats(_) => 0,
-    };
-    layer.name.capacity() + file
+    layer.name.capacity() + layer.kind.file_name().map_or(0, str::len)
 }
 
 /// Data behind an `Arc`, which other settings may share: its address and its size in bytes.
@@ -60,7 +52,7 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
     let marks = (Arc::as_ptr(&settings.boundary_marks).addr(), settings.boundary_marks.bytes());
     let pins = (Arc::as_ptr(&settings.pins).addr(), size_of_val(&settings.pins[..]));
     let paths = (Arc::as_ptr(&settings.paths).addr(), settings.paths.bytes());
-    let layers = settings.layers.iter().flat_map(shared_by_layer);
+    let layers = settings.layers.iter().flat_map(Layer::shared_data);
     let background = settings
         .background
         .as_ref()
@@ -78,24 +70,6 @@ pub(super) fn shared_data(settings: &Settings) -> impl Iterator<Item = SharedDat
         .chain([marks, pins, paths])
         .chain(kept_out)
         .chain(background)
-}
-
-/// Returns the data that a layer shares: its mask, its data, and the curve that converts its data.
-fn shared_by_layer(layer: &Layer) -> impl Iterator<Item = SharedData> + use<> {
-    let curve = |reading: &RasterReading| match reading {
-        RasterReading::Curve(curve) => Some((Arc::as_ptr(curve).addr(), size_of_val(curve.knots()))),
-        RasterReading::Risk | RasterReading::Diameter => None,
-    };
-    let raster = |source: &RasterSource| Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()));
-    let [data, curve] = match &layer.kind {
-        LayerKind::Paint(_) => [None; 2],
-        LayerKind::Formula { formula, .. } => [Some((formula.address(), formula.bytes())), None],
-        LayerKind::Raster { source, reading } => [raster(source), curve(reading)],
-        LayerKind::Band { source, .. } => [raster(source), None],
-        LayerKind::Threats(threats) => [Some(threats.shared_data()), None],
-        LayerKind::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
-    };
-    [layer.mask.as_ref().map(Mask::shared_data), data, curve].into_iter().flatten()
 }
 
 /// One gesture, done or undone.
@@ -257,7 +231,10 @@ mod tests {
     use crate::domain::{Domain, DomainShape, Region, corners};
     use crate::field::{CostFormula, Formula};
     use crate::geometry::Rect;
-    use crate::layers::{Quantity, ShapeList, Threat, ThreatLaw, Threats};
+    use crate::layers::{
+        DistanceTo, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat,
+        ThreatLaw, Threats,
+    };
     use crate::raster::{Raster, RasterPyramid};
 
     /// Returns an outline of 4 corners.

@@ -1,6 +1,6 @@
 //! Names of changes of the layers, for the history.
 
-use crate::layers::{DistanceTo, Layer, LayerKind};
+use crate::layers::Layer;
 
 /// Returns a title of one or two words for the change of a stack of layers; "layers" for several changes.
 pub(super) fn layers_title(before: &[Layer], after: &[Layer]) -> &'static str {
@@ -32,7 +32,7 @@ fn layer_title(before: &Layer, after: &Layer) -> &'static str {
         (before.locked != after.locked, if after.locked { "lock layer" } else { "unlock layer" }),
         (before.combine != after.combine, "layer combination"),
         (before.mask != after.mask, if after.mask.is_some() { "mask layer" } else { "remove mask" }),
-        (before.kind != after.kind, kind_title(&after.kind)),
+        (before.kind != after.kind, after.kind.change_title()),
     ];
     let mut changes = changes.into_iter().filter(|(is_changed, _)| *is_changed);
     match (changes.next(), changes.next()) {
@@ -41,24 +41,12 @@ fn layer_title(before: &Layer, after: &Layer) -> &'static str {
     }
 }
 
-fn kind_title(kind: &LayerKind) -> &'static str {
-    match kind {
-        LayerKind::Paint(_) => "paint layer",
-        LayerKind::Formula { .. } => "formula",
-        LayerKind::Raster { .. } => "raster",
-        LayerKind::Threats(_) => "threats",
-        LayerKind::Distance { to: DistanceTo::Corridor { .. }, .. } => "corridor",
-        LayerKind::Distance { .. } => "distance",
-        LayerKind::Band { .. } => "band",
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::layers::{Combine, LayerId, Mask, Quantity, Threats};
+    use crate::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask, Quantity, Threats};
 
     fn title(edit: impl FnOnce(&mut Vec<Layer>)) -> &'static str {
         let before = Layer::usual(LayerKind::constant(0.2));

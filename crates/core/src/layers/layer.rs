@@ -217,6 +217,12 @@ impl Layer {
         }
     }
 
+    /// Returns the data that other layers may share, its mask among them: the address of each and its size in
+    /// bytes.
+    pub(crate) fn shared_data(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        self.mask.as_ref().map(Mask::shared_data).into_iter().chain(self.kind.shared_data())
+    }
+
     /// Returns the quantity that is painted on the layer, if it is a paint layer.
     pub fn paints(&self) -> Option<Quantity> {
         if let LayerKind::Paint(quantity) = self.kind { Some(quantity) } else { None }
@@ -247,13 +253,18 @@ impl LayerKind {
         }
     }
 
+    /// Returns the name of the file that the data come from, for a person, if they come from one.
+    pub fn file_name(&self) -> Option<&str> {
+        match self {
+            Self::Raster { source, .. } | Self::Band { source, .. } => Some(&source.name),
+            Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => Some(name),
+            Self::Paint(_) | Self::Formula { .. } | Self::Threats(_) | Self::Distance { .. } => None,
+        }
+    }
+
     /// Returns the name of a new layer of this kind: that of its file, if it has one.
     pub fn name(&self) -> String {
-        match self {
-            Self::Raster { source, .. } | Self::Band { source, .. } => source.name.clone(),
-            Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => name.clone(),
-            _ => self.label().to_owned(),
-        }
+        self.file_name().unwrap_or(self.label()).to_owned()
     }
 
     /// Returns the name of this kind of layer for people.
@@ -268,5 +279,37 @@ impl LayerKind {
             Self::Distance { .. } => "Distance",
             Self::Band { .. } => "Band",
         }
+    }
+
+    /// Returns the name of a change of the settings of such a layer, for the history.
+    pub(crate) fn change_title(&self) -> &'static str {
+        match self {
+            Self::Paint(_) => "paint layer",
+            Self::Formula { .. } => "formula",
+            Self::Raster { .. } => "raster",
+            Self::Threats(_) => "threats",
+            Self::Distance { to: DistanceTo::Corridor { .. }, .. } => "corridor",
+            Self::Distance { .. } => "distance",
+            Self::Band { .. } => "band",
+        }
+    }
+
+    /// Returns the data that other layers may share: the address of each and its size in bytes.
+    pub(crate) fn shared_data(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let curve = |reading: &RasterReading| match reading {
+            RasterReading::Curve(curve) => Some((Arc::as_ptr(curve).addr(), size_of_val(curve.knots()))),
+            RasterReading::Risk | RasterReading::Diameter => None,
+        };
+        let raster =
+            |source: &RasterSource| Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()));
+        let data = match self {
+            Self::Paint(_) => [None; 2],
+            Self::Formula { formula, .. } => [Some((formula.address(), formula.bytes())), None],
+            Self::Raster { source, reading } => [raster(source), curve(reading)],
+            Self::Band { source, .. } => [raster(source), None],
+            Self::Threats(threats) => [Some(threats.shared_data()), None],
+            Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
+        };
+        data.into_iter().flatten()
     }
 }

@@ -8,7 +8,7 @@ use super::{
 use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{RasterReading, ShapeList, Threat, ThreatError, ValueCurve};
+use meshbrush_core::layers::{LayerKind, RasterReading, ShapeList, Threat, ThreatError, ValueCurve};
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
 pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
@@ -26,10 +26,8 @@ pub enum Stored {
 /// The kind of a layer with its checked values; files were not read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CheckedKind {
-    /// Paint.
-    Paint,
-    /// A formula in x and y.
-    Formula(Formula),
+    /// A kind that needs no further data.
+    Complete(LayerKind),
     /// Values by pixel, and what they mean.
     Raster(RasterReading),
     /// Points with a range; none where they are in a file.
@@ -111,20 +109,20 @@ impl SavedLayer {
     }
 
     fn paint(&self) -> Result<CheckedKind, KeyFault> {
-        self.needed("quantity", self.quantity)?;
+        let quantity = self.needed("quantity", self.quantity)?;
         if self.file.is_none() && self.layer.is_some() {
             return Err(KeyFault::key(
                 "layer",
                 "`layer` names a layer of the project `file`, which is missing.",
             ));
         }
-        Ok(CheckedKind::Paint)
+        Ok(CheckedKind::Complete(LayerKind::Paint(quantity.into())))
     }
 
     fn checked_formula(&self) -> Result<CheckedKind, KeyFault> {
-        self.needed("quantity", self.quantity)?;
-        let text = self.needed("formula", self.formula.as_deref())?;
-        compiled("formula", text).map(CheckedKind::Formula)
+        let quantity = self.needed("quantity", self.quantity)?.into();
+        let formula = compiled("formula", self.needed("formula", self.formula.as_deref())?)?;
+        Ok(CheckedKind::Complete(LayerKind::Formula { quantity, formula }))
     }
 
     fn raster(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::SavedLayer;
 use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
-use super::{SavedLayer, SavedQuantity};
 use crate::io::KeyFault;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterSource, ShapeList, Shapes, Threat, Threats,
+    DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Threat, Threats,
 };
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::abridged;
@@ -59,13 +59,8 @@ impl SavedLayer {
     /// Fails with the errors of `data`; when a value cannot be used; and a sentence that names the layer when
     /// its data cannot be used.
     pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
-        let quantity = match self.quantity {
-            Some(SavedQuantity::Risk) => Quantity::Risk,
-            _ => Quantity::Diameter,
-        };
         let kind = match self.checked(D::STORED)? {
-            CheckedKind::Paint => LayerKind::Paint(quantity),
-            CheckedKind::Formula(formula) => LayerKind::Formula { quantity, formula },
+            CheckedKind::Complete(kind) => kind,
             CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?, reading },
             CheckedKind::Threats(list) => {
                 let list = list.map_or_else(|| data.threats(self.path()), Ok)?;

@@ -1,7 +1,6 @@
 use std::sync::Arc;
 
 use super::BACKGROUND;
-use super::stored_layers::raster_of;
 use meshbrush_core::document::{Background, Picture, Settings};
 use meshbrush_core::raster::RasterPyramid;
 
@@ -24,7 +23,7 @@ impl PartNames {
     /// Names everything in the settings that has no name, and returns it.
     pub(super) fn add(&mut self, settings: &Settings) -> NewParts {
         let mut new = NewParts::default();
-        for source in settings.layers.iter().filter_map(raster_of) {
+        for source in settings.layers.iter().filter_map(|layer| layer.kind.raster_source()) {
             if !self.rasters.iter().any(|(_, raster)| Arc::ptr_eq(raster, &source.raster)) {
                 let named = (format!("raster.{}", self.rasters.len()), source.raster.clone());
                 self.rasters.push(named.clone());

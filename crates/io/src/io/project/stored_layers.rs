@@ -1,7 +1,7 @@
 //! The layers of a document in `settings.json`, in the vocabulary of recipes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use super::part_names::PartNames;
 use super::settings::{Parts, checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, RasterSource, ShapeList, Threat};
+use meshbrush_core::layers::{Layer, LayerId, ShapeList, Threat};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::Grouped;
 
@@ -60,20 +60,14 @@ pub(super) fn check_raster_sizes(layers: &[StoredLayer]) -> Result<(), Flaw> {
 
 impl StoredLayer {
     pub(super) fn of(layer: &Layer, names: &PartNames) -> Self {
-        let source = raster_of(layer);
-        let raster = source.map(|source| {
+        let raster = layer.kind.raster_source().map(|source| {
             let raster = source.raster.raster();
             let [columns, rows] = raster.size();
             let part = names.of_raster(&source.raster).to_owned();
             StoredRaster { part, bounds: corners(raster.bounds()), columns, rows }
         });
-        let file = match &layer.kind {
-            LayerKind::Distance { to: DistanceTo::Shapes { name, .. }, .. } => {
-                (!name.is_empty()).then(|| name.clone())
-            }
-            _ => source.map(|source| source.name.clone()),
-        };
-        Self { id: layer.id.0, layer: SavedLayer::of(layer, file.map(Into::into)), raster }
+        let file = layer.kind.file_name().map(PathBuf::from);
+        Self { id: layer.id.0, layer: SavedLayer::of(layer, file), raster }
     }
 
     pub(super) fn into_layer(self, parts: &mut impl Parts) -> Result<Layer, PlacedFlaw> {
@@ -84,14 +78,6 @@ impl StoredLayer {
             PlacedFlaw::from(Flaw::Syntax(problem))
         })?;
         layer.load(LayerId(id), &mut InProject { parts, raster })
-    }
-}
-
-/// Returns the raster that a layer reads, if it reads one.
-pub(super) fn raster_of(layer: &Layer) -> Option<&RasterSource> {
-    match &layer.kind {
-        LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => Some(source),
-        _ => None,
     }
 }
 
