@@ -121,25 +121,24 @@ impl<L> SavedSettings<L> {
             cost: self.paths.checked_cost()?,
         };
         let paths = paths.with_names(self.paths.names.iter().cloned());
-        let diameter = self.domain.boundary_diameter.unwrap_or(BoundaryTreatment::usual_diameter(spacing));
-        Ok(Settings {
+        // The values of the text take the place of these.
+        let settings = Settings {
             name: name.to_owned(),
             unit: self.domain.unit.map_or(unit, Into::into),
-            background: None,
             domain,
-            boundary: self.domain.boundary.unwrap_or(SavedTreatment::Outline).with_diameter(diameter),
-            cleaning: self.cleaning(Cleaning::FOR_SOLVERS),
+            boundary: BoundaryTreatment::usual(spacing),
             boundary_marks: Arc::new(if self.domain.has_marks() { self.domain.marks() } else { marks }),
             pins: Arc::new(self.pins.points()?),
             paths: Arc::new(paths),
             spacing,
             transfer,
             layers,
-            gradation: self.limits.gradation,
-            rule: self.mesh.rule.map_or_else(|| self.usual_rule::<S>(), Into::into),
-            max_triangles: self.mesh.max_triangles.unwrap_or(usual.max_triangles),
-            max_memory: self.mesh.memory()?.unwrap_or(usual.max_memory),
-        })
+            rule: self.usual_rule::<S>(),
+            max_triangles: usual.max_triangles,
+            max_memory: usual.max_memory,
+            ..Settings::default()
+        };
+        Ok(self.override_settings(settings)?)
     }
 
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {

@@ -38,9 +38,7 @@ impl<L> SavedSettings<L> {
             ..self
         }
     }
-}
 
-impl SavedSettings {
     /// Returns the settings of a document with the values that are given here in place of its own.
     ///
     /// # Errors
