@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 /// The window's default size, which is also the display's: the window fills it.
 const SIZE: (usize, usize) = (1440, 900);
 /// Where the canvas and the panel beside it surely are, whatever the bars' exact sizes.
-const CANVAS: Area = Area { x: 60..1140, y: 50..860 };
+const CANVAS: Area = Area { x: 60..1140, y: 84..860 };
 const PANEL: Area = Area { x: 1170..1430, y: 50..860 };
 /// In the corner of the canvas where a row shows the progress of long work, below the domain.
 const PROGRESS: Area = Area { x: 800..940, y: 836..852 };

@@ -162,6 +162,9 @@ impl App {
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
         let mut commands = Vec::new();
+        if let Some(panel) = self.view.revealed_panel.and_then(panels::named) {
+            self.view.dock.choose(panel.tab);
+        }
         panels::show(ui, &self.state(readout.as_ref()), &mut commands);
         self.view.revealed_panel = None;
         egui::CentralPanel::default()

@@ -16,6 +16,7 @@ mod contours;
 mod cuts;
 mod derivation;
 mod dialogs;
+mod dock;
 mod document_id;
 mod execute;
 mod features;
@@ -151,6 +152,7 @@ impl App {
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         let tools = Tools::for_domain(extent, settings.transfer.h_min);
+        view.dock.follow_tool(tools.tool);
         let jobs = Jobs::new(ctx);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {
@@ -179,6 +181,7 @@ impl App {
         if let Some(storage) = cc.storage {
             self.project.load(storage);
             self.dialogs.load(storage);
+            self.view.dock.load(storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
@@ -229,6 +232,7 @@ impl eframe::App for App {
         self.project.store(storage);
         self.dialogs.store(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
+        self.view.dock.store(storage);
         eframe::set_value(storage, THREADS_KEY, &self.threads.limit());
     }
 

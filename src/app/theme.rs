@@ -185,7 +185,7 @@ pub mod metrics {
     pub const GRID: f32 = 8.0;
     /// Margin between a panel's edge and its contents.
     pub const PANEL_MARGIN: f32 = 16.0;
-    /// Width of the side panel these widgets are drawn for.
+    /// Width that the docks have at first, for which their rows are drawn.
     pub const PANEL_WIDTH: f32 = 320.0;
     /// Height of a row in a panel.
     pub const ROW: f32 = 24.0;
@@ -203,6 +203,8 @@ pub mod metrics {
     pub const RADIUS_PANEL: u8 = 8;
     /// Corner radius of floating tags and pills.
     pub const RADIUS_TAG: u8 = 8;
+    /// Height of the strip above the canvas.
+    pub const STRIP: f32 = 40.0;
     /// Height of the menu bar.
     pub const MENU_BAR: f32 = 36.0;
     /// Height of the status bar.

@@ -4,6 +4,8 @@ use eframe::egui::{Context, Theme, ThemePreference};
 use glam::DVec2;
 
 use super::command::ViewCommand;
+use super::dock::Dock;
+use super::kit::Tab;
 use super::readout::Quantity;
 use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
@@ -113,6 +115,8 @@ pub struct View {
     pub aids: CanvasAids,
     /// Whether the panels are shown.
     pub panels: bool,
+    /// Which tab of the lower dock is shown.
+    pub dock: Dock,
     /// A level that is shown alone, while the pointer is on it in the legend.
     pub lone_level: Option<u32>,
     /// Bit ℓ: whether level ℓ is hidden on the canvas.
@@ -138,6 +142,7 @@ impl Default for View {
             overlay: FieldOverlay::None,
             aids: CanvasAids::default(),
             panels: true,
+            dock: Dock::default(),
             lone_level: None,
             hidden_levels: 0,
             hovered_neighbour: None,
@@ -214,6 +219,7 @@ impl View {
                 reveal(ctx, place.section, place.control);
             }
             ViewCommand::TogglePanels => self.toggle_panels(),
+            ViewCommand::ShowTab(tab) => self.show_tab(tab),
         }
     }
 
@@ -234,6 +240,14 @@ impl View {
         self.theme = theme;
         ctx.set_theme(theme);
         ctx.request_repaint();
+    }
+
+    /// Shows a tab of the lower dock, also where the panels are hidden.
+    fn show_tab(&mut self, tab: Tab) {
+        self.panels = true;
+        self.dock.choose(tab);
+        // Nothing in a hidden tab is under the pointer.
+        (self.lone_level, self.hovered_neighbour) = (None, None);
     }
 
     fn toggle_panels(&mut self) {

@@ -337,6 +337,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "command",
             "cuts",
             "derivation",
+            "dock",
             "document_id",
             "home",
             "jobs",

@@ -10,6 +10,9 @@ use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
+/// Recent files in the menu; the palette has all.
+const MOST_RECENT_IN_MENU: usize = 5;
+
 /// Documents and files.
 pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::File;
@@ -50,6 +53,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             format!("Open recent {name}"),
             Command::File(FileCommand::Open(path.clone())),
         );
+        let item = item.in_menu(i < MOST_RECENT_IN_MENU);
         items.push(if i == 0 { item.group() } else { item });
     }
     items.push(CatalogItem::new(File, "Quit", Command::File(FileCommand::Quit)).ctrl(Key::Q).group());

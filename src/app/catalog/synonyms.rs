@@ -1,7 +1,7 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 38] = [
+static SYNONYMS: [(&str, &str); 45] = [
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
@@ -31,6 +31,13 @@ static SYNONYMS: [(&str, &str); 38] = [
     ("Edges", "wireframe lines triangles"),
     ("No overlay", "none off hide overlays"),
     ("Overlay", "show colour field"),
+    ("Scale bar", "ruler length"),
+    ("Viridis colours", "colormap palette"),
+    ("Turbo colours", "colormap palette"),
+    ("Larger brush", "radius size width"),
+    ("Harder brush", "hardness soft edge falloff"),
+    ("Dark theme", "appearance display night"),
+    ("Light theme", "appearance display day"),
     ("Contour lines", "isolines levels"),
     ("Show only the level of the triangle", "isolate one level alone"),
     ("Hide or show the level of the triangle", "isolate toggle one level"),

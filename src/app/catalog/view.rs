@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
 use crate::app::command::{Command, ShellCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_render::colormap::Colormap;
 
@@ -29,30 +29,30 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
-        aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause),
-        aid("Walk of point location", CanvasAid::Walk).checked(view.aids.walk),
-        overlay("No overlay", FieldOverlay::None).group(),
-        overlay("Overlay risk", FieldOverlay::Risk).key(Key::O),
+        aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),
+        overlay("No overlay", FieldOverlay::None).palette_only(),
+        overlay("Overlay risk", FieldOverlay::Risk).key(Key::O).group(),
         overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
         overlay("Overlay deciding layer", FieldOverlay::Layer),
         overlay("Overlay slack", FieldOverlay::Slack),
-        overlay("Overlay forced triangles", FieldOverlay::Forced),
-        overlay("Overlay age of triangles", FieldOverlay::Age),
+        overlay("Overlay forced triangles", FieldOverlay::Forced).palette_only(),
+        overlay("Overlay age of triangles", FieldOverlay::Age).palette_only(),
     ];
     let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
     let of_triangle = |title: &str, command: fn(u32) -> ViewCommand| {
         item(title, command(queried.unwrap_or(0))).enabled(queried.is_some())
     };
+    items.extend(method(state));
+    items.extend(tabs(state));
     items.extend([
-        of_triangle("Hide or show the level of the triangle", ViewCommand::ToggleLevel).group(),
-        of_triangle("Show only the level of the triangle", ViewCommand::IsolateLevel),
-        item("Show all levels", ViewCommand::ShowAllLevels).enabled(view.hidden_levels != 0),
+        of_triangle("Hide or show the level of the triangle", ViewCommand::ToggleLevel).palette_only(),
+        of_triangle("Show only the level of the triangle", ViewCommand::IsolateLevel).palette_only(),
+        item("Show all levels", ViewCommand::ShowAllLevels).enabled(view.hidden_levels != 0).group(),
     ]);
-    for (i, map) in Colormap::ALL.into_iter().enumerate() {
-        let item = item(&format!("{} colours", map.name()), ViewCommand::Colormap(map))
-            .checked(view.colormap == map);
-        items.push(if i == 0 { item.group() } else { item });
-    }
+    items.extend(Colormap::ALL.map(|map| {
+        let item = item(&format!("{} colours", map.name()), ViewCommand::Colormap(map));
+        item.checked(view.colormap == map).palette_only()
+    }));
     items.extend([
         theme("Dark theme", ThemePreference::Dark).group(),
         theme("Light theme", ThemePreference::Light),
@@ -61,4 +61,25 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
     ]);
     items
+}
+
+/// Returns the tabs of the lower dock. They are in sight, so that no menu needs them.
+fn tabs(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
+    let shown = state.view.dock.tab();
+    Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method).map(move |tab| {
+        let command = Command::View(ViewCommand::ShowTab(tab));
+        let item = CatalogItem::new(Menu::View, format!("Show the tab {}", tab.name()), command);
+        item.checked(tab == shown).palette_only()
+    })
+}
+
+/// Returns the walk of point location, which is a part of the method.
+fn method(state: &FrameState<'_>) -> [CatalogItem; 2] {
+    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::View(command));
+    let walk = item("Walk of point location", ViewCommand::ToggleAid(CanvasAid::Walk));
+    [
+        walk.checked(state.view.aids.walk),
+        item("Show the tab Method", ViewCommand::ShowTab(Tab::Method))
+            .checked(state.view.dock.tab() == Tab::Method),
+    ]
 }

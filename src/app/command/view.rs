@@ -3,7 +3,7 @@
 use eframe::egui::ThemePreference;
 use glam::DVec2;
 
-use crate::app::kit::Place;
+use crate::app::kit::{Place, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::TriangleId;
@@ -48,4 +48,6 @@ pub enum ViewCommand {
     Reveal(&'static Place),
     /// Shows or hides the panels.
     TogglePanels,
+    /// Shows a tab of the lower dock.
+    ShowTab(Tab),
 }

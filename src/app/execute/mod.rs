@@ -11,7 +11,7 @@ use super::App;
 use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::{Features, ROWS};
-use crate::app::kit::{Ctx, Tool, all_tools};
+use crate::app::kit::{Ctx, Tool};
 
 impl App {
     /// Runs one command.
@@ -22,6 +22,7 @@ impl App {
         };
         self.run(command, ctx);
         if self.tools.take_selection() {
+            self.view.dock.follow_tool(self.tools.chosen());
             self.put_down(ctx);
         }
     }
@@ -51,13 +52,6 @@ impl App {
     }
 
     pub(super) fn execute_on_view(&mut self, command: ViewCommand, ctx: &Context) {
-        if let ViewCommand::Reveal(place) = command
-            && place.needs_tool
-            && !self.tools.tool.panels.contains(&place.panel)
-            && let Some(tool) = all_tools(ROWS).into_iter().find(|tool| tool.panels.contains(&place.panel))
-        {
-            self.use_tool(tool);
-        }
         self.view.execute(command, ctx);
     }
 

@@ -33,19 +33,22 @@ pub enum Menu {
     View,
     /// Documents that come with the program.
     Examples,
+    /// The method of the report: steps, figures, walks.
+    Method,
     /// Manual, keys and gestures, About.
     Help,
 }
 
 impl Menu {
     /// All menus, from left to right, with their names.
-    pub const ALL: [(Self, &'static str); 7] = [
+    pub const ALL: [(Self, &'static str); 8] = [
         (Self::File, "File"),
         (Self::Edit, "Edit"),
         (Self::Tool, "Tool"),
         (Self::Layer, "Layer"),
         (Self::View, "View"),
         (Self::Examples, "Examples"),
+        (Self::Method, "Method"),
         (Self::Help, "Help"),
     ];
 }
@@ -71,6 +74,8 @@ pub struct CatalogItem {
     pub begins_group: bool,
     /// Whether it stands above the other entries of its menu, as those that set how a tool works.
     pub is_above: bool,
+    /// Whether it is in its menu, and not only in the palette and the list of keys.
+    pub is_in_menu: bool,
 }
 
 impl CatalogItem {
@@ -86,6 +91,7 @@ impl CatalogItem {
             checked: false,
             begins_group: false,
             is_above: false,
+            is_in_menu: true,
         }
     }
 
@@ -131,6 +137,17 @@ impl CatalogItem {
     /// Puts the entry above the others of its menu.
     pub fn above(mut self) -> Self {
         self.is_above = true;
+        self
+    }
+
+    /// Leaves the entry out of its menu, which stays short: the palette and the list of keys have it.
+    pub fn palette_only(self) -> Self {
+        self.in_menu(false)
+    }
+
+    /// Leaves the entry out of its menu unless `is_in_menu`.
+    pub fn in_menu(mut self, is_in_menu: bool) -> Self {
+        self.is_in_menu &= is_in_menu;
         self
     }
 

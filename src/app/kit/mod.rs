@@ -25,6 +25,8 @@ mod menu_item;
 mod panel;
 mod place;
 mod radius_row;
+mod strip;
+mod tab;
 mod tool;
 
 pub use ctx::{Ctx, NO_LIMIT};
@@ -42,7 +44,9 @@ pub use layer_kind::{
 };
 pub use mask_file::with_mask;
 pub use menu_item::menu_item;
-pub use panel::{Panel, PanelGroup, button_rows, end_gesture_when_released, remark, set_once};
+pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once};
 pub use place::Place;
 pub use radius_row::radius_row;
+pub use strip::StripItem;
+pub use tab::Tab;
 pub use tool::{OverMesh, Tool, ToolSpec, all_tools};

@@ -1,23 +1,23 @@
-//! A section of the side panel, and the rows that many have.
+//! A section of a dock, and the rows that many have.
 //!
 //! A panel is a function of the state that it shows; it changes nothing, but sends commands.
 
 use eframe::egui::{Response, RichText, Ui};
 
-use super::FrameState;
+use super::{FrameState, Tab};
 use crate::app::command::{Command, EditCommand};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{self, ActionButton};
 use meshbrush_core::document::Setting;
 
-/// A section of the side panel.
+/// A section of a dock.
 pub struct Panel {
     /// Identifies it.
     pub name: &'static str,
-    /// The panels that it stands among.
-    pub group: PanelGroup,
-    /// Whether it is shown only while a tool that lists it is selected.
-    pub only_with_tool: bool,
+    /// Where it is.
+    pub tab: Tab,
+    /// Its place there: panels with a lower number stand first.
+    pub place: u8,
     /// Draws it.
     pub show: fn(&mut Ui, &FrameState<'_>, &mut Vec<Command>),
 }
@@ -27,28 +27,6 @@ impl Panel {
     pub fn is_revealed(&self, state: &FrameState<'_>) -> bool {
         state.view.revealed_panel == Some(self.name)
     }
-}
-
-/// Panels that belong together, in the order of the side panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PanelGroup {
-    /// Panels about the target diameter.
-    Size,
-    /// The queried triangle, and points that are followed.
-    Inspect,
-    /// Paths through the mesh.
-    Paths,
-    /// How the mesh is made, and its figures.
-    Mesh,
-    /// The domain, its boundary, and what is behind it.
-    Domain,
-    /// How all of it is drawn.
-    View,
-}
-
-impl PanelGroup {
-    /// All of them, from the top.
-    pub const ALL: [Self; 6] = [Self::Size, Self::Inspect, Self::Paths, Self::Mesh, Self::Domain, Self::View];
 }
 
 /// Rows of buttons: name, whether it is enabled, and the command that it sends.

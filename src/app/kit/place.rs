@@ -1,4 +1,4 @@
-//! Places in the panels: sections and settings that can be put in sight.
+//! Places in the docks: sections and settings that can be put in sight.
 
 /// A section of a panel, or a control in it.
 #[derive(Debug, PartialEq, Eq)]
@@ -11,24 +11,17 @@ pub struct Place {
     pub control: &'static str,
     /// Other words by which it is found.
     pub words: &'static str,
-    /// Whether the panel is shown only with a tool that lists it.
-    pub needs_tool: bool,
 }
 
 impl Place {
-    /// Creates a place in a panel that is always shown.
+    /// Creates a place in a panel.
     pub const fn new(panel: &'static str, section: &'static str, control: &'static str) -> Self {
-        Self { panel, section, control, words: "", needs_tool: false }
+        Self { panel, section, control, words: "" }
     }
 
     /// Adds other words by which it is found.
     pub const fn words(self, words: &'static str) -> Self {
         Self { words, ..self }
-    }
-
-    /// Marks a panel that is shown only with a tool that lists it.
-    pub const fn with_tool(self) -> Self {
-        Self { needs_tool: true, ..self }
     }
 
     /// Returns the title in the palette.

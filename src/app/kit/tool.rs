@@ -5,7 +5,7 @@ use std::fmt;
 use eframe::egui::{CursorIcon, Key, Painter, Pos2, Rect, Ui};
 use glam::DVec2;
 
-use super::{FrameState, Gesture, Pointer, Press, Row};
+use super::{FrameState, Gesture, Pointer, Press, Row, StripItem, Tab};
 use crate::app::command::Command;
 use crate::app::tools::{PAN, Tools};
 use crate::app::widgets::{Hint, Icon};
@@ -34,8 +34,10 @@ pub struct ToolSpec {
     pub icon: Icon,
     /// The cursor over the canvas, where no ring is drawn.
     pub cursor: CursorIcon,
-    /// Names of the panels that stand first while it is selected.
-    pub panels: &'static [&'static str],
+    /// The tab of the lower dock that is shown when the tool is selected.
+    pub tab: Option<Tab>,
+    /// Its options on the strip above the canvas, from the left. Without any the strip shows its hint.
+    pub options: &'static [StripItem],
     /// What to do with it next.
     pub hint: fn(&FrameState<'_>) -> &'static [Hint<'static>],
     /// Whether the brush ring is drawn around the pointer.
@@ -82,7 +84,8 @@ impl ToolSpec {
             key,
             icon,
             cursor: CursorIcon::Crosshair,
-            panels: &[],
+            tab: None,
+            options: &[],
             hint: |_| &[],
             has_ring: |_| false,
             brush: None,

@@ -23,7 +23,7 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
                 // In a small window a long menu scrolls.
                 let height = ui.ctx().content_rect().height() - HEIGHT_AROUND_MENU;
                 ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-                    for item in catalog.iter().filter(|item| item.menu == menu) {
+                    for item in catalog.iter().filter(|item| item.menu == menu && item.is_in_menu) {
                         menu_item(ui, item, commands);
                     }
                 });

@@ -1,25 +1,61 @@
-//! The panels around the canvas. A panel is a function of the state that it shows; it changes nothing, but
-//! sends commands.
+//! The docks and bars around the canvas. A panel is a function of the state that it shows; it changes
+//! nothing, but sends commands.
 //!
-//! Values that are being typed or set up in a control, and are not settings yet, are in egui's memory.
+//! ```text
+//!  menu bar
+//!  tools │ strip: options of the tool, view   │ upper dock: layers, selected layer
+//!        │ canvas                             │ ───────────── divider
+//!        │                                    │ lower dock: tabs
+//!  status bar
+//! ```
+//!
+//! Values that are being typed or set up in a control, and are not settings yet, are in egui's memory; so are
+//! the sizes of the docks.
 
 mod bars;
+mod budgets;
+mod docks;
 mod mesh;
 mod status;
+mod strip;
 mod view;
 
-use eframe::egui::{self, Frame, Id, Margin, ScrollArea, Ui};
+use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
 use super::command::Command;
 use super::features::{ROWS, report, stepping};
 use super::theme::{metrics, tokens};
-use crate::app::kit::{FrameState, Panel, PanelGroup, Tool};
+use crate::app::kit::{FrameState, Panel, Tab};
 
-/// The sections of the side panel that belong to no feature, from the top of their groups.
-static PANELS: [&Panel; 2] = [&mesh::MESH, &view::VIEW];
+/// The sections of the docks that belong to no feature.
+static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];
 
 /// Draws all panels, from the rim inwards.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    show_bars(ui, state, commands);
+    if !state.view.panels {
+        return;
+    }
+    let t = *tokens(ui);
+    egui::Panel::left("tools")
+        .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
+        .resizable(false)
+        .exact_size(metrics::TOOL + 12.0)
+        .show(ui, |ui| bars::tool_strip(ui, state, commands));
+    if state.features.stepping.steps().is_some() {
+        egui::Panel::right("step")
+            .frame(Frame::new().fill(t.panel))
+            .resizable(false)
+            .exact_size(stepping::WIDTH)
+            .show(ui, |ui| step_panel(ui, state, commands));
+    } else {
+        docks::show(ui, state, commands);
+    }
+    strip::show(ui, state, commands);
+}
+
+/// Draws the bars at the top and at the bottom of the window.
+fn show_bars(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let t = *tokens(ui);
     let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
     // egui puts the row of a menu bar at its top: the margin centres it.
@@ -39,31 +75,9 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             .exact_size(stepping::BAR_HEIGHT)
             .show(ui, |ui| stepping::step_bar(ui, steps, commands));
     }
-    if !state.view.panels {
-        return;
-    }
-    egui::Panel::left("tools")
-        .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
-        .resizable(false)
-        .exact_size(metrics::TOOL + 12.0)
-        .show(ui, |ui| bars::tool_strip(ui, state, commands));
-    if state.features.stepping.steps().is_some() {
-        egui::Panel::right("step")
-            .frame(Frame::new().fill(t.panel))
-            .resizable(false)
-            .exact_size(stepping::WIDTH)
-            .show(ui, |ui| step_panel(ui, state, commands));
-        return;
-    }
-    // The scroll bar is in the margin.
-    egui::Panel::right("side")
-        .frame(Frame::new().fill(t.panel))
-        .resizable(false)
-        .exact_size(metrics::PANEL_WIDTH)
-        .show(ui, |ui| side_panel(ui, state, commands));
 }
 
-/// Draws the panel in place of the side panel while steps are shown.
+/// Draws the panel in place of the docks while steps are shown.
 fn step_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -76,42 +90,20 @@ fn step_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     });
 }
 
-fn side_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
-    let mut area = ScrollArea::vertical().auto_shrink(false);
-    if tool_changed(ui, state.tools.tool) {
-        // Its sections are at the top.
-        area = area.vertical_scroll_offset(0.0);
-    }
-    area.show(ui, |ui| {
-        Frame::new().inner_margin(margin).show(ui, |ui| {
-            report::section(ui, state, commands);
-            for panel in sections(state.tools.tool) {
-                (panel.show)(ui, state, commands);
-            }
-            ui.add_space(metrics::PANEL_MARGIN);
-        });
-    });
+/// Returns the sections of a tab, from the top. They stay in this order.
+fn sections(tab: Tab) -> Vec<&'static Panel> {
+    let mut sections: Vec<_> = all().filter(|panel| panel.tab == tab).collect();
+    sections.sort_by_key(|panel| panel.place);
+    sections
 }
 
-/// Returns whether another tool is selected than in the last frame.
-fn tool_changed(ui: &Ui, tool: Tool) -> bool {
-    let id = Id::unique("tool of the side panel");
-    let before = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, tool.name), tool.name));
-    before != tool.name
-}
-
-/// Returns all sections of the side panel, from the top.
+/// Returns all sections of the docks.
 pub fn all() -> impl Iterator<Item = &'static Panel> {
-    PanelGroup::ALL.into_iter().flat_map(|group| {
-        let of_features = ROWS.iter().flat_map(|row| row.panels);
-        PANELS.iter().chain(of_features).copied().filter(move |panel| panel.group == group)
-    })
+    let of_features = ROWS.iter().flat_map(|row| row.panels);
+    PANELS.iter().chain(of_features).copied()
 }
 
-/// Returns the sections to show, those of the tool first.
-fn sections(tool: Tool) -> impl Iterator<Item = &'static Panel> {
-    let of_tool = |panel: &&Panel| tool.panels.contains(&panel.name);
-    let others = all().filter(move |panel| !panel.only_with_tool && !of_tool(panel));
-    tool.panels.iter().filter_map(|name| all().find(|panel| panel.name == *name)).chain(others)
+/// Returns the section with a name.
+pub fn named(name: &str) -> Option<&'static Panel> {
+    all().find(|panel| panel.name == name)
 }

@@ -15,6 +15,8 @@ use meshbrush_render::render::Image;
 const WINDOW: Vec2 = vec2(980.0, 640.0);
 /// Size of a window of which a picture shows the canvas only.
 const SQUARE: Vec2 = vec2(360.0, 460.0);
+/// Height of the lower dock of a window that is 900 points high, in points.
+const LOWER_DOCK: f32 = 452.0;
 /// Height of the hint at the bottom of the canvas, in points.
 const HINT: f32 = 56.0;
 /// A level beyond those of the first example.
@@ -47,13 +49,13 @@ fn window() -> Result<Image, String> {
     window.picture()
 }
 
-/// Returns the transfer curve and the levels in the side panel of the first example.
+/// Returns the lower dock of the first example: the transfer curve, gradation and budgets.
 fn panel() -> Result<Image, String> {
-    let (top, height) = (804.0, 436.0);
-    let mut window = OffscreenWindow::open(vec2(WINDOW.x, top + height + 40.0), 1.0)?;
+    let mut window = OffscreenWindow::open(vec2(WINDOW.x, 900.0), 1.0)?;
     let picture = window.picture()?;
-    let corner = vec2(WINDOW.x - PANEL_WIDTH, top).to_pos2();
-    Ok(cropped(&picture, Rect::from_min_size(corner, vec2(PANEL_WIDTH, height))))
+    let canvas = window.canvas_rect().ok_or("The window has no canvas.")?;
+    let corner = canvas.right_bottom() - vec2(0.0, LOWER_DOCK);
+    Ok(cropped(&picture, Rect::from_min_size(corner, vec2(PANEL_WIDTH, LOWER_DOCK))))
 }
 
 /// Returns a queried triangle with its neighbours.

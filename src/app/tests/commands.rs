@@ -8,13 +8,12 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    TALL, canvas, entries, fingerprint, key, move_to, open_section, paint, send, value_of, wait_until,
-    window, window_of,
+    TALL, canvas, entries, fingerprint, key, move_to, open_popup, open_section, open_tab, paint, send,
+    value_of, wait_until, window, window_of,
 };
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::all_tools;
-use crate::app::panels;
+use crate::app::kit::{Tab, all_tools};
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Example;
 use meshbrush_mesh::mesh::Location;
@@ -64,11 +63,9 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
     assert_eq!(overlay(&window), FieldOverlay::None);
     key(&mut window, Modifiers::SHIFT, Key::O);
     assert_eq!(overlay(&window), FieldOverlay::Target);
-    open_section(&mut window, "View");
+    open_popup(&mut window, "View options");
     for (name, expected) in [("No overlay", FieldOverlay::None), ("Target", FieldOverlay::Target)] {
-        window.get_by_role_and_label(Role::ComboBox, "Overlay").click();
-        window.run();
-        window.get_by_role_and_label(Role::Button, name).click();
+        window.get_by_role_and_label(Role::RadioButton, name).click();
         window.run();
         assert_eq!(overlay(&window), expected);
     }
@@ -97,7 +94,9 @@ fn parts_and_holes_are_counted_for_every_boundary_treatment() {
     key(&mut window, Modifiers::NONE, Key::D);
     open_section(&mut window, "Fit to outline");
     for treatment in ["As in report", "Fitted", "On outline"] {
+        open_tab(&mut window, Tab::Domain);
         window.get_by_role_and_label(Role::RadioButton, treatment).click();
+        open_tab(&mut window, Tab::Mesh);
         wait_until(&mut window, |window| window.state().session().derived().is_some());
         for row in ["Parts", "Holes"] {
             let value = value_of(&window, Role::Definition, row);
@@ -107,7 +106,7 @@ fn parts_and_holes_are_counted_for_every_boundary_treatment() {
 }
 
 #[test]
-fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
+fn every_tool_has_its_own_name_and_key_a_hint_and_its_tab() {
     let names: BTreeSet<_> = all_tools(ROWS).iter().map(|tool| tool.name).collect();
     let keys: BTreeSet<_> = all_tools(ROWS).iter().map(|tool| tool.key.name()).collect();
     assert_eq!((names.len(), keys.len()), (all_tools(ROWS).len(), all_tools(ROWS).len()));
@@ -115,10 +114,8 @@ fn every_tool_has_its_own_name_and_key_a_hint_and_sections_that_exist() {
     for tool in all_tools(ROWS) {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert!(!window.state().tools().hint(&window.state().state(None)).is_empty(), "{tool:?}");
-        for panel in tool.panels {
-            assert!(panels::all().any(|known| known.name == *panel), "{tool:?}: {panel}");
+        if let Some(tab) = tool.tab {
+            assert_eq!(window.state().view().dock.tab(), tab, "{tool:?}");
         }
     }
-    let names: BTreeSet<_> = panels::all().map(|panel| panel.name).collect();
-    assert_eq!(names.len(), panels::all().count());
 }

@@ -32,13 +32,16 @@ fn a_tool_is_selected_by_its_key_and_by_its_button() {
 #[test]
 fn the_section_of_a_selected_tool_comes_into_view() {
     let mut window = window_of(vec2(900.0, 600.0));
-    let panel = canvas(&window).right_center() + vec2(100.0, 0.0);
+    let panel = canvas(&window).right_bottom() + vec2(100.0, -40.0);
     wheel(&mut window, panel, -2000.0);
-    let top = canvas(&window).top();
+    let top = |window: &Window| window.get_by_role_and_label(Role::Tab, "Size").rect().bottom();
     let section = |window: &Window, name: &str| window.get_by_role_and_label(Role::Button, name).rect().top();
-    assert!(section(&window, "Size and risk") < top, "scrolled away");
+    let scrolled = section(&window, "Size and risk");
+    assert!(scrolled < top(&window), "scrolled away");
     key(&mut window, Modifiers::NONE, Key::Q);
-    assert!(section(&window, "Triangle") >= top);
+    assert!(section(&window, "Triangle") >= top(&window));
+    key(&mut window, Modifiers::NONE, Key::B);
+    assert_eq!(section(&window, "Size and risk"), scrolled, "each tab keeps its place");
 }
 
 #[test]

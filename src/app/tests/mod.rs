@@ -7,6 +7,7 @@ mod background;
 mod budget;
 mod commands;
 mod derivation;
+mod docks;
 mod file_dialog;
 mod files;
 mod gallery;
@@ -24,14 +25,18 @@ mod other_window;
 mod overlays;
 mod palette;
 pub mod pictures;
+mod places;
 mod project;
 mod recipes;
 mod settings;
+mod six_jobs;
 mod software_window;
 mod steady;
 mod threads;
 pub mod tips;
 mod view;
+
+pub use places::*;
 
 use std::fs;
 use std::path::PathBuf;
@@ -62,7 +67,7 @@ pub type Window = Harness<'static, App>;
 
 /// Where tests write files.
 pub const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/target/tmp");
-/// Room for every section of the side panel at once, so that nothing must be scrolled to.
+/// Room for every section of a dock at once, so that nothing must be scrolled to.
 pub const TALL: Vec2 = vec2(1440.0, 2000.0);
 
 /// Off the canvas, over nothing.
@@ -249,16 +254,8 @@ pub fn selected(window: &Window) -> Option<TriangleId> {
     readout.location.triangle()
 }
 
-pub fn open_section(window: &mut Window, title: &str) {
-    let named = window.get_all_by_role_and_label(Role::Button, title);
-    let header = named.max_by(|a, b| a.rect().left().total_cmp(&b.rect().left())).unwrap();
-    if header.accesskit_node().data().is_expanded() != Some(true) {
-        header.click();
-        window.run();
-    }
-}
-
 pub fn type_into(window: &mut Window, name: &str, text: &str) {
+    find(window, Role::TextInput, name);
     window.get_by_role_and_label(Role::TextInput, name).focus();
     window.run();
     key(window, Modifiers::COMMAND, Key::A);
@@ -271,6 +268,14 @@ pub fn choose(window: &mut Window, menu: &str, entry: &str) {
     open_menu(window, menu);
     window.get_by_role_and_label(Role::Button, entry).click();
     window.run();
+}
+
+/// Runs a command that is in no menu: the palette has it.
+pub fn choose_in_palette(window: &mut Window, title: &str) {
+    key(window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text(title.to_owned()));
+    window.run();
+    key(window, Modifiers::NONE, Key::Enter);
 }
 
 /// Opens a menu of the bar; sections of the panel may have the same name.
@@ -379,8 +384,10 @@ pub fn active(window: &Window) -> &Layer {
     document(window).active_layer().expect("a selected layer")
 }
 
-/// Clicks on a button of the panel. The window has no other button of that name outside menus.
+/// Clicks on a button of the docks or of the strip. The window has no other button of that name outside
+/// menus.
 pub fn click_button(window: &mut Window, name: &str) {
+    find(window, Role::Button, name);
     window.get_by_role_and_label(Role::Button, name).click();
     window.run();
 }

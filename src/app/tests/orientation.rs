@@ -7,8 +7,11 @@ use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use super::{TALL, Window, choose, key, send, set, settings, triangles, type_into, wheel, window, window_of};
+use super::{
+    TALL, Window, choose, key, open_tab, send, set, settings, triangles, type_into, wheel, window, window_of,
+};
 use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
+use crate::app::kit::Tab;
 use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
@@ -173,6 +176,7 @@ fn every_level_along_an_outline_has_a_colour_of_its_own() {
     send(&mut window, Command::Brush(BrushCommand::DrawTo(dvec2(25.5, 38.0))));
     send(&mut window, Command::Brush(BrushCommand::EndStroke));
     assert_eq!(window.state().view().level_colors(settings(&window)), colors, "paint changes no colour");
+    open_tab(&mut window, Tab::Mesh);
     for level in 0..=deepest {
         let name = format!("Level {level}: ");
         let row = window.get_by_label_contains(&name);

@@ -7,16 +7,22 @@ use eframe::egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::DVec2;
 
-use super::{FREE, TALL, Window, canvas, choose, entries, key, open_section, send, wait_until, window_of};
+use super::{
+    FREE, TALL, Window, canvas, choose, entries, key, open_popup, open_section, open_tab, send, wait_until,
+    window_of,
+};
 use crate::app::command::StepCommand;
 use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, ShellCommand, ThreatsCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::all_tools;
+use crate::app::kit::{Tab, all_tools};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
+
+/// Height of the menu bar, in points.
+const MENU_BAR: f32 = 36.0;
 
 const CONTROLS: [Role; 7] = [
     Role::Button,
@@ -28,13 +34,13 @@ const CONTROLS: [Role; 7] = [
     Role::Definition,
 ];
 
-/// Returns the names of the controls and values in tool strip and side panel that have no sentence.
+/// Returns the names of the controls and values on the tool strip, in the docks, on the strip above the
+/// canvas and in its popups that have no sentence.
 pub fn unexplained(window: &Window) -> Vec<String> {
     let canvas = canvas(window);
-    let in_panels = |x: f32| x < canvas.left() || x > canvas.right();
     let controls = CONTROLS.into_iter().flat_map(|role| window.query_all_by_role(role));
     controls
-        .filter(|node| in_panels(node.rect().center().x) && node.rect().top() >= canvas.top())
+        .filter(|node| node.rect().top() >= MENU_BAR)
         // The status bar.
         .filter(|node| node.rect().bottom() <= canvas.bottom())
         // The title of a section shows that it folds.
@@ -51,11 +57,23 @@ pub fn unexplained(window: &Window) -> Vec<String> {
 fn every_control_of_the_panels_has_a_sentence() {
     let mut window = window_of(vec2(TALL.x, 3000.0));
     send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
-    for section in ["Stroke", "Mesh", "Statistics", "Domain", "View"] {
+    for section in ["Mesh", "Background picture", "Statistics"] {
         open_section(&mut window, section);
     }
     wait_until(&mut window, |window| window.query_by_label("Fingerprint").is_some());
-    assert!(window.query_by_label("Interpolated").is_some(), "of the queried triangle");
+    for tab in Tab::LOWER.into_iter().filter(|tab| *tab != Tab::Method) {
+        open_tab(&mut window, tab);
+        assert_eq!(unexplained(&window), [""; 0], "{tab:?}");
+    }
+    choose(&mut window, "Method", "Show the tab Method");
+    assert_eq!(unexplained(&window), [""; 0]);
+    for popup in ["More options", "View options"] {
+        open_popup(&mut window, popup);
+        assert_eq!(unexplained(&window), [""; 0], "{popup}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(5.0)))));
+    open_tab(&mut window, Tab::Size);
     assert_eq!(unexplained(&window), [""; 0]);
     let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
     let raster = || {
@@ -76,7 +94,6 @@ fn every_control_of_the_panels_has_a_sentence() {
     send(&mut window, Command::Threats(ThreatsCommand::Place(FREE)));
     assert!(window.query_by_label("Selected threat").is_some());
     assert_eq!(unexplained(&window), [""; 0]);
-    send(&mut window, Command::Edit(EditCommand::Set(Setting::Gradation(Some(5.0)))));
     for tool in all_tools(ROWS) {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         assert_eq!(unexplained(&window), [""; 0], "{}", tool.name);
@@ -111,10 +128,10 @@ fn every_control_of_the_steps_has_a_sentence() {
 #[test]
 fn a_tooltip_is_beside_the_panel() {
     let mut window = window_of(TALL);
-    let strength = window.get_by_role_and_label(Role::Slider, "Strength").rect().center();
-    window.hover_at(strength);
+    let limit = window.get_by_role_and_label(Role::CheckBox, "Limit gradation").rect().center();
+    window.hover_at(limit);
     window.run_steps(8);
-    let tooltip = window.get_by_label_contains("How far one stroke moves").rect();
+    let tooltip = window.get_by_label_contains("Limits how fast h̄ may change").rect();
     assert!(tooltip.right() <= canvas(&window).right(), "{tooltip:?}");
     window.hover_at(window.get_by_role_and_label(Role::Button, "Eraser").rect().center());
     window.run_steps(8);
@@ -123,7 +140,7 @@ fn a_tooltip_is_beside_the_panel() {
     window.hover_at(window.get_by_role_and_label(Role::Definition, "h̄ · level").rect().center());
     window.run_steps(8);
     let tooltip = window.get_by_label_contains("What one stroke asks for").rect();
-    assert!(tooltip.right() <= canvas(&window).right(), "{tooltip:?}");
+    assert!(tooltip.top() >= canvas(&window).top(), "below the strip: {tooltip:?}");
 }
 
 #[test]

@@ -6,10 +6,11 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    RESTING_PLACE, TALL, Window, canvas, choose, entries, in_world, key, on_screen, open_section, press_at,
-    press_tab, release_at, send, settings, wheel, window, window_of,
+    RESTING_PLACE, TALL, Window, canvas, choose, entries, in_world, key, on_screen, open_popup, open_tab,
+    press_at, press_tab, release_at, send, settings, wheel, window, window_of,
 };
 use crate::app::command::{Command, ViewCommand};
+use crate::app::kit::Tab;
 use meshbrush_render::colormap::Ground;
 
 #[test]
@@ -58,6 +59,8 @@ fn space_and_middle_drag_pan_and_home_fits() {
     assert!(in_world(&window, to).distance(held) < 1e-9);
     assert_eq!(entries(&window), 0);
 
+    // Not beyond the rim of the domain, where the view ends.
+    key(&mut window, Modifiers::NONE, Key::Home);
     key(&mut window, Modifiers::NONE, Key::H);
     held = in_world(&window, from);
     press_at(&mut window, from, PointerButton::Primary, Modifiers::NONE);
@@ -100,6 +103,7 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
         let count = crate::app::widgets::format::count(count as u64);
         window.get_by_label(&format!("Level {level}: {count} triangles")).rect().center()
     };
+    open_tab(&mut window, Tab::Mesh);
     let style = |window: &Window| window.state().view().style(settings(window), 1.0).shown_levels;
     assert_eq!(style(&window), u64::MAX);
     for level in [4, 7] {
@@ -116,12 +120,12 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
 }
 
 #[test]
-fn the_theme_switches_by_menu_and_by_panel() {
+fn the_theme_switches_by_menu_and_by_the_view_options() {
     let mut window = window_of(TALL);
     assert_eq!(window.state().view().ground, Ground::Dark);
     choose(&mut window, "View", "Light theme");
     assert_eq!(window.state().view().ground, Ground::Light);
-    open_section(&mut window, "View");
+    open_popup(&mut window, "View options");
     window.get_by_role_and_label(Role::RadioButton, "Dark").click();
     window.run();
     assert_eq!(window.state().view().ground, Ground::Dark);

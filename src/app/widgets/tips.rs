@@ -7,7 +7,32 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 197] = [
+static SENTENCES: [(&str, &str); 217] = [
+    (
+        "Open background…",
+        "Reads a picture that is shown behind the mesh; a world file beside it says where it lies.",
+    ),
+    ("Tab/Size", "The target diameter: its limits, the curve from risk, gradation and budgets."),
+    ("Tab/Inspect", "The queried triangle, pins, and why the triangle is in the mesh."),
+    ("Tab/Paths", "Paths of least cost, other paths beside them, and what paths cost."),
+    ("Tab/Mesh", "Levels, statistics, fit to the outline, plots, and how the mesh is made."),
+    ("Tab/Domain", "The outline, the unit, the bounds, the pieces of the boundary and the background."),
+    ("Tab/Method", "The figures of the report, and the walk of point location."),
+    ("View options", "Edges, aids to orientation, colours, overlay and theme."),
+    ("More options", "Options of the tool that are rarely needed, or that have no room on the strip."),
+    ("Copy values", "Copies all values of the queried triangle; Ctrl+C."),
+    ("Overlay/No overlay", "Shows the levels of the mesh alone."),
+    ("Overlay/Risk", "Shows the risk over the mesh, from 0 to 1; O."),
+    ("Overlay/Target", "Shows the level that h̄ asks for; Shift+O."),
+    ("Overlay/Layer", "Shows which layer decides h̄, in the colour of the layer."),
+    ("Overlay/Slack", "Shows where the mesh is finer than h̄ asks for, as the factor h̄ / h."),
+    ("Overlay/Forced", "Shows the triangles that only compatibility asked for."),
+    ("Overlay/Age", "Shows how many edits ago each triangle came."),
+    ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
+    ("Colours/Magma", "Black over purple and orange to pale yellow."),
+    ("Colours/Cividis", "Navy to yellow; looks nearly the same with and without red-green blindness."),
+    ("Colours/Turbo", "Blue over green to red, with many steps that can be told apart."),
+    ("Colours/Greys", "Dark to light grey, for print."),
     (
         "What the brush paints/Risk",
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
@@ -194,11 +219,6 @@ static SENTENCES: [(&str, &str); 197] = [
     (
         "Contours of h̄",
         "Draws lines along which h̄ is the same, with their length in the unit of the document.",
-    ),
-    ("Colours", "The colours of the levels."),
-    (
-        "Overlay",
-        "What is shown over the mesh: risk, the level that h̄ asks for, the deciding layer, where the mesh is finer than h̄ asks for (slack), the triangles that only compatibility asked for (forced), or how many edits ago a triangle came (age).",
     ),
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),

@@ -20,5 +20,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         items.push(item("Select or split", BoundaryCommand::Mode(other)).key(Key::S));
         items.push(item("Join the piece with the next", BoundaryCommand::Join));
     }
-    items
+    // The menu has what the selected tool does.
+    let is_tool = tools.tool == &BOUNDARY;
+    items.into_iter().map(|item| item.in_menu(is_tool)).collect()
 }

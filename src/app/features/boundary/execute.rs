@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
-use crate::app::kit::{Ctx, Feature, Row};
+use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_core::domain::BoundaryPieces;
 
 impl Feature for Boundary {
@@ -14,6 +14,7 @@ impl Feature for Boundary {
         match command {
             BoundaryCommand::Click(point, reach) => click(point, reach, ctx),
             BoundaryCommand::Select(point) => {
+                ctx.tools.select(&BOUNDARY);
                 ctx.tools.boundary.selected = Some(point);
                 ctx.view.reveal(point);
             }
@@ -31,7 +32,8 @@ impl Feature for Boundary {
     }
 
     fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        ctx.tools.tool == &BOUNDARY && ctx.session.find_boundary(ctx.jobs)
+        let is_shown = ctx.tools.tool == &BOUNDARY || ctx.view.dock.tab() == Tab::Domain;
+        is_shown && ctx.session.find_boundary(ctx.jobs)
     }
 }
 

@@ -3,6 +3,7 @@
 mod command;
 mod entries;
 mod execute;
+mod options;
 mod panel;
 #[cfg(test)]
 mod tests;
@@ -10,7 +11,8 @@ mod tool;
 
 pub use command::BoundaryCommand;
 pub use entries::entries;
-pub use panel::PIECES;
+use options::BOUNDARY_OPTIONS;
+use panel::PIECES;
 pub use tool::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 
 /// The names of pieces are in the document, and the selected piece is in [`BoundaryTool`].

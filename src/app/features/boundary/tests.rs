@@ -11,7 +11,7 @@ use crate::app::tests::{
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryPieces, Domain};
 
-const SIZE: Vec2 = vec2(1440.0, 1200.0);
+const SIZE: Vec2 = vec2(1440.0, 2000.0);
 
 /// Returns a window on a square sea with a square island, with the boundary tool in hand.
 fn window_on_a_sea() -> Window {

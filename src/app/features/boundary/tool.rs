@@ -3,9 +3,9 @@
 use eframe::egui::{Align2, Color32, CursorIcon, Key, Painter, Pos2, Rect, vec2};
 use glam::DVec2;
 
-use super::{BoundaryCommand, PIECES};
+use super::{BOUNDARY_OPTIONS, BoundaryCommand};
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, OverMesh, ToolSpec, marks};
+use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
 use crate::app::theme::font;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -15,7 +15,8 @@ use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 pub static BOUNDARY: ToolSpec = ToolSpec {
     place: 6,
     cursor: CursorIcon::PointingHand,
-    panels: &[PIECES.name],
+    tab: Some(Tab::Domain),
+    options: &BOUNDARY_OPTIONS,
     hint: |_| HINT,
     paint,
     press: |press, pointer, commands| {

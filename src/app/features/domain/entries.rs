@@ -24,5 +24,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     if !tools.domain.corners.is_empty() {
         items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
     }
-    items.into_iter().map(CatalogItem::above).collect()
+    // The menu has what the selected tool does.
+    let is_tool = tools.tool == &DOMAIN;
+    items.into_iter().map(|item| item.in_menu(is_tool).above()).collect()
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::app::command::{Command, ViewCommand};
 use crate::app::derivation::Derived;
-use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_core::domain::{FitQuality, Region};
 use meshbrush_mesh::geometry::Rect;
@@ -14,7 +14,7 @@ use meshbrush_mesh::geometry::Rect;
 const AREA_IN_DIAMETERS: f64 = 24.0;
 
 /// The mesh compared with the polygons of its domain. Not shown without polygons.
-pub static FIT: Panel = Panel { name: "fit", group: PanelGroup::Domain, only_with_tool: false, show };
+pub static FIT: Panel = Panel { name: "fit", tab: Tab::Mesh, place: 2, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(region) = state.session.follower().settings().domain.region() else { return };

@@ -6,6 +6,7 @@ mod execute;
 mod files;
 mod fit;
 mod load;
+mod options;
 mod panel;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ use command::OutlineChange;
 use files::ROLES;
 pub use files::{ADD_OUTLINE, OPEN_DOMAIN};
 use fit::FIT;
+use options::DOMAIN_OPTIONS;
 use panel::DOMAIN_PANEL;
 pub use tool::{DOMAIN, DomainTool, DomainToolMode};
 

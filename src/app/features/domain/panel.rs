@@ -1,12 +1,10 @@
-//! The domain: the tool that edits it, its outline, its bounds and its formula.
+//! The domain: its outline, its bounds and its formula.
 
 use eframe::egui::{Id, Ui};
 
-use super::{ADD_OUTLINE, DOMAIN as DOMAIN_TOOL, DomainCommand, DomainToolMode, OPEN_DOMAIN};
+use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::kit::{
-    FormulaRow, FrameState, Panel, PanelGroup, end_gesture_when_released, radius_row, remark, set_once,
-};
+use crate::app::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::widgets::{
     ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
 };
@@ -19,18 +17,11 @@ use meshbrush_mesh::text::LengthUnit;
 /// Share of the area from which parts stay, to start with.
 const USUAL_SHARE: f64 = 0.01;
 
-/// The domain. While its tool is selected, it is open and the tool's settings are in it.
-pub static DOMAIN_PANEL: Panel =
-    Panel { name: "domain", group: PanelGroup::Domain, only_with_tool: false, show };
+/// The outline of the domain, its unit, its bounds and its formula.
+pub static DOMAIN_PANEL: Panel = Panel { name: "domain", tab: Tab::Domain, place: 0, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let section = Section::new("Domain");
-    let selected = state.tools.tool == &DOMAIN_TOOL;
-    let section = if selected { section.id("domain tool") } else { section.closed() };
-    section.show(ui, |ui| {
-        if selected {
-            tool_rows(ui, state, commands);
-        }
+    Section::new("Domain").show(ui, |ui| {
         if let Some(region) = state.session.document().settings().domain.region() {
             boundary_rows(ui, state, commands);
             value_row(ui, "Corners", &format::count(region.corner_count() as u64));
@@ -41,39 +32,6 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         formula_row(ui, state, commands);
         buttons(ui, state, commands);
     });
-}
-
-fn tool_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut mode = state.tools.domain.mode;
-    let choices = [
-        (DomainToolMode::Brush, "Brush"),
-        (DomainToolMode::Rectangle, "Rectangle"),
-        (DomainToolMode::Polygon, "Polygon"),
-        (DomainToolMode::Frame, "Frame"),
-    ];
-    if segmented(ui, "What cuts the domain", &mut mode, &choices).changed() {
-        commands.push(Command::Domain(DomainCommand::Mode(mode)));
-    }
-    ui.add_space(4.0);
-    if mode == DomainToolMode::Frame {
-        return remark(ui, "Drag a rectangle: the coarse grid covers it. Polygons are cut off at its sides.");
-    }
-    let mut adds = state.tools.domain.adds;
-    if segmented(ui, "Add or remove", &mut adds, &[(false, "Remove"), (true, "Add")]).changed() {
-        commands.push(Command::Domain(DomainCommand::Adds(adds)));
-    }
-    ui.add_space(4.0);
-    match mode {
-        DomainToolMode::Brush => radius_row(ui, state, commands),
-        DomainToolMode::Polygon => {
-            remark(
-                ui,
-                "Click each corner; drag one to move it. Double-click, right-click or Enter closes the polygon. Backspace removes \
-                 the last corner, Esc all.",
-            );
-        }
-        DomainToolMode::Rectangle | DomainToolMode::Frame => {}
-    }
 }
 
 /// How the mesh meets the outline, and which parts of it stay. The last diameter at the outline is kept in

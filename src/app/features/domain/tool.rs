@@ -3,9 +3,9 @@
 use eframe::egui::{Key, Painter, Pos2, Rect};
 use glam::DVec2;
 
-use super::{DOMAIN_PANEL, DomainCommand};
+use super::{DOMAIN_OPTIONS, DomainCommand};
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, ToolSpec, marks};
+use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks};
 use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -15,8 +15,9 @@ use meshbrush_mesh::geometry::Rect as WorldRect;
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
     place: 5,
-    panels: &[DOMAIN_PANEL.name],
-    hint: |_| HINT,
+    tab: Some(Tab::Domain),
+    options: &DOMAIN_OPTIONS,
+    hint,
     has_ring: |tools| tools.domain.mode == DomainToolMode::Brush,
     paint,
     press,
@@ -28,6 +29,26 @@ pub static DOMAIN: ToolSpec = ToolSpec {
 /// Points within which a press takes hold of a corner of the open polygon.
 const CORNER_POINTS: f64 = 9.0;
 
+/// Returns what to do next with the shape that cuts.
+fn hint(state: &FrameState<'_>) -> &'static [Hint<'static>] {
+    match state.tools.domain.mode {
+        DomainToolMode::Brush | DomainToolMode::Rectangle => HINT,
+        DomainToolMode::Polygon => POLYGON_HINT,
+        DomainToolMode::Frame => FRAME_HINT,
+    }
+}
+
+const POLYGON_HINT: &[Hint] = &[
+    Text("Click each corner; drag one to move it"),
+    HintKey("Enter"),
+    Text("or a double click closes the polygon"),
+    HintKey("Backspace"),
+    Text("removes the last corner"),
+    HintKey("Esc"),
+    Text("all"),
+];
+const FRAME_HINT: &[Hint] =
+    &[Text("Drag a rectangle: the coarse grid covers it, and cuts polygons off at its sides")];
 const HINT: &[Hint] = &[
     Text("Cut the domain: brush, rectangle or polygon"),
     HintKey("X"),

@@ -6,9 +6,12 @@ use super::{ExploreCommand, InspectCommand, TreeStep};
 use crate::app::command::Command;
 use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
 
-/// To neighbours, and through the bisection tree.
+/// To neighbours, and through the bisection tree. The menu has what the selected tool does.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    neighbours(state).chain(trail(state)).chain(tree_steps(state)).collect()
+    let is_tool = state.tools.tool.queries;
+    let trail = trail(state).map(CatalogItem::palette_only);
+    let in_menu = move |item: CatalogItem| item.in_menu(is_tool);
+    neighbours(state).map(in_menu).chain(trail).chain(tree_steps(state)).collect()
 }
 
 /// The neighbours of the queried triangle. With the query tool they have the numbers on the canvas as keys.
@@ -39,6 +42,9 @@ fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     })
 }
 
+/// Steps in the bisection tree that are in the menu: to the parent, the sibling and the halves.
+const STEPS_IN_MENU: usize = 4;
+
 /// Steps in the bisection tree from the queried triangle. They have keys with the tool that explains it.
 fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     let steps = [
@@ -57,6 +63,8 @@ fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
     steps.into_iter().zip(leads).enumerate().map(move |(place, ((title, step, modifiers, key), leads))| {
         let command = Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step)));
         let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
+        // The others have buttons in the tab Inspect.
+        let item = item.in_menu(has_keys && place < STEPS_IN_MENU);
         let item = if has_keys { item.keys(modifiers, key) } else { item };
         if place == 0 { item.group() } else { item }
     })

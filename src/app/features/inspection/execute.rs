@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::text::{Inspection, NEIGHBOURS};
-use super::{ExploreCommand, INSPECTOR, InspectCommand, Inspector, QUERY, TreeStep, WHY};
+use super::{DETAILS, ExploreCommand, INSPECTOR, InspectCommand, Inspector, QUERY, TreeStep, WALK, WHY};
 use super::{cause_marks, entries, walk_marks};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{Ctx, Feature, Row};
@@ -16,7 +16,7 @@ impl Feature for Inspector {
     type Command = InspectCommand;
     const ROW: Row = Row {
         tools: &[&QUERY],
-        panels: &[&INSPECTOR, &WHY],
+        panels: &[&INSPECTOR, &DETAILS, &WHY, &WALK],
         marks: |state, over| {
             cause_marks::paint(state, over);
             walk_marks::paint(state, over);

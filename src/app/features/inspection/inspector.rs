@@ -3,19 +3,19 @@
 use eframe::egui::Ui;
 
 use super::text::{Inspection, LayerAnswer, NEIGHBOURS, Row};
-use crate::app::command::{Command, InspectCommand, PinsCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::command::{Command, InspectCommand, ShellCommand, ViewCommand};
+use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::theme::tokens;
-use crate::app::view::CanvasAid;
-use crate::app::widgets::{
-    ActionButton, Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row, value_row,
-};
+use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 use meshbrush_mesh::mesh::{Location, TriangleId};
 
 /// The queried triangle, its neighbours, and a quantity in it.
-pub static INSPECTOR: Panel =
-    Panel { name: "inspector", group: PanelGroup::Inspect, only_with_tool: false, show };
+pub static INSPECTOR: Panel = Panel { name: "inspector", tab: Tab::Inspect, place: 0, show };
+
+/// What each layer asks for at the queried point, and the vertices of its triangle.
+pub static DETAILS: Panel =
+    Panel { name: "layers and vertices", tab: Tab::Inspect, place: 2, show: show_details };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let inspection = state.readout.and_then(|readout| Inspection::of(readout, state.session, state.view));
@@ -41,6 +41,21 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
 }
 
+/// Shows the target diameters of the layers at the queried point, and the vertices of the triangle.
+fn show_details(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(inspection) =
+        state.readout.and_then(|readout| Inspection::of(readout, state.session, state.view))
+    else {
+        return;
+    };
+    Section::new("Layers and vertices").show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        layer_rows(ui, &inspection, commands);
+        ui.add_space(4.0);
+        copied_rows(ui, &inspection.corner_rows(), commands);
+    });
+}
+
 /// Everything about a triangle. Returns the neighbour under the pointer.
 fn triangle_rows(
     ui: &mut Ui,
@@ -49,10 +64,9 @@ fn triangle_rows(
     inspection: &Inspection<'_>,
     commands: &mut Vec<Command>,
 ) -> Option<TriangleId> {
+    // Pins are in sight below it.
+    ui.spacing_mut().item_spacing.y = 0.0;
     copied_rows(ui, &inspection.place_rows(), commands);
-    if ui.add(ActionButton::new("Pin")).clicked() {
-        commands.push(Command::Pins(PinsCommand::Pin));
-    }
     let hovered = neighbour_chips(ui, triangle, inspection, commands);
     let mut quantity = state.view.quantity;
     let choices = [(Quantity::TargetDiameter, "h̄"), (Quantity::Risk, "Risk")];
@@ -60,32 +74,7 @@ fn triangle_rows(
         commands.push(Command::Inspect(InspectCommand::Interpolate(quantity)));
     }
     copied_rows(ui, &inspection.quantity_rows(), commands);
-    ui.add_space(4.0);
-    layer_rows(ui, inspection, commands);
-    ui.add_space(4.0);
-    copied_rows(ui, &inspection.corner_rows(), commands);
-    walk_rows(ui, state, commands);
     hovered
-}
-
-/// How many steps point location took, beside their mean and their bound.
-fn walk_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let Some(readout) = state.readout else { return };
-    if state.features.inspection.walks.is_due(state.session) {
-        // It is measured only while it is shown.
-        commands.push(Command::Inspect(InspectCommand::MeasureWalks));
-    }
-    let mesh = state.session.mesh();
-    let steps = mesh.walk_path(readout.point).len().saturating_sub(1);
-    let steps = if steps == 1 { "1 step".into() } else { format!("{} steps", format::count(steps as u64)) };
-    let mean =
-        state.features.inspection.walks.mean_steps().map_or("…".into(), |mean| format::fixed(mean, 1));
-    let bound = format::count(mesh.walk_bound() as u64);
-    value_row(ui, "Walk", &format!("{steps} (mean {mean}, bound {bound})"));
-    let mut shown = state.view.aids.walk;
-    if toggle_row(ui, "Show the walk", &mut shown).changed() {
-        commands.push(Command::View(ViewCommand::ToggleAid(CanvasAid::Walk)));
-    }
 }
 
 /// Shows the target diameter of each visible layer at the point, and marks the layer that decides.

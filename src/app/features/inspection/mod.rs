@@ -7,19 +7,23 @@ mod entries;
 mod execute;
 mod explore;
 mod inspector;
+mod options;
 #[cfg(test)]
 mod tests;
 mod text;
 mod tool;
 mod walk_marks;
+mod walk_panel;
 mod walks;
 mod why;
 
 pub use command::{ExploreCommand, InspectCommand};
 use explore::{Explore, TreeStep};
-use inspector::INSPECTOR;
+use inspector::{DETAILS, INSPECTOR};
+use options::QUERY_OPTIONS;
 pub use text::decided_by;
 pub use tool::QUERY;
+use walk_panel::WALK;
 use walks::WalkMeter;
 use why::WHY;
 

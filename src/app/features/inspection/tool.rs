@@ -2,16 +2,17 @@
 
 use eframe::egui::Key;
 
-use super::{INSPECTOR, WHY};
+use super::QUERY_OPTIONS;
 use crate::app::command::{Command, InspectCommand, PinsCommand};
-use crate::app::kit::{SettingsDrag, ToolSpec};
+use crate::app::kit::{SettingsDrag, Tab, ToolSpec};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
 pub static QUERY: ToolSpec = ToolSpec {
     place: 2,
-    panels: &[INSPECTOR.name, WHY.name, "pins"],
+    tab: Some(Tab::Inspect),
+    options: &QUERY_OPTIONS,
     hint: |_| HINT,
     queries: true,
     menu: |state, _| {

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use super::TreeStep;
 use crate::app::command::{Command, ExploreCommand, InspectCommand, ViewCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row};
@@ -13,7 +13,7 @@ use meshbrush_core::explain::{Explanation, NodeFacts, Words};
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle, bisection_edge_length};
 
 /// The cause of the queried triangle, and its place in the tree.
-pub static WHY: Panel = Panel { name: "why", group: PanelGroup::Inspect, only_with_tool: true, show };
+pub static WHY: Panel = Panel { name: "why", tab: Tab::Inspect, place: 3, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Why this triangle").show(ui, |ui| {
@@ -35,7 +35,6 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         ui.add_space(6.0);
         path_chips(ui, state, commands);
-        step_buttons(ui, state, commands);
         triangle_rows(ui, state, shown);
         node_rows(ui, state, commands);
     });
@@ -96,21 +95,6 @@ fn path_chips(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 
 fn step(step: TreeStep, commands: &mut Vec<Command>) {
     commands.push(Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(step))));
-}
-
-fn step_buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mesh = state.session.mesh();
-    let rows = [
-        [("Parent", TreeStep::Parent), ("Sibling", TreeStep::Sibling)],
-        [("First half", TreeStep::Child(0)), ("Second half", TreeStep::Child(1))],
-        [("Coarse triangle", TreeStep::Coarse), ("Queried triangle", TreeStep::Queried)],
-    ];
-    let button = |(name, leads)| {
-        let enabled = state.features.inspection.explore.target(leads, mesh).is_some();
-        (name, enabled, Command::Inspect(InspectCommand::Explore(ExploreCommand::Step(leads))))
-    };
-    button_rows(ui, rows.map(|row| row.map(button)), commands);
-    ui.add_space(4.0);
 }
 
 /// Level, size and state of the shown triangle.

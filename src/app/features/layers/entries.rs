@@ -22,12 +22,17 @@ fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
     CatalogItem::new(Menu::Layer, title, Command::Layer(command))
 }
 
+/// Kinds of layers that the menu adds.
+const MOST_ADDITIONS: usize = 9;
+
 /// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let additions = kinds_of_layers(state.rows).into_iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
         let title = format!("Add layer: {}", addition.title);
-        let item = CatalogItem::new(Menu::Layer, title, (addition.command)(state));
+        // The button below the list of layers has all.
+        let item =
+            CatalogItem::new(Menu::Layer, title, (addition.command)(state)).in_menu(i < MOST_ADDITIONS);
         if i == 0 { item.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::N) } else { item }
     });
     items.collect()
@@ -62,7 +67,7 @@ fn selected_layer(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items[1].enabled = is(|layer| !layer.locked);
     items[5].enabled = is(|layer| !layer.locked && layer.paints().is_some());
     let combines = Combine::ALL.map(|mode| combine(mode, combine_name(mode)));
-    items.extend(combines.into_iter().enumerate().map(|(i, item)| if i == 0 { item.group() } else { item }));
+    items.extend(combines.map(CatalogItem::palette_only));
     items
 }
 

@@ -2,8 +2,8 @@
 
 use super::kinds::kind_of;
 use super::{
-    KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load,
-    marks,
+    GRADATION, KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries,
+    list, load, marks,
 };
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
@@ -16,7 +16,7 @@ impl Feature for LayerEditor {
     const ROW: Row = Row {
         files: &[&OPEN_RISK],
         roles: &ROLES,
-        panels: &[&LAYERS, &TRANSFER],
+        panels: &[&LAYERS, &TRANSFER, &GRADATION],
         layer_kinds: &KINDS,
         marks_below: marks::paint,
         entries: entries::entries,

@@ -12,8 +12,8 @@ use crate::app::theme::tokens;
 use crate::app::widgets::{LayerRow, LayerRowAnswer};
 use meshbrush_core::layers::{Layer, LayerId};
 
-/// Rows that are shown at once; more scroll.
-const MOST_ROWS: f32 = 9.5;
+/// Rows that are in sight at least; more scroll.
+const LEAST_ROWS: f32 = 2.5;
 
 /// A name that is being typed, in egui's memory.
 #[derive(Clone, Debug)]
@@ -46,16 +46,11 @@ pub fn ask_name(ctx: &Context, layer: &Layer) {
     ctx.data_mut(|data| data.insert_temp(new_name_id(), new_name));
 }
 
-/// Returns whether a name is asked for in this frame for the first time.
-pub fn asks_name_now(ui: &Ui) -> bool {
-    let new_name = ui.data(|data| data.get_temp::<NewName>(new_name_id()));
-    new_name.is_some_and(|new_name| !new_name.is_shown)
-}
-
-/// Shows the rows, the top layer first.
-pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+/// Shows the rows, the top layer first, in at most `room` points of height if that is enough for a few.
+pub fn show(ui: &mut Ui, state: &FrameState<'_>, room: f32, commands: &mut Vec<Command>) {
     let layers = &state.session.document().settings().layers;
-    let area = ScrollArea::vertical().max_height(MOST_ROWS * LayerRow::HEIGHT).id_salt("layers");
+    let height = room.max(LEAST_ROWS * LayerRow::HEIGHT);
+    let area = ScrollArea::vertical().max_height(height).min_scrolled_height(height).id_salt("layers");
     area.show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let rows: Vec<Response> = layers.iter().rev().map(|layer| row(ui, state, layer, commands)).collect();

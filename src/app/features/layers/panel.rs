@@ -1,26 +1,38 @@
 //! The layers of the size field: the stack, and the parameters of the selected layer.
 
-use eframe::egui::{Popup, Ui};
+use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{LayerCommand, list, selected};
-use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{
-    CatalogItem, FrameState, Menu, Panel, PanelGroup, end_gesture_when_released, kinds_of_layers, menu_item,
-};
-use crate::app::widgets::{Icon, Section, SliderRow, ToolButton, toggle_row};
-use meshbrush_core::document::{Setting, Settings};
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, kinds_of_layers, menu_item};
+use crate::app::theme::metrics;
+use crate::app::widgets::{Icon, Section, ToolButton};
 
 /// The stack, from the top, and the parameters of the selected layer.
-pub static LAYERS: Panel = Panel { name: "layers", group: PanelGroup::Size, only_with_tool: false, show };
+pub static LAYERS: Panel = Panel { name: "layers", tab: Tab::Layers, place: 0, show };
+
+/// Least height of the parameters of the selected layer, in points.
+const LEAST_PARAMETERS: f32 = 176.0;
+/// Height of the buttons below the list with the space around them, in points.
+const BUTTONS: f32 = 48.0;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let reveal = list::asks_name_now(ui);
-    Section::new("Layers").reveal(reveal).show(ui, |ui| {
-        list::show(ui, state, commands);
+    Section::new("Layers").show(ui, |ui| {
+        // The list gives way to the parameters below it.
+        let room = ui.available_height() - BUTTONS - LEAST_PARAMETERS;
+        list::show(ui, state, room, commands);
         buttons(ui, state, commands);
-        gradation_rows(ui, state, commands);
     });
-    selected::show(ui, state, commands);
+    let margin = Margin::symmetric(metrics::PANEL_MARGIN as i8, 0);
+    let place = ui.available_rect_before_wrap().expand2(vec2(metrics::PANEL_MARGIN, 0.0));
+    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+        ScrollArea::vertical().id_salt("selected layer").auto_shrink(false).min_scrolled_height(0.0).show(
+            ui,
+            |ui| {
+                Frame::new().inner_margin(margin).show(ui, |ui| selected::show(ui, state, commands));
+            },
+        );
+    });
 }
 
 /// Shows the buttons that change the stack of layers.
@@ -64,23 +76,4 @@ fn add_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
             }
         }
     });
-}
-
-/// Whether h̄ may change abruptly, or how fast it may change.
-fn gradation_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let gradation = state.session.document().settings().gradation;
-    let mut limits = gradation.is_some();
-    if toggle_row(ui, "Limit gradation", &mut limits).changed() {
-        commands.push(Command::Layer(LayerCommand::LimitGradation(limits)));
-    }
-    let Some(mut slope) = gradation else { return };
-    let row = SliderRow::new("Gradation g", &mut slope, 0.02..=2.0).logarithmic();
-    let row = row.typed_range(f64::MIN_POSITIVE..=f64::MAX).default(Settings::USUAL_GRADATION);
-    let help = "Largest change of h̄ per unit of length, over the whole stack: the smaller, the more slowly \
-                triangles grow with the distance from fine places.";
-    let response = row.help(help).show(ui);
-    if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Gradation(Some(slope)))));
-    }
-    end_gesture_when_released(&response, commands);
 }

@@ -6,7 +6,7 @@ use super::kinds::kind_of;
 use super::{LayerCommand, OPEN_MASK};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{FrameState, remark};
-use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented, tips};
+use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented};
 use meshbrush_core::layers::{Combine, Layer};
 
 /// The name of the group of choices.
@@ -45,7 +45,7 @@ fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
     if segmented(ui, COMBINE, &mut combine, &choices).changed() {
         commands.push(Command::Layer(LayerCommand::Combine(layer.id, combine)));
     }
-    remark(ui, tips::sentence(&format!("{COMBINE}/{}", combine_name(layer.combine))));
+    ui.add_space(4.0);
 }
 
 /// Shows the mask in which the layer counts.

@@ -5,14 +5,14 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released};
+use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released};
 use crate::app::readout::{Quantity, value_at};
 use crate::app::widgets::{CurveValues, Section, SliderRow, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// The smallest diameter, and the curve from risk to diameter.
-pub static TRANSFER: Panel = Panel { name: "transfer", group: PanelGroup::Size, only_with_tool: false, show };
+pub static TRANSFER: Panel = Panel { name: "transfer", tab: Tab::Size, place: 0, show };
 
 /// Exponents that the curve's middle handle reaches.
 const SHAPES: RangeInclusive<f64> = 0.2..=5.0;

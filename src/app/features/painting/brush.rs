@@ -3,9 +3,9 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{BRUSH_PANEL, BrushCommand};
+use super::{BRUSH_OPTIONS, BrushCommand};
 use crate::app::command::Command;
-use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, ToolSpec, marks};
+use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
 use crate::app::tools::{PaintKind, Tools};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -14,7 +14,8 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {
     place: 0,
-    panels: &[BRUSH_PANEL.name],
+    tab: Some(Tab::Size),
+    options: &BRUSH_OPTIONS,
     hint: |state| if state.tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,
     brush: Some(brush),

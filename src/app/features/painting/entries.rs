@@ -9,8 +9,11 @@ use crate::app::tools::{PaintKind, Tools};
 
 /// The brush, gestures that are hard to find, and what the digits set.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    // The menu has what the selected tool does.
+    let is_brush = state.tools.paints();
     let brush = brush(state.tools).into_iter().chain(GESTURES.iter().filter_map(GestureHelp::entry));
-    brush.map(CatalogItem::above).chain(amounts(state.tools)).collect()
+    let brush = brush.map(|item| item.in_menu(is_brush).above());
+    brush.chain(amounts(state.tools).map(CatalogItem::palette_only)).collect()
 }
 
 fn brush(tools: &Tools) -> Vec<CatalogItem> {
@@ -23,7 +26,7 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
         item.checked(tools.mode == mode)
     };
     let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
-        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on)
+        CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on).palette_only()
     };
     let harder = |title: &str, step: f64, key| {
         let hardness = (tools.hardness + step).clamp(0.0, 1.0);

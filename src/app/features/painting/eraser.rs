@@ -2,9 +2,9 @@
 
 use eframe::egui::Key;
 
-use super::BRUSH_PANEL;
+use super::ERASER_OPTIONS;
 use super::brush::{line_to_here, press_to_paint};
-use crate::app::kit::ToolSpec;
+use crate::app::kit::{Tab, ToolSpec};
 use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
@@ -13,7 +13,8 @@ use meshbrush_core::paint::{Brush, Medium};
 /// Removes paint.
 pub static ERASER: ToolSpec = ToolSpec {
     place: 1,
-    panels: &[BRUSH_PANEL.name],
+    tab: Some(Tab::Size),
+    options: &ERASER_OPTIONS,
     hint: |_| HINT,
     has_ring: |_| true,
     brush: Some(brush),

@@ -3,8 +3,7 @@
 use glam::DVec2;
 
 use super::{
-    BRUSH, BRUSH_PANEL, BrushCommand, BrushMode, ERASER, GESTURES, LimitOffer, Painting, brush_diameters,
-    entries,
+    BRUSH, BrushCommand, BrushMode, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries,
 };
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
@@ -16,13 +15,8 @@ use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
 
 impl Feature for Painting {
     type Command = BrushCommand;
-    const ROW: Row = Row {
-        tools: &[&BRUSH, &ERASER],
-        panels: &[&BRUSH_PANEL],
-        gestures: &GESTURES,
-        entries: entries::entries,
-        ..Row::EMPTY
-    };
+    const ROW: Row =
+        Row { tools: &[&BRUSH, &ERASER], gestures: &GESTURES, entries: entries::entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: BrushCommand, ctx: &mut Ctx<'_>) {
         let tools = &mut *ctx.tools;

@@ -7,7 +7,7 @@ mod eraser;
 mod execute;
 mod gestures;
 mod limit_offer;
-mod panel;
+mod options;
 mod pen;
 #[cfg(test)]
 mod tests;
@@ -18,7 +18,7 @@ pub use eraser::ERASER;
 use gestures::GESTURES;
 use limit_offer::LimitOffer;
 pub use limit_offer::show as show_limit_offer;
-use panel::{BRUSH_PANEL, brush_diameters};
+use options::{BRUSH_OPTIONS, ERASER_OPTIONS, brush_diameters};
 pub use pen::{Pen, PenEffect};
 
 /// The stroke is in the document, and the settings of the brush are in [`Tools`](crate::app::tools::Tools).

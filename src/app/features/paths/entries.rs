@@ -37,8 +37,10 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .checked(paths.alternatives.is_on),
         front("Show the front of length and risk", FrontCommand::Show(!paths.front.is_on))
             .checked(paths.front.is_on),
-        front("Take the next shorter path", FrontCommand::Shorter).enabled(paths.front.is_on),
-        front("Take the next safer path", FrontCommand::Safer).enabled(paths.front.is_on),
+        front("Take the next shorter path", FrontCommand::Shorter).enabled(paths.front.is_on).palette_only(),
+        front("Take the next safer path", FrontCommand::Safer).enabled(paths.front.is_on).palette_only(),
     ];
-    items.into_iter().map(CatalogItem::above).collect()
+    // The menu has what the selected tool does.
+    let is_tool = state.tools.tool == &PATH;
+    items.into_iter().map(|item| item.above().in_menu(is_tool)).collect()
 }

@@ -8,8 +8,8 @@ use glam::DVec2;
 use super::front::FrontFinder;
 use super::keep_out::load;
 use super::{
-    AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_PANEL,
-    PathCommand, PathTool, Paths, ROLES, entries, export, marks,
+    AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_COST,
+    PATH_PANEL, PathCommand, PathTool, Paths, ROLES, entries, export, marks,
 };
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
@@ -22,7 +22,7 @@ impl Feature for Paths {
     type Command = PathCommand;
     const ROW: Row = Row {
         tools: &[&PATH],
-        panels: &[&PATH_PANEL, &OTHER_PATHS],
+        panels: &[&PATH_PANEL, &OTHER_PATHS, &PATH_COST],
         layer_kinds: &[&CORRIDOR],
         roles: &ROLES,
         marks_below: marks::paint,

@@ -17,6 +17,7 @@ mod keep_out;
 mod keep_out_marks;
 mod layer_kind;
 mod marks;
+mod options;
 mod panel;
 mod prover;
 #[cfg(test)]
@@ -37,7 +38,8 @@ use front::FRONT_PATHS;
 pub use front::FrontCommand;
 pub use keep_out::KeepOutCommand;
 use layer_kind::CORRIDOR;
-use panel::{OTHER_PATHS, PATH_PANEL};
+use options::PATH_OPTIONS;
+use panel::{OTHER_PATHS, PATH_COST, PATH_PANEL};
 pub use tool::PATH;
 use tool::PathTool;
 use work::FoundPath;

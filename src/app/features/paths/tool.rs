@@ -4,9 +4,9 @@ use eframe::egui::{Color32, CursorIcon, Key, Pos2, Stroke};
 use glam::DVec2;
 
 use super::colors::path_color;
-use super::{OTHER_PATHS, PATH_PANEL, PathCommand};
+use super::{PATH_OPTIONS, PathCommand};
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec};
+use crate::app::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
 use crate::app::widgets::Hint::{self, Key as HintKey, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::PathPlan;
@@ -15,7 +15,8 @@ use meshbrush_core::document::PathPlan;
 pub static PATH: ToolSpec = ToolSpec {
     place: 4,
     cursor: CursorIcon::Crosshair,
-    panels: &[PATH_PANEL.name, OTHER_PATHS.name],
+    tab: Some(Tab::Paths),
+    options: &PATH_OPTIONS,
     hint: |state| if state.features.paths.tool.pending.is_some() { GOAL_HINT } else { HINT },
     paint,
     press: |press, pointer, commands| {

@@ -5,15 +5,14 @@ use glam::dvec2;
 
 use super::OPEN_PICTURE;
 use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, end_gesture_when_released, remark, set_once};
+use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::view::CanvasAid;
 use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_mesh::geometry::Rect;
 
 /// The background picture: opacity and place.
-pub static BACKGROUND: Panel =
-    Panel { name: "background", group: PanelGroup::Domain, only_with_tool: false, show };
+pub static BACKGROUND: Panel = Panel { name: "background", tab: Tab::Domain, place: 3, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Background picture").closed().show(ui, |ui| {

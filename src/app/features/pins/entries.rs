@@ -26,7 +26,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let has_pins = !pins.is_empty();
     let delete = item("Delete the selected pin", Command::Pins(PinsCommand::Delete));
     let delete = if state.tools.tool.queries { delete.key(Key::Delete) } else { delete };
-    vec![
+    let is_tool = state.tools.tool.queries;
+    let items = vec![
         item("Pin the queried point", Command::Pins(PinsCommand::Pin))
             .keys(Modifiers::SHIFT, Key::P)
             .enabled(state.session.queried().is_some())
@@ -35,5 +36,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Delete all pins", Command::Pins(PinsCommand::DeleteAll)).enabled(has_pins),
         item("Copy the table of pins", Command::Pins(PinsCommand::Copy)).enabled(has_pins),
         item("Export the table of pins…", Command::File(FileCommand::Ask(&EXPORT_PINS))).enabled(has_pins),
-    ]
+    ];
+    // The menu has what the selected tool does.
+    items.into_iter().map(|item| item.in_menu(is_tool)).collect()
 }

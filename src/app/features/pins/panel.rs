@@ -6,12 +6,12 @@ use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use super::table::PinRow;
 use crate::app::command::{Command, FileCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Section, format};
 
-/// All pins with their triangles and values; with the tool that moves them, and as long as there are pins.
-pub static PINS: Panel = Panel { name: "pins", group: PanelGroup::Inspect, only_with_tool: false, show };
+/// All pins with their triangles and values; how to pin a point while there are none.
+pub static PINS: Panel = Panel { name: "pins", tab: Tab::Inspect, place: 1, show };
 
 const HEADINGS: [&str; COLUMNS] =
     ["Pin", "x", "y", "Triangle", "Level", "ζ₁", "ζ₂", "ζ₃", "Interpolated", "True", "Difference"];
@@ -25,21 +25,17 @@ const GAP: f32 = 12.0;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let count = state.session.document().settings().pins.len();
-    if count == 0 && !state.tools.tool.queries {
-        return;
-    }
     let note = if count > 0 { format::count(count as u64) } else { String::new() };
     Section::new("Pins").note(&note).show(ui, |ui| {
         if count == 0 {
-            remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
-        } else {
-            if !state.features.pins.reader.is_current(state.session, state.view.quantity) {
-                // They are read only while the table is shown.
-                commands.push(Command::Pins(PinsCommand::Read));
-            }
-            table(ui, state, commands);
+            return remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
         }
-        buttons(ui, state, count > 0, commands);
+        if !state.features.pins.reader.is_current(state.session, state.view.quantity) {
+            // They are read only while the table is shown.
+            commands.push(Command::Pins(PinsCommand::Read));
+        }
+        table(ui, state, commands);
+        buttons(ui, state, commands);
     });
 }
 
@@ -49,7 +45,8 @@ fn table(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let selected = state.features.pins.selected_of(pins);
     let height = ROW * (pins.len().min(MOST_ROWS) + 1) as f32 + 12.0;
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::both().id_salt("table of pins").max_height(height).auto_shrink([false, true]);
+    let area = ScrollArea::both().id_salt("table of pins").max_height(height).min_scrolled_height(height);
+    let area = area.auto_shrink([false, true]);
     area.show_rows(ui, ROW, pins.len() + 1, |ui, range| {
         let rows: Vec<(Option<usize>, [String; COLUMNS])> = range
             .map(|line| match line.checked_sub(1) {
@@ -154,7 +151,7 @@ fn paint_row(
     }
 }
 
-fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut Vec<Command>) {
+fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let is_queried = state.readout.is_some();
     let pins = &state.session.document().settings().pins;
     let is_selected = state.features.pins.selected_of(pins).is_some();
@@ -162,13 +159,13 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, has_pins: bool, commands: &mut V
     let rows = [
         vec![
             ("Pin the query", is_queried, pin(PinsCommand::Pin)),
-            ("Delete pin", is_selected, pin(PinsCommand::Delete)),
+            ("Copy table", true, pin(PinsCommand::Copy)),
         ],
         vec![
-            ("Copy table", has_pins, pin(PinsCommand::Copy)),
-            ("Export table…", has_pins, Command::File(FileCommand::Ask(&EXPORT_PINS))),
+            ("Delete pin", is_selected, pin(PinsCommand::Delete)),
+            ("Export table…", true, Command::File(FileCommand::Ask(&EXPORT_PINS))),
         ],
-        vec![("Delete all pins", has_pins, pin(PinsCommand::DeleteAll))],
+        vec![("Delete all pins", true, pin(PinsCommand::DeleteAll))],
     ];
     button_rows(ui, rows, commands);
 }

@@ -1,4 +1,4 @@
-//! Entries of the menu View about plots.
+//! Plots in the menus View and Method, and in the palette.
 
 use eframe::egui::Key;
 
@@ -14,18 +14,21 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let show = item("Show the plots", PlotsCommand::Show(plots.kind())).key(Key::F9).group();
     let of_kind = |(kind, name): (PlotKind, &str)| {
         let title = format!("Plot {}{}", name[..1].to_lowercase(), &name[1..]);
-        item(&title, PlotsCommand::Show(kind)).checked(plots.kind() == kind)
+        let shown = CatalogItem::new(Menu::Method, title, Command::Plots(PlotsCommand::Show(kind)));
+        let is_of_method = kind == PlotKind::Bisections || kind.is_of_experiment();
+        shown.checked(plots.kind() == kind).in_menu(is_of_method)
     };
+    let of_method = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::Plots(command));
     let measure = if plots.is_measuring() {
-        item("Cancel the measuring of time", PlotsCommand::CancelMeasuring)
+        of_method("Cancel the measuring of time", PlotsCommand::CancelMeasuring)
     } else {
-        item("Measure the time per triangle", PlotsCommand::Measure)
+        of_method("Measure the time per triangle", PlotsCommand::Measure)
     };
     let is_known = plots.is_known();
     let export = CatalogItem::new(Menu::View, "Export plot…", Command::File(FileCommand::Ask(&EXPORT_PLOT)));
     let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);
     let mut items = vec![show];
     items.extend(PlotKind::ALL.map(of_kind));
-    items.extend([measure, export.enabled(is_known), copy.enabled(is_known)]);
+    items.extend([measure, export.enabled(is_known).palette_only(), copy.enabled(is_known).palette_only()]);
     items
 }

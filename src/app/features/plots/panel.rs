@@ -5,12 +5,12 @@ use eframe::egui::Ui;
 use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
 use meshbrush_study::report::Experiment;
 
 /// A chosen plot, and what it takes to measure those of time.
-pub static PLOTS: Panel = Panel { name: "plots", group: PanelGroup::Mesh, only_with_tool: false, show };
+pub static PLOTS: Panel = Panel { name: "plots", tab: Tab::Mesh, place: 3, show };
 
 /// Height of a plot, in points.
 pub const HEIGHT: f32 = 210.0;

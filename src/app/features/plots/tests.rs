@@ -9,8 +9,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use super::{PlotKind, PlotsCommand};
 use crate::app::command::{Command, ShellCommand};
 use crate::app::tests::{
-    FREE, TALL, Window, canvas, choose, folder, key, open_menu, open_section, send, settings, stroke,
-    triangles, wait_for_notice, wait_until, window_of,
+    FREE, TALL, Window, canvas, choose, folder, key, open_section, send, settings, stroke, triangles,
+    wait_for_notice, wait_until, window_of,
 };
 use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
@@ -45,7 +45,7 @@ fn a_key_opens_the_plots_which_follow_the_mesh() {
 #[test]
 fn the_closure_cost_is_that_of_the_library() {
     let mut window = window_of(TALL);
-    choose(&mut window, "View", "Plot closure cost");
+    choose(&mut window, "Method", "Plot closure cost");
     wait_until(&mut window, is_current);
     let session = window.state().session();
     let follower = session.follower();
@@ -77,7 +77,7 @@ fn the_plot_is_chosen_in_the_panel() {
 #[test]
 fn the_time_is_measured_when_the_button_is_clicked() {
     let mut window = window_of(TALL);
-    choose(&mut window, "View", "Plot time per triangle");
+    choose(&mut window, "Method", "Plot time per triangle");
     assert!(!window.state().features().plots.is_measuring(), "never by itself");
     send(&mut window, Command::Plots(PlotsCommand::SetUp { last_level: 6, runs: 1 }));
     window.get_by_role_and_label(Role::Button, "Measure").click();
@@ -91,7 +91,7 @@ fn the_time_is_measured_when_the_button_is_clicked() {
         gradient.starts_with("Gradient of Figure 5: ") && gradient.ends_with("report: 1.01"),
         "{gradient}"
     );
-    choose(&mut window, "View", "Plot figure 5 of the report");
+    choose(&mut window, "Method", "Plot figure 5 of the report");
     assert!(note(&window, "Figure 5 of the report").unwrap().contains("report: 1.01"));
     window.get_by_role_and_label(Role::Button, "Copy numbers").click();
     let mut copied = Vec::new();
@@ -106,7 +106,7 @@ fn the_time_is_measured_when_the_button_is_clicked() {
 #[test]
 fn measuring_is_cancelled() {
     let mut window = window_of(TALL);
-    choose(&mut window, "View", "Plot time per triangle");
+    choose(&mut window, "Method", "Plot time per triangle");
     window.get_by_role_and_label(Role::Button, "Measure").click();
     window.run();
     window.get_by_role_and_label(Role::Button, "Cancel measuring").click();
@@ -120,8 +120,8 @@ fn measuring_is_cancelled() {
 fn plots_are_exported_as_drawing_and_table() {
     let folder = folder("plots", "exported");
     let mut window = window_of(TALL);
-    open_menu(&mut window, "View");
-    assert!(window.get_by_role_and_label(Role::Button, "Export plot…").accesskit_node().is_disabled());
+    key(&mut window, Modifiers::COMMAND, Key::P);
+    assert!(window.get_by_role_and_label(Role::MenuItem, "Export plot…").accesskit_node().is_disabled());
     key(&mut window, Modifiers::NONE, Key::Escape);
     send(&mut window, Command::Plots(PlotsCommand::Show(PlotKind::Bisections)));
     wait_until(&mut window, is_current);

@@ -9,7 +9,7 @@ use meshbrush_study::report::ReportFigure;
 pub fn entries(_: &FrameState<'_>) -> Vec<CatalogItem> {
     let items = ReportFigure::ALL.into_iter().enumerate().map(|(number, figure)| {
         let open = Command::Figure(FigureCommand::Open(figure));
-        let item = CatalogItem::new(Menu::Examples, format!("The report, {}", figure.name()), open);
+        let item = CatalogItem::new(Menu::Method, format!("The report, {}", figure.name()), open);
         if number == 0 { item.group() } else { item }
     });
     items.collect()

@@ -2,20 +2,23 @@
 
 use std::sync::Arc;
 
-use super::{FigureCommand, Report, entries};
+use super::{FIGURE, FigureCommand, Report, entries};
 use crate::app::command::{Command, FileCommand, Opened, PlotKind, PlotsCommand, ShellCommand, StepCommand};
-use crate::app::kit::{Ctx, Feature, Row, all_tools};
+use crate::app::kit::{Ctx, Feature, Row, Tab, all_tools};
 use meshbrush_study::report::ReportFigure;
 
 impl Feature for Report {
     type Command = FigureCommand;
-    const ROW: Row = Row { entries: entries::entries, ..Row::EMPTY };
+    const ROW: Row = Row { panels: &[&FIGURE], entries: entries::entries, ..Row::EMPTY };
 
     fn execute(&mut self, command: FigureCommand, ctx: &mut Ctx<'_>) {
         match command {
             FigureCommand::Open(figure) => open(figure, ctx),
             FigureCommand::Show(figure) => self.show(figure, ctx),
-            FigureCommand::Close => self.shown = None,
+            FigureCommand::Close => {
+                self.shown = None;
+                ctx.view.dock.leave(Tab::Method);
+            }
             FigureCommand::Copy(text) => {
                 ctx.egui.copy_text(text);
                 ctx.session.tell("Copied: the figure with its numbers.".into());
@@ -42,6 +45,7 @@ impl Report {
     fn show(&mut self, figure: ReportFigure, ctx: &mut Ctx<'_>) {
         self.shown = Some(figure);
         ctx.view.panels = true;
+        ctx.view.revealed_panel = Some(FIGURE.name);
         if figure.is_step() {
             ctx.send(Command::Steps(StepCommand::Begin(Some(figure))));
         }

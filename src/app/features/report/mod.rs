@@ -10,6 +10,7 @@ mod tests;
 
 pub use command::FigureCommand;
 use comparison::{as_text, comparisons};
+use panel::FIGURE;
 pub use panel::section;
 
 use meshbrush_study::report::ReportFigure;
@@ -18,4 +19,11 @@ use meshbrush_study::report::ReportFigure;
 #[derive(Default)]
 pub struct Report {
     shown: Option<ReportFigure>,
+}
+
+impl Report {
+    /// Returns whether a figure is shown.
+    pub fn is_shown(&self) -> bool {
+        self.shown.is_some()
+    }
 }

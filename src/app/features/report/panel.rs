@@ -5,12 +5,15 @@ use eframe::egui::{Align, Grid, Layout, RichText, Ui};
 use super::{FigureCommand, as_text, comparisons};
 use crate::app::command::Command;
 use crate::app::features::plots::{self, PlotKind};
-use crate::app::kit::{FrameState, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};
 use meshbrush_study::report::{Comparison, ReportFigure};
 
-/// The figure that is shown, above all other sections.
+/// The figure that is shown.
+pub static FIGURE: Panel = Panel { name: "figure", tab: Tab::Method, place: 0, show: section };
+
+/// Draws the figure that is shown, also beside its steps.
 pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(figure) = state.features.report.shown else { return };
     ui.add_space(10.0);

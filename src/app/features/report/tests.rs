@@ -15,7 +15,7 @@ use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::StepPlayer;
 
 fn open(window: &mut Window, figure: ReportFigure) {
-    choose(window, "Examples", &format!("The report, {}", figure.name()));
+    choose(window, "Method", &format!("The report, {}", figure.name()));
     assert_eq!(settings(window).name, figure.name());
     assert!(window.query_by_label(figure.text()).is_some(), "what the report shows");
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Ui};
 
 use crate::app::command::{Command, ViewCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::view::deepest_level;
 use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 use meshbrush_render::colormap::LevelColors;
@@ -16,7 +16,7 @@ const HEIGHT: f32 = 224.0;
 const BUTTON_HEIGHT: f32 = 36.0;
 
 /// The legend, which is the histogram as well: colours as on the canvas, counts beside the bars.
-pub static LEVELS: Panel = Panel { name: "levels", group: PanelGroup::Size, only_with_tool: false, show };
+pub static LEVELS: Panel = Panel { name: "levels", tab: Tab::Mesh, place: 0, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let note = format!("{} triangles", format::count(state.session.triangle_count() as u64));

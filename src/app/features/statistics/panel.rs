@@ -5,16 +5,18 @@ use glam::DVec2;
 
 use super::Measured;
 use crate::app::command::{Command, ShellCommand, StatisticsCommand, ViewCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup};
+use crate::app::kit::{FrameState, Panel, Tab};
+use crate::app::theme::metrics;
 use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_mesh::mesh::MeshStatistics;
 
+/// Rows of the figures of a mesh in one part.
+const USUAL_ROWS: f32 = 9.0;
 /// Connected parts with a row of their own.
 const MOST_PARTS: usize = 5;
 
 /// Edges, areas, angles, gradation, parts, whether h̄ is honoured, and the fingerprint.
-pub static STATISTICS: Panel =
-    Panel { name: "statistics", group: PanelGroup::Mesh, only_with_tool: false, show };
+pub static STATISTICS: Panel = Panel { name: "statistics", tab: Tab::Mesh, place: 1, show };
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Statistics").closed().show(ui, |ui| {
@@ -25,6 +27,8 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             commands.push(Command::Statistics(StatisticsCommand::Measure));
         }
         let Some((measured, _)) = figures else {
+            // The room that the figures will take: opening the section brings all of it into view.
+            ui.set_min_height(USUAL_ROWS * (metrics::ROW + metrics::ROW_GAP));
             value_row(ui, "Mesh", "being measured");
             return;
         };

@@ -1,4 +1,4 @@
-//! Entries of the menu View about stepping through the refinement.
+//! Entries of the menu Method about stepping through the refinement.
 
 use eframe::egui::{Key, Modifiers};
 
@@ -9,7 +9,7 @@ use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// How to begin; and once begun, how to move.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let item = |title: &str, command| CatalogItem::new(Menu::View, title, Command::Steps(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::Steps(command));
     let title = "Step through the refinement";
     let Some(steps) = state.features.stepping.steps() else {
         return vec![item(title, StepCommand::Begin(None)).key(Key::F10).group()];
@@ -25,8 +25,12 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .enabled(position < count),
         item("First step", StepCommand::GoTo(0)).keys(Modifiers::SHIFT, Key::ArrowLeft).enabled(position > 0),
         item(play, StepCommand::TogglePlay).key(Key::Space).enabled(count > 0),
-        CatalogItem::new(Menu::View, "Export steps as SVG…", Command::File(FileCommand::Ask(&EXPORT_STEPS)))
-            .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
-            .enabled(count > 0),
+        CatalogItem::new(
+            Menu::Method,
+            "Export steps as SVG…",
+            Command::File(FileCommand::Ask(&EXPORT_STEPS)),
+        )
+        .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::E)
+        .enabled(count > 0),
     ]
 }

@@ -14,7 +14,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let open = ask("Open table of threats…", &OPEN_THREATS).group();
     let save = ask("Save table of threats…", &SAVE_THREATS).enabled(has_threats);
     if state.tools.tool != &THREATS {
-        return vec![open, save];
+        // The menu has what the selected tool does.
+        return vec![open.palette_only(), save.palette_only()];
     }
     let is_selected = state.features.threats.selected_in(state.session.document()).is_some();
     let delete = Command::Threats(ThreatsCommand::Delete);

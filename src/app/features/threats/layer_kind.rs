@@ -2,11 +2,12 @@
 
 use eframe::egui::Ui;
 
+use super::options::set_threat;
 use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand};
-use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, button_rows, set_kind_once};
-use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
-use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, button_rows};
+use crate::app::widgets::{Icon, NumberRow, ValueRow, format};
+use meshbrush_core::layers::{Layer, LayerKind, Threats};
 
 /// Places with a risk around them.
 pub static THREATS_KIND: LayerKindRow = LayerKindRow {
@@ -42,7 +43,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     buttons(ui, state, selected.is_some(), count > 0, commands);
 }
 
-/// The numbers and the law of the selected threat.
+/// Where the selected threat is. Its range, peak and law are options of the tool.
 fn selected_rows(
     ui: &mut Ui,
     state: &FrameState<'_>,
@@ -58,23 +59,9 @@ fn selected_rows(
     for (name, value) in coordinates {
         NumberRow::new(name, value).unit(unit).help("Coordinate of the selected threat.").show(ui);
     }
-    let row = NumberRow::new("Range", &mut threat.range).range(f64::MIN_POSITIVE..=f64::MAX).unit(unit);
-    row.help("The distance from which on the threat has no risk.").show(ui);
-    let row = NumberRow::new("Peak", &mut threat.peak).range(0.0..=1.0);
-    row.help("The risk in the middle of the threat, 0 to 1.").show(ui);
-    let laws = [(ThreatLaw::Radar, "Radar"), (ThreatLaw::Gaussian, "Gaussian"), (ThreatLaw::Disc, "Disc")];
-    segmented(ui, "How the risk falls", &mut threat.law, &laws);
-    ui.add_space(4.0);
     if threat != before {
         set_threat(layer, threats, number, threat, commands);
-    }
-}
-
-fn set_threat(layer: &Layer, threats: &Threats, number: usize, threat: Threat, commands: &mut Vec<Command>) {
-    let mut threats = threats.clone();
-    match threats.set(number, threat) {
-        Ok(()) => set_kind_once(layer, LayerKind::Threats(threats), commands),
-        Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+        commands.push(Command::Edit(EditCommand::EndGesture));
     }
 }
 

@@ -5,6 +5,7 @@ mod entries;
 mod execute;
 mod files;
 mod layer_kind;
+mod options;
 mod table;
 #[cfg(test)]
 mod tests;

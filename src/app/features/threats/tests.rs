@@ -138,7 +138,7 @@ fn the_selected_threat_is_typed_and_deleted() {
     }
     click(&mut window, dvec2(0.3, 0.3), Modifiers::NONE);
     assert_eq!(entries(&window), 3, "selecting is no edit");
-    for (row, text) in [("x", "0.25"), ("y", "0.125"), ("Range", "0.5"), ("Peak", "0.375")] {
+    for (row, text) in [("x", "0.25"), ("y", "0.125"), ("Range value", "0.5"), ("Peak value", "0.375")] {
         type_into(&mut window, row, text);
     }
     window.get_by_role_and_label(Role::RadioButton, "Gaussian").click();

@@ -3,6 +3,7 @@
 use eframe::egui::{Color32, CursorIcon, Key, Pos2, Rect, Stroke};
 use glam::DVec2;
 
+use super::options::THREAT_OPTIONS;
 use super::{ThreatGrip, threats_layer};
 use crate::app::command::{Command, ThreatsCommand};
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
@@ -15,6 +16,7 @@ pub static THREATS: ToolSpec = ToolSpec {
     place: 3,
     cursor: CursorIcon::Crosshair,
     hint: |_| HINT,
+    options: &THREAT_OPTIONS,
     paint,
     press: |press, pointer, commands| {
         let at = pointer.world(press.at);

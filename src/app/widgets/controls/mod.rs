@@ -1,5 +1,6 @@
 //! Widgets that change a value or run a command.
 
+mod choices;
 mod curve_plot;
 mod dropdown;
 mod grab;
@@ -13,12 +14,14 @@ mod number_menu;
 mod section;
 mod segmented;
 mod slider;
+mod tabs;
 mod text_row;
 mod toggle;
 mod tool_button;
 mod transfer;
 mod transfer_plot;
 
+pub use choices::choice_rows;
 pub use curve_plot::{CurveChange, CurvePlot};
 pub use dropdown::dropdown_row;
 pub use knot_row::{KnotAnswer, KnotRow};
@@ -27,6 +30,7 @@ pub use number::NumberRow;
 pub use section::Section;
 pub use segmented::segmented;
 pub use slider::SliderRow;
+pub use tabs::tab_bar;
 pub use text_row::{TextError, TextRow};
 pub use toggle::toggle_row;
 pub use tool_button::{ActionButton, ButtonKind, ToolButton};

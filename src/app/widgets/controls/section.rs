@@ -44,7 +44,7 @@ impl<'a> Section<'a> {
         self
     }
 
-    /// Opens the section now, and scrolls to it.
+    /// Opens the section now, and scrolls to it, as a click on the title of a closed section does.
     pub fn reveal(mut self, reveal: bool) -> Self {
         self.reveal = reveal;
         self
@@ -56,18 +56,20 @@ impl<'a> Section<'a> {
         let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, self.open);
         ui.add_space(12.0);
         let header = self.header(ui, id, state.is_open());
-        let (opens, scrolls) = reveal::of_section(ui, self.title, self.id);
-        if self.reveal || opens {
+        let (reveals, mut scrolls) = reveal::of_section(ui, self.title, self.id);
+        scrolls |= self.reveal;
+        if self.reveal || reveals {
             state.set_open(true);
         } else if header.clicked() {
             state.set_open(!state.is_open());
+            scrolls |= state.is_open();
         }
         let inner = state.is_open().then(|| {
             ui.add_space(4.0);
             ui.push_id(self.id, contents).inner
         });
         state.store(ui.ctx());
-        if self.reveal || scrolls {
+        if scrolls {
             scroll_to(ui, header.rect.with_max_y(ui.cursor().top()));
         }
         ui.add_space(12.0 - metrics::ROW_GAP);

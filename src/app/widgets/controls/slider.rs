@@ -2,18 +2,22 @@
 
 use std::ops::RangeInclusive;
 
-use eframe::egui::{self, Align, Event, EventFilter, Id, Key, Rect, Response, Sense, Ui, WidgetInfo, pos2};
+use eframe::egui::{
+    self, Align, Event, EventFilter, Id, Key, Rect, Response, Sense, Ui, WidgetInfo, pos2, vec2,
+};
 use egui::accesskit::{Action, ActionData};
 
 use super::number_cell::NumberCell;
 use super::number_input::NumberInput;
 use super::number_menu::number_menu;
 use super::{format, paint};
-use crate::app::theme::tokens;
+use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::tips;
 
 /// Radius of the thumb.
 const THUMB: f32 = 6.0;
+/// Width below which a row has its name and its number on the track, in points.
+const NARROW: f32 = 200.0;
 /// Share of the track that an arrow key moves.
 const KEY_STEP: f64 = 0.01;
 
@@ -54,7 +58,8 @@ impl Scale {
     }
 }
 
-/// A row with a name, a slider and its number.
+/// A row with a name, a slider and its number. In a narrow place, as on the strip above the canvas, the name
+/// and the number are on the track.
 ///
 /// Values are in the caller's unit. A drag sets the number that is shown; typed numbers are kept exactly.
 /// Arrow keys move by a hundredth of the track (with Shift by a tenth, Home and End to its
@@ -128,12 +133,12 @@ impl<'a> SliderRow<'a> {
     /// Shows the row.
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);
-        let columns = paint::Columns::of(row);
-        paint::label(ui, columns.label, self.label, self.help);
         let id = ui.make_persistent_id(("slider", self.label));
         let before = *self.value;
-        let mut response = self.track(ui, id, columns.middle);
-        let (cell, entered) = self.number(ui, id, columns.value);
+        let is_narrow = row.width() < NARROW;
+        let (track, number) = if is_narrow { narrow_parts(row) } else { self.named_parts(ui, row) };
+        let mut response = self.track(ui, id, track, is_narrow);
+        let (cell, entered) = self.number(ui, id, number);
         if let Some(entered) = entered {
             *self.value = entered;
         }
@@ -180,7 +185,7 @@ impl<'a> SliderRow<'a> {
     }
 
     /// Returns the track: pointer and keys change the value, then it is painted.
-    fn track(&mut self, ui: &Ui, id: Id, rect: Rect) -> Response {
+    fn track(&mut self, ui: &Ui, id: Id, rect: Rect, is_narrow: bool) -> Response {
         let response = ui.interact(rect, id, Sense::click_and_drag());
         let range = rect.left() + THUMB..=rect.right() - THUMB;
         if let Some(share) = self.pointed_share(ui, &response, &range) {
@@ -192,8 +197,33 @@ impl<'a> SliderRow<'a> {
         }
         let reset = self.with_input(|input| number_menu(ui, &response, &input, Some(number_id(id))));
         *self.value = reset.unwrap_or(*self.value);
-        self.paint_track(ui, &response, rect);
+        if is_narrow {
+            self.paint_narrow(ui, &response, rect);
+        } else {
+            self.paint_track(ui, &response, rect);
+        }
         response
+    }
+
+    /// Names a row of a panel, and returns the places of its track and of its number.
+    fn named_parts(&self, ui: &Ui, row: Rect) -> (Rect, Rect) {
+        let columns = paint::Columns::of(row);
+        paint::label(ui, columns.label, self.label, self.help);
+        (columns.middle, columns.value)
+    }
+
+    /// Paints a field with the name in it, and below it a line up to the value.
+    fn paint_narrow(&self, ui: &Ui, response: &Response, rect: Rect) {
+        let t = tokens(ui);
+        let ground = if response.hovered() || response.dragged() { t.hover } else { t.field };
+        ui.painter().rect_filled(rect, metrics::RADIUS_CONTROL, ground);
+        let inner = rect.shrink2(vec2(f32::from(metrics::RADIUS_CONTROL), 0.0));
+        let x = egui::lerp(inner.x_range(), self.scale().share(*self.value) as f32);
+        let line = Rect::from_min_max(pos2(inner.left(), rect.bottom() - 3.0), pos2(x, rect.bottom() - 1.0));
+        ui.painter().rect_filled(line, 1.0, t.accent);
+        let name = rect.with_min_x(rect.left() + 8.0);
+        paint::at_left(ui, name, paint::line(ui, self.label, font::body(), t.label));
+        paint::focus_ring(ui, response, rect, metrics::RADIUS_CONTROL);
     }
 
     /// Returns the position that the pointer gives the thumb: at its own place, or with Shift held a tenth of
@@ -286,6 +316,12 @@ impl<'a> SliderRow<'a> {
             node.add_action(Action::Decrement);
         });
     }
+}
+
+/// Returns the place of the track and of the number in a narrow row: the track is all of it.
+fn narrow_parts(row: Rect) -> (Rect, Rect) {
+    let number = row.with_min_x(row.right() - metrics::VALUE_WIDTH.min(0.5 * row.width()));
+    (row, number.with_max_x(row.right() - 6.0))
 }
 
 /// Returns the cell of the number beside a slider.

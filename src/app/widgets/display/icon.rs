@@ -87,6 +87,8 @@ impl Icon {
     pub const FORWARD: Self = Self(material::ICON_CHEVRON_RIGHT.codepoint);
     /// The last of many.
     pub const LAST: Self = Self(material::ICON_LAST_PAGE.codepoint);
+    /// More options.
+    pub const TUNE: Self = Self(material::ICON_TUNE.codepoint);
     /// The home folder.
     pub const HOME: Self = Self(material::ICON_HOME.codepoint);
 

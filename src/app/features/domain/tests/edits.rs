@@ -6,10 +6,11 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
+use crate::app::kit::Tab;
 use crate::app::tests::{
-    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, press,
-    release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until, window,
-    window_of,
+    FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, open_tab,
+    press, release, scratch, send, set, settings, show, stroke, value_of, wait_for_notice, wait_until,
+    window, window_of,
 };
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
@@ -193,18 +194,23 @@ fn the_outline_is_met_in_three_ways_and_the_panel_says_how_well() {
     assert_eq!(value_of(&window, Role::Button, "Islands kept"), "64 of 65");
     assert!(value_of(&window, Role::Definition, "Nodes on outline").starts_with("8,"));
 
+    open_tab(&mut window, Tab::Domain);
     window.get_by_role_and_label(Role::RadioButton, "Fitted").click();
+    open_tab(&mut window, Tab::Mesh);
     wait_for_quality(&mut window);
     assert_eq!(fingerprint(&window), mesh, "the mesh under it is the same");
     assert_ne!(window.state().session().triangle_count(), shown);
     assert_eq!(value_of(&window, Role::Definition, "Angles"), "45.0° to 90.0°");
     assert!(value_of(&window, Role::Definition, "Removed").contains("triangles"));
+    open_tab(&mut window, Tab::Domain);
     window.get_by_role_and_label(Role::RadioButton, "All parts").click();
     window.get_by_label("Keep pinched nodes").click();
+    open_tab(&mut window, Tab::Mesh);
     wait_for_quality(&mut window);
     assert!(window.query_by_role_and_label(Role::Definition, "Removed").is_none());
     assert_eq!(window.state().session().triangle_count(), window.state().session().mesh().triangle_count());
 
+    open_tab(&mut window, Tab::Domain);
     window.get_by_role_and_label(Role::RadioButton, "As in report").click();
     wait_for_quality(&mut window);
     assert!(window.state().session().mesh().triangle_count() < 1000);

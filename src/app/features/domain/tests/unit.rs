@@ -7,9 +7,10 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::app::command::{Command, DomainCommand, FileCommand, InspectCommand};
+use crate::app::kit::Tab;
 use crate::app::tests::{
-    FREE, TALL, Window, entries, fingerprint, folder, key, move_to, open_section, send, set, settings,
-    triangles, type_into, value_of, wait_until, window_of,
+    FREE, TALL, Window, entries, find, fingerprint, folder, key, move_to, open_section, open_tab, send, set,
+    settings, triangles, type_into, value_of, wait_until, window_of,
 };
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::text::LengthUnit;
@@ -41,14 +42,19 @@ fn the_unit_is_chosen_in_the_domain_panel_and_undone() {
 fn every_length_carries_the_unit() {
     let mut window = in_metres();
     send(&mut window, Command::Inspect(InspectCommand::Query(FREE)));
-    open_section(&mut window, "Mesh");
     crate::app::tests::select_base(&mut window);
     move_to(&mut window, FREE);
     for name in ["Radius value", "h_max value", "h_min value", "Spacing δ value", "Diameter"] {
+        if name.starts_with("Spacing") {
+            open_section(&mut window, "Mesh");
+        }
+        find(&mut window, Role::TextInput, name);
         let value = window.get_by_role_and_label(Role::TextInput, name);
         let value = egui_kittest::kittest::NodeT::accesskit_node(&value).value().unwrap();
         assert!(value.ends_with(" m"), "{name}: {value}");
     }
+    open_tab(&mut window, Tab::Inspect);
+    move_to(&mut window, FREE);
     for name in ["x", "y", "h̄", "Diameter", "Interpolated"] {
         let value = value_of(&window, Role::Definition, name);
         assert!(value.ends_with(" m"), "{name}: {value}");

@@ -7,9 +7,10 @@ use glam::dvec2;
 
 use crate::app::command::{Command, FileCommand, InspectCommand, ShellCommand};
 use crate::app::features::inspection::QUERY;
+use crate::app::kit::Tab;
 use crate::app::tests::{
-    FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, selected, send, value_of,
-    window, window_of,
+    FREE, RESTING_PLACE, TALL, button_event, click, entries, key, on_screen, open_tab, selected, send,
+    value_of, window, window_of,
 };
 use meshbrush_core::document::Example;
 use meshbrush_core::outline::DerivedMesh;
@@ -18,8 +19,8 @@ use meshbrush_mesh::mesh::{Location, NodeId};
 #[test]
 fn a_click_shows_the_triangle_and_each_chip_goes_to_its_neighbour() {
     let mut window = window_of(TALL);
-    assert!(window.query_by_label_contains("No query yet").is_some());
     key(&mut window, Modifiers::NONE, Key::Q);
+    assert!(window.query_by_label_contains("No query yet").is_some());
     click(&mut window, dvec2(0.71, 0.735), Modifiers::NONE);
     let mesh = window.state().session().mesh();
     let expected = mesh.locate(dvec2(0.71, 0.735)).triangle().unwrap();
@@ -116,6 +117,7 @@ fn a_chip_at_the_edge_of_the_domain_goes_nowhere() {
     let id = mesh.locate(dvec2(0.02, 0.99)).triangle().unwrap();
     let missing = mesh.neighbours(id).iter().position(|n| n.triangle().is_none()).unwrap();
     send(&mut window, Command::Inspect(InspectCommand::QueryTriangle(id)));
+    open_tab(&mut window, Tab::Inspect);
     let name = ["Bisection neighbour", "Second neighbour", "Third neighbour"][missing];
     let chip = window.get_by_role_and_label(Role::Button, name);
 

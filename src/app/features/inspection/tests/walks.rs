@@ -10,11 +10,12 @@ use crate::app::features::inspection::QUERY;
 use crate::app::tests::{TALL, Window, choose, click, key, selected, send, value_of, wait_until, window_of};
 
 #[test]
-fn the_inspector_says_how_long_the_walk_is_and_a_toggle_hides_it() {
+fn the_tab_method_says_how_long_the_walk_is_and_a_toggle_hides_it() {
     let mut window = window_of(TALL);
     send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
     let point = dvec2(0.71, 0.735);
     click(&mut window, point, Modifiers::NONE);
+    choose(&mut window, "Method", "Show the tab Method");
     let walk = |window: &Window| value_of(window, Role::Definition, "Walk");
     wait_until(&mut window, |window| !walk(window).contains('…'));
     let app = window.state();
@@ -27,7 +28,7 @@ fn the_inspector_says_how_long_the_walk_is_and_a_toggle_hides_it() {
     window.get_by_role_and_label(Role::CheckBox, "Show the walk").click();
     window.run();
     assert!(!window.state().view().aids.walk);
-    choose(&mut window, "View", "Walk of point location");
+    choose(&mut window, "Method", "Walk of point location");
     assert!(window.state().view().aids.walk);
 }
 

@@ -135,7 +135,7 @@ fn overlays_of_slack_forced_triangles_and_ages_have_legends() {
         ("Overlay forced triangles", "Legend: triangles that only compatibility asked for"),
         ("Overlay age of triangles", "Legend: edits ago, 0 to 10"),
     ] {
-        crate::app::tests::choose(&mut window, "View", entry);
+        crate::app::tests::choose_in_palette(&mut window, entry);
         assert!(window.query_by_label(legend).is_some(), "{legend}");
     }
 }

@@ -12,8 +12,8 @@ use glam::dvec2;
 use super::stack::{choose_in, select};
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::tests::{
-    RESTING_PLACE, TALL, Window, active, choose, click_button, entries, folder, key, level_at, move_to,
-    notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,
+    RESTING_PLACE, TALL, Window, active, choose_in_palette, click_button, entries, folder, key, level_at,
+    move_to, notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,
     window_of,
 };
 use meshbrush_core::document::Example;
@@ -84,7 +84,7 @@ fn a_band_is_made_of_the_raster_at_hand() {
     assert_ne!(triangles(&window), before, "the mesh follows the band");
     // A layer of another kind is selected: the highest raster counts.
     send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::constant(1.0)))));
-    choose(&mut window, "Layer", "Add layer: band of a raster…");
+    choose_in_palette(&mut window, "Add layer: band of a raster…");
     assert!(Arc::ptr_eq(&source(&window).raster, &raster));
     assert_eq!(settings(&window).layers.len(), 6);
 }

@@ -253,7 +253,7 @@ fn the_keyboard_selects_moves_duplicates_and_deletes() {
 #[test]
 fn the_menu_has_every_command_of_the_stack() {
     let mut window = window_of(TALL);
-    choose(&mut window, "Layer", "Combine: Floor");
+    crate::app::tests::choose_in_palette(&mut window, "Combine: Floor");
     assert_eq!(active(&window).combine, Combine::Floor);
     choose(&mut window, "Layer", "Layer is locked");
     assert!(active(&window).locked);

@@ -8,8 +8,8 @@ use glam::{DVec2, dvec2};
 use crate::app::command::{BrushCommand, Command, EditCommand};
 use crate::app::features::painting::{BRUSH, BrushMode, PenEffect};
 use crate::app::tests::{
-    FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen,
-    open_section, painted, press, price_tag, release, send, stroke, triangles, window, with_base,
+    FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen, open_popup,
+    painted, press, price_tag, release, send, stroke, triangles, window, with_base,
 };
 use crate::app::tools::PaintKind;
 use meshbrush_core::layers::LayerKind;
@@ -138,12 +138,13 @@ fn shift_shows_the_price_of_the_line_before_it_is_painted() {
 fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
     let mut window = window();
     send(&mut window, Command::Edit(EditCommand::ClearPaint));
-    open_section(&mut window, "Stroke");
+    open_popup(&mut window, "More options");
     for (name, menu) in [("Mirror x", "Mirror y"), ("Mirror y", "Mirror x")] {
         window.get_by_role_and_label(Role::CheckBox, name).click();
         window.run();
         assert!(window.query_by_role_and_label(Role::CheckBox, menu).is_some());
     }
+    key(&mut window, Modifiers::NONE, Key::Escape);
     let (at, before) = (dvec2(0.2, 0.3), triangles(&window));
     let tag = hover(&mut window, at).unwrap();
     stroke(&mut window, at, at);
@@ -178,8 +179,9 @@ fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     let mut window = window();
     send(&mut window, Command::Edit(EditCommand::ClearPaint));
     let changes = "What the pressure of the pen changes";
+    open_popup(&mut window, "More options");
     assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_none(), "no pen yet");
-    open_section(&mut window, "Stroke");
+    key(&mut window, Modifiers::NONE, Key::Escape);
     brush(&mut window, BrushCommand::Hardness(1.0));
     let pressed = |window: &mut Window, at: DVec2, force: f32| {
         let pos = on_screen(window, at);
@@ -194,7 +196,9 @@ fn the_pressure_of_a_pen_changes_the_radius_or_the_strength() {
     pressed(&mut window, at, 0.25);
     let rim = dvec2(0.0, 0.03);
     assert!(risk_at(&window, at) > 0.7 && risk_at(&window, at + rim) == 0.0, "a quarter of the radius");
+    open_popup(&mut window, "More options");
     assert!(window.query_by_role_and_label(Role::RadioGroup, changes).is_some(), "there is a pen");
+    key(&mut window, Modifiers::NONE, Key::Escape);
     brush(&mut window, BrushCommand::PenEffect(PenEffect::Strength));
     let at = dvec2(0.7, 0.3);
     pressed(&mut window, at, 0.25);

@@ -1,19 +1,16 @@
-//! The cost of paths: weights of length and risk, or a formula.
-
-use std::ops::RangeInclusive;
+//! The cost of paths in numbers: weights of length and risk, or a formula.
 
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{CostKind, PathCommand};
 use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
-use crate::app::widgets::{NumberRow, SliderRow, segmented};
+use crate::app::widgets::{NumberRow, segmented};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
 
-/// The track of the slider from the shortest path to the safest, and what can be typed there.
-const CAUTION: RangeInclusive<f64> = 0.1..=1000.0;
-const MOST_WEIGHT: f64 = 1e6;
+/// The largest weight.
+pub const MOST_WEIGHT: f64 = 1e6;
 
 /// Shows the rows of the cost.
 pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, commands: &mut Vec<Command>) {
@@ -41,15 +38,6 @@ pub(super) fn rows(ui: &mut Ui, state: &FrameState<'_>, cost: &PathCost, command
 
 fn weight_rows(ui: &mut Ui, weights: Weights, commands: &mut Vec<Command>) {
     let mut new = weights;
-    let mut caution = (weights.risk / weights.length).min(MOST_WEIGHT);
-    let row = SliderRow::new("Caution", &mut caution, CAUTION).logarithmic();
-    let row = row.typed_range(0.0..=MOST_WEIGHT).default(Weights::default().risk);
-    let help = "From the shortest path at the left to the safest at the right: the weight of risk, where length has \
-                the weight 1.";
-    let by_caution = row.help(help).show(ui);
-    if by_caution.changed() {
-        new = Weights { length: 1.0, risk: caution };
-    }
     let row = NumberRow::new("Weight of length", &mut new.length).range(0.0..=MOST_WEIGHT);
     let by_length = row.help("λ: what a unit of length costs without risk.").show(ui);
     let row = NumberRow::new("Weight of risk", &mut new.risk).range(0.0..=MOST_WEIGHT);
@@ -57,7 +45,5 @@ fn weight_rows(ui: &mut Ui, weights: Weights, commands: &mut Vec<Command>) {
     if new != weights {
         commands.push(Command::Path(PathCommand::Cost(PathCost::Weighted(new))));
     }
-    [by_caution, by_length, by_risk]
-        .iter()
-        .for_each(|response| end_gesture_when_released(response, commands));
+    [by_length, by_risk].iter().for_each(|response| end_gesture_when_released(response, commands));
 }

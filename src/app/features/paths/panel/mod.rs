@@ -9,20 +9,21 @@ use eframe::egui::{RichText, Ui};
 
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{FoundPath, PathCommand};
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view};
 use meshbrush_core::document::PathPlan;
 use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
+pub use cost::MOST_WEIGHT;
 pub use others::OTHER_PATHS;
 
-/// The path of the selected place, or else the first; with the tool for it, and as long as there are paths.
-pub static PATH_PANEL: Panel = Panel { name: "path", group: PanelGroup::Paths, only_with_tool: false, show };
+/// The path of the selected place, or else the first.
+pub static PATH_PANEL: Panel = Panel { name: "path", tab: Tab::Paths, place: 0, show };
 
 /// Height of the profile, in points.
-const HEIGHT: f32 = 150.0;
+const HEIGHT: f32 = 120.0;
 /// The text for a certificate that has no triangle for the path.
 const NO_PROOF: &str = "There is no proof for this path.";
 /// Widths of the interval that can be asked for, with their names.
@@ -42,10 +43,6 @@ const IN_DEGREES: &str = "The length in degrees, as if one of longitude were as 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
     let route = state.features.paths.tool.route_in(plan);
-    let is_tool = state.tools.tool.panels.contains(&PATH_PANEL.name);
-    if route.is_none() && plan.keep_out.is_empty() && !is_tool {
-        return;
-    }
     let note = match plan.routes.len() {
         0 | 1 => String::new(),
         count => format!("{} of {count}", route.map_or(0, |route| route + 1)),
@@ -53,8 +50,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Path").note(&note).show(ui, |ui| {
         let Some(route) = route else {
             let text = "Click the start and then the goal with the path tool (P).";
-            empty_state(ui, Icon::PATH, "No path", text);
-            return keep_out::rows(ui, state, commands);
+            return empty_state(ui, Icon::PATH, "No path", text);
         };
         name_row(ui, plan, route, commands);
         let shown = state.features.paths.finder.shown().get(route);
@@ -67,16 +63,27 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             Some(found) => figures(ui, state, found, commands),
             None => remark(ui, "The path is being found."),
         }
+    });
+}
+
+/// What paths cost, the regions that they stay out of, and what is done with them as a whole.
+pub static PATH_COST: Panel = Panel { name: "cost of paths", tab: Tab::Paths, place: 2, show: show_cost };
+
+fn show_cost(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let plan = &state.session.document().settings().paths;
+    Section::new("Cost, regions and files").id("cost of paths").show(ui, |ui| {
         cost::rows(ui, state, &plan.cost, commands);
         keep_out::rows(ui, state, commands);
+        if plan.routes.is_empty() {
+            return;
+        }
         let is_selected = state.features.paths.tool.selected_in(plan).is_some();
         let path = |command| Command::Path(command);
         let rows = [[
-            ("Swap start and goal", true, path(PathCommand::Swap)),
             ("Delete place", is_selected, path(PathCommand::Delete)),
+            ("Delete all paths", true, path(PathCommand::DeleteAll)),
         ]];
         button_rows(ui, rows, commands);
-        button_rows(ui, [[("Delete all paths", true, path(PathCommand::DeleteAll))]], commands);
         export::rows(ui, state, commands);
     });
 }
@@ -114,9 +121,13 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         ("Accumulated risk", number(solution.risk), "The risk, summed up along the path."),
         ("Highest risk", number(solution.highest_risk), "The highest risk on the way, 0 to 1."),
     ];
-    for (label, value, help) in rows {
-        ValueRow::new(label, &value).help(help).show(ui);
-    }
+    ui.scope(|ui| {
+        // The figures and the profile are in sight together.
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for (label, value, help) in rows {
+            ValueRow::new(label, &value).help(help).show(ui);
+        }
+    });
     if state.unit() == LengthUnit::Degree {
         remark(ui, "Lengths and costs are measured in degrees of the plane, not in metres on the earth.");
     }

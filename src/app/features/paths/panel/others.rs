@@ -7,7 +7,7 @@ use crate::app::command::Command;
 use crate::app::features::paths::{
     AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand,
 };
-use crate::app::kit::{FrameState, Panel, PanelGroup, button_rows, remark};
+use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::widgets::{
     ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
 };
@@ -16,8 +16,7 @@ use meshbrush_core::path::{FrontPoint, Solution};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
 /// The panel of other paths, shown as long as there is a path.
-pub static OTHER_PATHS: Panel =
-    Panel { name: "other paths", group: PanelGroup::Paths, only_with_tool: false, show };
+pub static OTHER_PATHS: Panel = Panel { name: "other paths", tab: Tab::Paths, place: 1, show };
 
 /// Height of the plot, in points.
 const HEIGHT: f32 = 190.0;
@@ -41,10 +40,6 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 
 fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
     let corridor = &state.features.paths.finder.corridor;
-    let mut is_on = corridor.is_on;
-    if toggle_row(ui, "Corridor", &mut is_on).changed() {
-        commands.push(PathCommand::ShowCorridor(is_on));
-    }
     if !corridor.is_on {
         return;
     }
@@ -59,10 +54,6 @@ fn corridor(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>
 
 fn alternatives(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<PathCommand>) {
     let finder = &state.features.paths.finder.alternatives;
-    let mut is_on = finder.is_on;
-    if toggle_row(ui, "Alternatives", &mut is_on).changed() {
-        commands.push(PathCommand::Alternatives(AlternativesCommand::Show(is_on)));
-    }
     if !finder.is_on {
         return;
     }

@@ -8,7 +8,8 @@ use super::{GOAL, Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::tests::{
-    active, choose, click_button, entries, move_to, notice, press, release, send, settings, triangles,
+    active, choose_in_palette, click_button, entries, move_to, notice, press, release, send, settings,
+    triangles,
 };
 use meshbrush_core::layers::{DistanceTo, LayerKind};
 
@@ -30,7 +31,7 @@ fn corridor(window: &Window) -> (Vec<DVec2>, f64) {
 fn a_corridor_refines_along_the_path_stays_there_and_takes_it_again() {
     let mut window = window_with_path();
     let (path, before, edits) = (points(&window), triangles(&window), entries(&window));
-    choose(&mut window, "Layer", ADD);
+    choose_in_palette(&mut window, ADD);
     wait_for_paths(&mut window);
     assert_eq!((active(&window).name.as_str(), entries(&window)), ("Corridor", edits + 1));
     assert_eq!(corridor(&window).0, path);

@@ -16,8 +16,10 @@ use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::features::paths::PATH;
 use crate::app::features::paths::PathCommand;
 use crate::app::features::paths::work::ShownPath;
+use crate::app::kit::Tab;
 use crate::app::tests::{
-    TALL, Window, click, key, move_to, press, release, send, set, settings, stroke, wait_until, window_of,
+    TALL, Window, click, key, move_to, open_tab, press, release, send, set, settings, stroke, wait_until,
+    window_of,
 };
 use meshbrush_core::document::{Example, Setting};
 
@@ -150,5 +152,6 @@ fn the_example_opens_with_its_path() {
     wait_for_paths(&mut window);
     let solution = &shown(&window)[0].found.as_ref().unwrap().solution;
     assert!((146.0..147.5).contains(&solution.cost) && solution.highest_risk < 0.1, "{}", solution.cost);
+    open_tab(&mut window, Tab::Paths);
     assert!(window.query_by_label("Risk along the path").is_some());
 }

@@ -4,7 +4,8 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use crate::app::tests::{RESTING_PLACE, TALL, Window, button_event, window_of};
+use crate::app::kit::Tab;
+use crate::app::tests::{RESTING_PLACE, TALL, Window, button_event, open_tab, window_of};
 
 /// A click on the row of a level in the legend.
 fn click_row(window: &mut Window, level: u32, modifiers: Modifiers) {
@@ -32,6 +33,7 @@ fn a_row_of_the_legend_hides_its_level_and_alt_shows_it_alone() {
         let view = window.state().view();
         view.style(crate::app::tests::settings(window), 1.0).shown_levels
     };
+    open_tab(&mut window, Tab::Mesh);
     assert_eq!(shown(&window), u64::MAX);
     click_row(&mut window, 2, Modifiers::NONE);
     assert_eq!(shown(&window), !(1 << 2));

@@ -1,4 +1,4 @@
-//! The settings of brush and eraser.
+//! The settings of brush and eraser, on the strip above the canvas.
 
 use std::ops::RangeInclusive;
 
@@ -6,67 +6,75 @@ use eframe::egui::Ui;
 
 use super::{BrushCommand, BrushMode, ERASER, PenEffect};
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, Panel, PanelGroup, radius_row};
+use crate::app::kit::{FrameState, StripItem, radius_row};
 use crate::app::tools::{PaintKind, Tools};
-use crate::app::widgets::{Section, SliderRow, format, segmented, toggle_row, value_row};
+use crate::app::widgets::{SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
-/// The panel with the brush's paint, radius, strength and hardness, and the drawing of strokes.
-pub static BRUSH_PANEL: Panel = Panel { name: "brush", group: PanelGroup::Size, only_with_tool: true, show };
+/// What the brush paints and how, its size, and how strokes are drawn.
+pub static BRUSH_OPTIONS: [StripItem; 9] = [
+    StripItem::new(136.0, 0, kind_row),
+    StripItem::new(184.0, 3, mode_row),
+    StripItem::new(136.0, 1, radius_row),
+    StripItem::new(136.0, 2, amount_row),
+    StripItem::new(128.0, 4, hardness_row),
+    StripItem::new(144.0, 5, painted_row),
+    StripItem::rare(smoothing_row),
+    StripItem::rare(mirror_rows),
+    StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),
+];
 
-fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut sent = Vec::new();
-    Section::new(state.tools.tool.name).id("brush").show(ui, |ui| {
-        if state.tools.tool != &ERASER {
-            kind_rows(ui, state, &mut sent);
-        }
-        // The same number of rows for all kinds and modes, so that nothing below moves.
-        radius_row(ui, state, commands);
-        amount_row(ui, state, &mut sent);
-        hardness_row(ui, state, &mut sent);
-        if state.tools.tool != &ERASER {
-            value_row(ui, "h̄ · level", &painted(state));
-        }
-    });
-    Section::new("Stroke").id("stroke").closed().show(ui, |ui| {
-        smoothing_row(ui, state, &mut sent);
-        mirror_rows(ui, state, &mut sent);
-        pen_row(ui, state, &mut sent);
-    });
-    commands.extend(sent.into_iter().map(Command::Brush));
+/// The same of the eraser.
+pub static ERASER_OPTIONS: [StripItem; 6] = [
+    StripItem::new(136.0, 0, radius_row),
+    StripItem::new(136.0, 1, amount_row),
+    StripItem::new(128.0, 2, hardness_row),
+    StripItem::rare(smoothing_row),
+    StripItem::rare(mirror_rows),
+    StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),
+];
+
+fn send(command: BrushCommand, commands: &mut Vec<Command>) {
+    commands.push(Command::Brush(command));
 }
 
-fn kind_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
-    let (mut kind, mut mode) = (state.tools.kind, state.tools.mode);
+fn kind_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut kind = state.tools.kind;
     let choices = [(PaintKind::Risk, "Risk"), (PaintKind::Diameter, "Diameter")];
     if segmented(ui, "What the brush paints", &mut kind, &choices).changed() {
-        sent.push(BrushCommand::Kind(kind));
+        send(BrushCommand::Kind(kind), commands);
     }
-    ui.add_space(4.0);
+}
+
+fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut mode = state.tools.mode;
     if segmented(ui, "How a stroke changes the paint", &mut mode, &BrushMode::ALL).changed() {
-        sent.push(BrushCommand::Mode(mode));
+        send(BrushCommand::Mode(mode), commands);
     }
-    ui.add_space(4.0);
+}
+
+fn painted_row(ui: &mut Ui, state: &FrameState<'_>, _: &mut Vec<Command>) {
+    value_row(ui, "h̄ · level", &painted(state));
 }
 
 /// Shows the amount that the brush paints: a strength, a risk or a diameter.
-fn amount_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn amount_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let tools = state.tools;
     match (tools.kind, tools.mode) {
-        _ if tools.tool == &ERASER => strength_row(ui, state, sent),
-        (PaintKind::Diameter, _) => diameter_row(ui, state, sent),
-        (PaintKind::Risk, BrushMode::Set) => risk_row(ui, state, sent),
-        (PaintKind::Risk, BrushMode::BuildUp | BrushMode::Lower) => strength_row(ui, state, sent),
+        _ if tools.tool == &ERASER => strength_row(ui, state, commands),
+        (PaintKind::Diameter, _) => diameter_row(ui, state, commands),
+        (PaintKind::Risk, BrushMode::Set) => risk_row(ui, state, commands),
+        (PaintKind::Risk, BrushMode::BuildUp | BrushMode::Lower) => strength_row(ui, state, commands),
     }
 }
 
-fn strength_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn strength_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut strength = state.tools.strength();
     let slider = SliderRow::new("Strength", &mut strength, 0.01..=1.0).step(0.01);
     let slider = slider.default(usual_strength(state));
     if slider.help("How far one stroke moves the value, 0 to 1. The digits 1 to 0 set it.").show(ui).changed()
     {
-        sent.push(BrushCommand::Strength(strength));
+        send(BrushCommand::Strength(strength), commands);
     }
 }
 
@@ -77,12 +85,12 @@ fn usual_strength(state: &FrameState<'_>) -> f64 {
     usual.strength()
 }
 
-fn risk_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn risk_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut risk = state.tools.risk;
     let slider = SliderRow::new("Value", &mut risk, 0.0..=1.0).step(0.01).default(0.5);
     let help = "The risk that a stroke leaves, 0 to 1. The digits 1 to 0 set it; Alt+click picks it.";
     if slider.help(help).show(ui).changed() {
-        sent.push(BrushCommand::Risk(risk));
+        send(BrushCommand::Risk(risk), commands);
     }
 }
 
@@ -96,7 +104,7 @@ pub fn brush_diameters(transfer: &Transfer) -> RangeInclusive<f64> {
     least..=transfer.h_max
 }
 
-fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let transfer = state.session.document().settings().transfer;
     let range = brush_diameters(&transfer);
     let mut diameter = state.tools.diameter.clamp(*range.start(), *range.end());
@@ -105,26 +113,26 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand
     let help = "Target diameter that the brush paints, in the unit of the document. Below h_min it offers to \
                 lower that. Alt+click picks it.";
     if slider.help(help).show(ui).changed() {
-        sent.push(BrushCommand::Diameter(diameter));
+        send(BrushCommand::Diameter(diameter), commands);
     }
 }
 
-fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut hardness = state.tools.hardness;
     let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
     let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
     let help = "Share of the radius with full strength, 0 to 1. Shift+[ and Shift+] change it.";
     if slider.help(help).show(ui).changed() {
-        sent.push(BrushCommand::Hardness(hardness));
+        send(BrushCommand::Hardness(hardness), commands);
     }
 }
 
-fn smoothing_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn smoothing_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut smoothing = state.tools.smoothing;
     let slider = SliderRow::new("Smoothing", &mut smoothing, 0.0..=1.0).step(0.01).default(0.0);
     let help = "Steadies the hand, 0 to 1: the pointer pulls the brush on a string, the longer the more.";
     if slider.help(help).show(ui).changed() {
-        sent.push(BrushCommand::Smoothing(smoothing));
+        send(BrushCommand::Smoothing(smoothing), commands);
     }
 }
 
@@ -142,28 +150,25 @@ fn painted(state: &FrameState<'_>) -> String {
     format!("{} · {level}", format::length(diameter, state.unit()))
 }
 
-fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
+fn mirror_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let [mut x, mut y] = state.tools.mirrored;
     ui.columns(2, |columns| {
         if toggle_row(&mut columns[0], "Mirror x", &mut x).changed() {
-            sent.push(BrushCommand::MirrorX(x));
+            send(BrushCommand::MirrorX(x), commands);
         }
         if toggle_row(&mut columns[1], "Mirror y", &mut y).changed() {
-            sent.push(BrushCommand::MirrorY(y));
+            send(BrushCommand::MirrorY(y), commands);
         }
     });
 }
 
-/// Shows the effect of a pen's pressure, once a pen has reported one.
-fn pen_row(ui: &mut Ui, state: &FrameState<'_>, sent: &mut Vec<BrushCommand>) {
-    if !state.tools.pen.is_known() {
-        return;
-    }
+/// Shows the effect of a pen's pressure.
+fn pen_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut effect = state.tools.pen.effect;
     let choices =
         [(PenEffect::None, "No pressure"), (PenEffect::Size, "Radius"), (PenEffect::Strength, "Strength")];
     let row = segmented(ui, "What the pressure of the pen changes", &mut effect, &choices);
     if row.changed() {
-        sent.push(BrushCommand::PenEffect(effect));
+        send(BrushCommand::PenEffect(effect), commands);
     }
 }

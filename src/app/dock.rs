@@ -1,0 +1,69 @@
+//! Which tab of the lower dock is shown.
+
+use super::kit::{Tab, Tool};
+
+/// Name under which the window's own storage keeps the tab.
+const TAB_KEY: &str = "tab";
+
+/// The tab of the lower dock, and why it is shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Dock {
+    tab: Tab,
+    /// The tool that was selected when the tab was last looked at.
+    tool: Option<Tool>,
+    /// Whether a person has chosen the tab since that tool was selected.
+    is_chosen: bool,
+}
+
+impl Default for Dock {
+    fn default() -> Self {
+        Self { tab: Tab::Size, tool: None, is_chosen: false }
+    }
+}
+
+impl Dock {
+    /// Returns the tab that is shown.
+    pub fn tab(&self) -> Tab {
+        self.tab
+    }
+
+    /// Shows a tab that a person has chosen, or whose panel a command has opened. It stays until another tool
+    /// is selected.
+    pub fn choose(&mut self, tab: Tab) {
+        if tab != Tab::Layers {
+            (self.tab, self.is_chosen) = (tab, true);
+        }
+    }
+
+    /// Shows the tab of a tool that was selected, unless that tool was selected already and a person has
+    /// chosen another tab since then.
+    pub fn follow_tool(&mut self, tool: Tool) {
+        if self.tool.replace(tool) != Some(tool) {
+            self.is_chosen = false;
+        }
+        if let Some(tab) = tool.tab.filter(|_| !self.is_chosen) {
+            self.tab = tab;
+        }
+    }
+
+    /// Shows the tab of the last run.
+    pub fn load(&mut self, storage: &dyn eframe::Storage) {
+        let tab: Option<String> = eframe::get_value(storage, TAB_KEY);
+        if let Some(tab) = tab.as_deref().and_then(Tab::named) {
+            self.choose(tab);
+        }
+    }
+
+    /// Keeps the tab for the next run.
+    pub fn store(&self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, TAB_KEY, &self.tab.name());
+    }
+
+    /// Leaves a tab that has nothing to show any more for that of the selected tool.
+    pub fn leave(&mut self, tab: Tab) {
+        if self.tab == tab {
+            let of_tool = self.tool.and_then(|tool| tool.tab);
+            (self.tab, self.is_chosen) = (of_tool.unwrap_or(Tab::Size), false);
+        }
+    }
+}

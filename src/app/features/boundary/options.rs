@@ -1,0 +1,74 @@
+//! The settings of the boundary tool, on the strip above the canvas: what a click does, and the name of the
+//! selected piece.
+
+use eframe::egui::{Id, Ui};
+
+use super::{BoundaryCommand, BoundaryToolMode};
+use crate::app::command::Command;
+use crate::app::kit::{FrameState, StripItem, set_once};
+use crate::app::widgets::{ActionButton, TextRow, segmented};
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::BoundaryPieces;
+
+/// What a click does, and what can be done with the selected piece.
+pub static BOUNDARY_OPTIONS: [StripItem; 3] = [
+    StripItem::new(136.0, 1, mode_row),
+    StripItem::new(256.0, 0, name_row).only(|state| selected(state).is_some()),
+    StripItem::new(112.0, 2, join_button).only(|state| selected(state).is_some()),
+];
+
+/// Returns the pieces and the number of the selected one.
+fn selected<'a>(state: &FrameState<'a>) -> Option<(&'a BoundaryPieces, usize)> {
+    let pieces = state.session.boundary_pieces()?;
+    Some((pieces, state.tools.boundary.selected_of(pieces)?))
+}
+
+fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut mode = state.tools.boundary.mode;
+    let choices = [(BoundaryToolMode::Select, "Select"), (BoundaryToolMode::Split, "Split")];
+    if segmented(ui, "What a click does", &mut mode, &choices).changed() {
+        commands.push(Command::Boundary(BoundaryCommand::Mode(mode)));
+    }
+}
+
+fn name_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some((pieces, number)) = selected(state) else { return };
+    let marks = &state.session.document().settings().boundary_marks;
+    if let Some(name) = name_field(ui, &pieces.list()[number].name) {
+        set_once(Setting::BoundaryMarks(pieces.renamed(marks, number, &name)), commands);
+    }
+}
+
+fn join_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some((pieces, number)) = selected(state) else { return };
+    let joined = pieces.joined(&state.session.document().settings().boundary_marks, number);
+    let button = ActionButton::new("Join with next");
+    if ui.add_enabled_ui(joined.is_some(), |ui| ui.add(button)).inner.clicked()
+        && let Some(joined) = joined
+    {
+        set_once(Setting::BoundaryMarks(joined), commands);
+    }
+}
+
+/// The text typed so far, in egui's memory.
+#[derive(Clone, Debug, Default)]
+struct TypedName {
+    text: String,
+    /// The name when the text was last equal to it.
+    of: String,
+}
+
+/// Shows a field for a name. Returns the new name once it is complete.
+fn name_field(ui: &mut Ui, current: &str) -> Option<String> {
+    let id = Id::unique("name of a piece typed so far");
+    let mut typed: TypedName = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    if typed.of != current {
+        // Another piece is selected, or the name was changed elsewhere.
+        typed = TypedName { text: current.to_owned(), of: current.to_owned() };
+    }
+    let response = TextRow::new("Name", &mut typed.text).show(ui);
+    let changed = typed.text != current;
+    let new = (response.lost_focus() && changed).then(|| typed.text.clone());
+    ui.data_mut(|data| data.insert_temp(id, typed));
+    new
+}

@@ -1,0 +1,35 @@
+//! The settings of the domain tool, on the strip above the canvas.
+
+use eframe::egui::Ui;
+
+use super::{DomainCommand, DomainToolMode};
+use crate::app::command::Command;
+use crate::app::kit::{FrameState, StripItem, radius_row};
+use crate::app::widgets::segmented;
+
+/// What cuts the domain, whether it adds, and the size of the brush.
+pub static DOMAIN_OPTIONS: [StripItem; 3] = [
+    StripItem::new(304.0, 0, mode_row),
+    StripItem::new(136.0, 1, adds_row).only(|state| state.tools.domain.mode != DomainToolMode::Frame),
+    StripItem::new(136.0, 2, radius_row).only(|state| state.tools.domain.mode == DomainToolMode::Brush),
+];
+
+fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut mode = state.tools.domain.mode;
+    let choices = [
+        (DomainToolMode::Brush, "Brush"),
+        (DomainToolMode::Rectangle, "Rectangle"),
+        (DomainToolMode::Polygon, "Polygon"),
+        (DomainToolMode::Frame, "Frame"),
+    ];
+    if segmented(ui, "What cuts the domain", &mut mode, &choices).changed() {
+        commands.push(Command::Domain(DomainCommand::Mode(mode)));
+    }
+}
+
+fn adds_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut adds = state.tools.domain.adds;
+    if segmented(ui, "Add or remove", &mut adds, &[(false, "Remove"), (true, "Add")]).changed() {
+        commands.push(Command::Domain(DomainCommand::Adds(adds)));
+    }
+}

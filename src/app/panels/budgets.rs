@@ -1,0 +1,55 @@
+//! The budgets: how many triangles the mesh may have, and how much memory.
+
+use std::ops::RangeInclusive;
+
+use eframe::egui::Ui;
+
+use crate::app::command::Command;
+use crate::app::kit::{FrameState, Panel, Tab, set_once};
+use crate::app::widgets::{NumberRow, Section, format, value_row};
+use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
+
+/// The longest label of a number; the fields of the others are aligned with it.
+const TRIANGLE_BUDGET: &str = "Triangle budget";
+/// Bytes in a megabyte.
+const MEGABYTE: f64 = 1e6;
+/// Bytes in a gigabyte.
+const GIGABYTE: f64 = 1e9;
+/// The triangles that a budget can allow.
+const TRIANGLE_BUDGETS: RangeInclusive<f64> = 1000.0..=1e8;
+/// The most memory that a budget can allow, in gigabytes.
+const MOST_MEMORY: f64 = 1000.0;
+
+/// Triangles and memory.
+pub static BUDGETS: Panel = Panel { name: "budgets", tab: Tab::Size, place: 2, show };
+
+fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    Section::new("Budgets").show(ui, |ui| budget_rows(ui, state, commands));
+}
+
+fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    let usual = Settings::default();
+    let mut triangles = settings.max_triangles as f64;
+    let help =
+        "Most triangles of the mesh. A stroke that would need more stops there; a setting is taken back.";
+    let row = NumberRow::new(TRIANGLE_BUDGET, &mut triangles).integer().range(TRIANGLE_BUDGETS);
+    if row.default(usual.max_triangles as f64).help(help).show(ui).changed() {
+        set_once(Setting::MaxTriangles(triangles as usize), commands);
+    }
+    let mut gigabytes = settings.max_memory as f64 / GIGABYTE;
+    let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 98 bytes a triangle. \
+                The smaller of the two budgets counts.";
+    let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
+    let row = NumberRow::new("Memory budget", &mut gigabytes)
+        .aligned_with(TRIANGLE_BUDGET)
+        .range(range)
+        .unit("GB")
+        .help(help);
+    if row.default(usual.max_memory as f64 / GIGABYTE).show(ui).changed() {
+        let max_memory = (gigabytes * GIGABYTE).round() as usize;
+        set_once(Setting::MaxMemory(max_memory), commands);
+    }
+    let bytes = state.session.mesh().bytes() as f64;
+    value_row(ui, "Memory in use", &format!("{} MB", format::fixed(bytes / MEGABYTE, 1)));
+}

@@ -1,0 +1,110 @@
+//! The strip above the canvas: the options of the tool, and at its end those of the view.
+
+use eframe::egui::{
+    self, Align, Frame, Layout, Margin, Popup, PopupCloseBehavior, RectAlign, RichText, Ui, vec2,
+};
+
+use super::view;
+use crate::app::command::Command;
+use crate::app::kit::{FrameState, StripItem};
+use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::{Icon, ToolButton};
+
+/// Space between options, in points.
+const GAP: f32 = 8.0;
+/// Room for the buttons at the end, in points.
+const BUTTONS: f32 = 2.0 * metrics::ROW + 2.0 * GAP;
+/// Width of a popup, in points.
+const POPUP: f32 = 288.0;
+
+/// Shows the strip.
+pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let margin = Margin::symmetric(12, 0);
+    egui::Panel::top("strip")
+        .frame(Frame::new().fill(tokens(ui).panel).inner_margin(margin))
+        .exact_size(metrics::STRIP)
+        .show(ui, |ui| {
+            ui.horizontal_centered(|ui| {
+                ui.spacing_mut().item_spacing.x = GAP;
+                let options = state.tools.tool.options.iter().filter(|item| (item.is_shown)(state)).collect();
+                let (fitting, others) = divided(options, ui.available_width() - BUTTONS);
+                if fitting.is_empty() {
+                    let name = RichText::new(state.tools.tool.name).font(font::strong());
+                    ui.label(name.color(tokens(ui).label));
+                }
+                for item in fitting {
+                    let layout = Layout::left_to_right(Align::Center);
+                    ui.allocate_ui_with_layout(vec2(item.width, metrics::STRIP), layout, |ui| {
+                        ui.set_min_width(item.width);
+                        (item.show)(ui, state, commands);
+                    });
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    popup(ui, Icon::VISIBLE, "View options", |ui| view::rows(ui, state, commands));
+                    if !others.is_empty() {
+                        popup(ui, Icon::TUNE, "More options", |ui| {
+                            others.iter().for_each(|item| (item.show)(ui, state, commands));
+                        });
+                    }
+                });
+            });
+        });
+}
+
+/// Divides the options of a tool into those that fit on the strip, from the left, and all others.
+fn divided(
+    options: Vec<&'static StripItem>,
+    room: f32,
+) -> (Vec<&'static StripItem>, Vec<&'static StripItem>) {
+    let mut by_rank: Vec<_> = options.iter().filter_map(|item| Some((item.rank?, item.width))).collect();
+    by_rank.sort_by_key(|(rank, _)| *rank);
+    let mut used = 0.0;
+    let fits = by_rank.into_iter().take_while(|(_, width)| {
+        used += width + GAP;
+        used <= room
+    });
+    let last = fits.last().map(|(rank, _)| rank);
+    options.into_iter().partition(|item| item.rank.is_some() && item.rank <= last)
+}
+
+/// Shows a button that opens and closes a popup, which stays open while its controls are used.
+fn popup(ui: &mut Ui, icon: Icon, name: &str, contents: impl FnOnce(&mut Ui)) {
+    let id = ui.scope_id().with(("popup of the strip", name));
+    let is_open = Popup::is_id_open(ui.ctx(), id);
+    let button = ToolButton::small(icon, name).selected(is_open).show(ui);
+    Popup::from_toggle_button_response(&button)
+        .id(id)
+        .align(RectAlign::BOTTOM_END)
+        .gap(8.0)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            Frame::new().inner_margin(Margin::same(8)).show(ui, |ui| {
+                ui.set_width(POPUP);
+                contents(ui);
+            });
+        });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    static ITEMS: [StripItem; 4] = [
+        StripItem::new(100.0, 1, |_, _, _| {}),
+        StripItem::new(100.0, 2, |_, _, _| {}),
+        StripItem::new(100.0, 0, |_, _, _| {}),
+        StripItem::rare(|_, _, _| {}),
+    ];
+
+    #[test]
+    fn the_most_important_options_stay_on_a_narrow_strip_in_their_order() {
+        let ranks = |items: Vec<&StripItem>| items.iter().map(|item| item.rank).collect::<Vec<_>>();
+        for (room, on_strip) in
+            [(400.0, vec![1, 2, 0]), (230.0, vec![1, 0]), (120.0, vec![0]), (50.0, vec![])]
+        {
+            let (fitting, others) = divided(ITEMS.iter().collect(), room);
+            assert_eq!(ranks(fitting), on_strip.into_iter().map(Some).collect::<Vec<_>>(), "{room}");
+            assert_eq!(ranks(others).last(), Some(&None), "{room}");
+        }
+    }
+}
