@@ -7,7 +7,7 @@ const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own.
-static SENTENCES: [(&str, &str); 217] = [
+static SENTENCES: [(&str, &str); 218] = [
     (
         "Open background…",
         "Reads a picture that is shown behind the mesh; a world file beside it says where it lies.",
@@ -135,6 +135,7 @@ static SENTENCES: [(&str, &str); 217] = [
     ("Fine at low", "Makes the curve fine at the least values, and coarse at the greatest."),
     ("Fine near 0", "Makes the curve fine at the values nearest to 0, as in shallow water or at a shore."),
     ("Fine at high", "Makes the curve fine at the greatest values, and coarse at the least."),
+    ("Only bisections", "The next and the previous step, and playing, go from bisection to bisection."),
     ("Add knot", "Adds a knot halfway between the two that are furthest apart; it changes no diameter."),
     (
         "Open shapes…",

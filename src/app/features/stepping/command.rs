@@ -7,8 +7,8 @@ use meshbrush_study::report::ReportFigure;
 /// One thing to do in this mode.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepCommand {
-    /// Begins to step through the refinement: before the first step, or at the one that a figure of the
-    /// report shows.
+    /// Begins to step through the refinement: before the first step, at the one that a figure of the report
+    /// shows, or at the one that made the queried triangle.
     Begin(Option<ReportFigure>),
     /// Shows the mesh of the document again.
     Leave,
@@ -18,6 +18,8 @@ pub enum StepCommand {
     Move(isize),
     /// Begins or ends to go forwards by itself.
     TogglePlay,
+    /// Sets whether the next and the previous step are bisections.
+    OnlyBisections(bool),
     /// Sets how many steps it goes in a second.
     Speed(f64),
     /// Sets the first and the last step to be exported.

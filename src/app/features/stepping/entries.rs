@@ -25,6 +25,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .enabled(position < count),
         item("First step", StepCommand::GoTo(0)).keys(Modifiers::SHIFT, Key::ArrowLeft).enabled(position > 0),
         item(play, StepCommand::TogglePlay).key(Key::Space).enabled(count > 0),
+        item("Only bisections", StepCommand::OnlyBisections(!steps.only_bisections))
+            .checked(steps.only_bisections),
         CatalogItem::new(
             Menu::Method,
             "Export steps as SVG…",

@@ -2,10 +2,19 @@
 
 use std::path::PathBuf;
 
+use glam::DVec2;
+
 use super::entries::entries;
 use super::{StepCommand, Stepping, Steps};
-use crate::app::command::Command;
+use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{Ctx, Feature, Row};
+use meshbrush_mesh::geometry::Rect;
+
+/// The distance of a corner of a triangle from its middle, in pixels, from which the numbers of its nodes
+/// have room.
+const SMALLEST_REACH_PX: f64 = 40.0;
+/// How much of the surroundings is shown of a smaller triangle, in distances of its corners from its middle.
+const REACHES_AROUND: f64 = 7.0;
 
 impl Feature for Stepping {
     type Command = StepCommand;
@@ -13,11 +22,18 @@ impl Feature for Stepping {
 
     fn execute(&mut self, command: StepCommand, ctx: &mut Ctx<'_>) {
         if let StepCommand::Begin(figure) = command {
+            // Its middle: the point itself can lie on an edge, and in two triangles.
+            let queried = ctx.session.queried_triangle().filter(|_| figure.is_none());
+            let corners = queried.map(|id| ctx.session.view().world_corners(id));
+            let queried = corners.map(|corners| corners.iter().sum::<DVec2>() / 3.0);
+            if let (Some(corners), Some(middle)) = (corners, queried) {
+                show_closely(corners, middle, ctx);
+            }
             if figure.is_none() {
                 ctx.session.query(None);
             }
             ctx.tools.only_move_view(true);
-            self.steps = Some(Steps::new(ctx.session, figure));
+            self.steps = Some(Steps::new(ctx.session, figure, queried));
             return;
         }
         let Some(steps) = &mut self.steps else { return };
@@ -32,6 +48,7 @@ impl Feature for Stepping {
             StepCommand::GoTo(position) => steps.go_to(position),
             StepCommand::Move(count) => steps.go_by(count),
             StepCommand::TogglePlay => steps.toggle_play(ctx.egui),
+            StepCommand::OnlyBisections(only) => steps.only_bisections = only,
             StepCommand::Speed(speed) => steps.set_speed(speed),
             StepCommand::ExportRange(first, last) => steps.set_export_range(first, last),
         }
@@ -53,6 +70,15 @@ impl Feature for Stepping {
             ctx.session.report(problem);
             false
         })
+    }
+}
+
+/// Zooms in until the numbers of a triangle and its nodes have room, if they have none.
+fn show_closely(corners: [DVec2; 3], middle: DVec2, ctx: &mut Ctx<'_>) {
+    let reach = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+    if reach < SMALLEST_REACH_PX * ctx.view.world_per_px() {
+        let area = Rect::around(middle, REACHES_AROUND * reach);
+        ctx.send(Command::View(ViewCommand::ShowArea(area)));
     }
 }
 

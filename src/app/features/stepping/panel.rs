@@ -5,14 +5,15 @@ use eframe::egui::{Align, Layout, RichText, Ui};
 use super::steps::MOST_TRIANGLES;
 use super::{StepCommand, code, panel_export, rows};
 use crate::app::command::Command;
-use crate::app::kit::FrameState;
+use crate::app::kit::{FrameState, remark};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips};
+use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
+use meshbrush_core::domain::BoundaryTreatment;
 use meshbrush_mesh::mesh::bisection_edge_length;
 use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
-pub const WIDTH: f32 = 470.0;
+pub const WIDTH: f32 = 488.0;
 
 /// Draws what is known of the step that is shown: its data, the rows that it changes and the lines that it
 /// runs.
@@ -20,7 +21,7 @@ pub fn contents(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let Some(steps) = state.features.stepping.steps() else { return };
     match steps.player() {
         Some(player) => {
-            step(ui, player, state);
+            step(ui, player, state, steps.only_bisections, commands);
             panel_export::section(ui, steps, player.len(), commands);
         }
         None => drop(ui.label("The steps are being recorded…")),
@@ -43,30 +44,69 @@ pub fn title(ui: &mut Ui, commands: &mut Vec<Command>) {
     ui.add_space(6.0);
 }
 
-fn step(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
+fn step(
+    ui: &mut Ui,
+    player: &StepPlayer,
+    state: &FrameState<'_>,
+    only_bisections: bool,
+    commands: &mut Vec<Command>,
+) {
     ui.label(RichText::new(sentence(player)).size(15.0).color(tokens(ui).value));
-    ui.add_space(6.0);
-    Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
+    if let Some(text) = about_outline(player, state) {
+        ui.add_space(4.0);
+        remark(ui, &text);
+    }
+    let mut only = only_bisections;
+    if toggle_row(ui, "Only bisections", &mut only).changed() {
+        commands.push(Command::Steps(StepCommand::OnlyBisections(only)));
+    }
     if let Some(step) = player.step() {
         let (algorithm, lines) = step.lines();
         let title = format!("Algorithm {}", algorithm.number());
         let section = Section::new(&title).note(algorithm.name()).id("algorithm of the step");
         section.show(ui, |ui| code::lines(ui, algorithm, lines));
     }
+    Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
     Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
 }
 
 /// Describes the step in a sentence.
 fn sentence(player: &StepPlayer) -> String {
     let at_end = player.position() == player.len();
+    let (is_cut_short, limit) = (player.recording().is_cut_short, format::count(MOST_TRIANGLES as u64));
     match player.step() {
+        None if is_cut_short => format!(
+            "The coarse grid, before the first step. The mesh has more triangles than the {limit} that are recorded: the \
+             steps end there. Raise h_min to see all of them."
+        ),
         None => "The coarse grid, before the first step.".into(),
-        Some(step) if at_end && player.recording().is_cut_short => {
-            let limit = format::count(MOST_TRIANGLES as u64);
+        Some(step) if at_end && is_cut_short => {
             format!("{} The mesh has more than {limit} triangles: the steps end here.", step.sentence())
         }
         Some(step) => step.sentence(),
     }
+}
+
+/// Returns what becomes of the refined grid along the outline of the domain: at the first and the last step.
+fn about_outline(player: &StepPlayer, state: &FrameState<'_>) -> Option<String> {
+    let settings = state.session.follower().settings();
+    settings.domain.region()?;
+    if settings.boundary == BoundaryTreatment::Report {
+        // The coarse grid has the triangles of the domain alone, and no node is moved.
+        return None;
+    }
+    if player.position() == 0 {
+        return Some("The steps refine the grid; the outline of the domain is drawn over it.".into());
+    }
+    let is_done = player.position() == player.len() && !player.recording().is_cut_short;
+    let derived = state.session.derived().filter(|_| is_done)?;
+    let triangles = format::count(state.session.triangle_count() as u64);
+    let moved = derived.outline_fit.map_or(String::new(), |fit| {
+        format!(" {} nodes are then moved onto it.", format::count(fit.on_outline as u64))
+    });
+    Some(format!(
+        "Triangles outside the outline are removed: the mesh of the document has {triangles}.{moved}"
+    ))
 }
 
 fn triangle_rows(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {

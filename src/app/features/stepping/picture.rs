@@ -2,10 +2,12 @@
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
+use glam::DVec2;
+
 use super::Steps;
 use crate::app::kit::marks::{NUMBER_DISC, point_from_px};
 use crate::app::kit::{FrameState, marks};
-use crate::app::theme::font;
+use crate::app::theme::{font, tokens};
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
 use meshbrush_study::steps::{StepPart, StepPlayer};
@@ -18,6 +20,12 @@ const NUMBERED_LEG_OF_STEP: f32 = 22.0;
 const NUMBERED_NODE: f32 = 90.0;
 /// Most numbers that are drawn.
 const MOST_NUMBERS: usize = 600;
+/// The edges of triangles: seen on the darkest and on the lightest level.
+const EDGE: Color32 = Color32::from_rgba_premultiplied(0x58, 0x5d, 0x66, 0xa0);
+/// Shortest leg of a triangle of the step at which its nodes are numbered.
+const NUMBERED_NODE_OF_STEP: f32 = 40.0;
+/// Width of the outline of the domain, in points.
+const OUTLINE: f32 = 1.0;
 /// A line over the colours of levels: a bright one on a dark one.
 const HALO: Color32 = Color32::from_black_alpha(0xf0);
 
@@ -40,14 +48,26 @@ pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>) {
     let places = Places::new(ui, response.rect, &camera, player);
     let painter = &ui.painter_at(response.rect);
     places.paint_triangles(painter, player, &colors);
+    paint_outline(ui, painter, response.rect, &camera, state);
     let parts = player.parts();
     for (number, part) in &parts {
         paint_part(painter, &places.corners(player, *number), *part);
     }
-    places.paint_node_numbers(painter, player);
+    places.paint_node_numbers(painter, player, &parts);
     places.paint_triangle_numbers(painter, player, &parts);
     if response.contains_pointer() {
         ui.ctx().set_cursor_icon(state.tools.tool.cursor);
+    }
+}
+
+/// Draws the polygons of the domain.
+fn paint_outline(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
+    let Some(region) = state.session.follower().settings().domain.region() else { return };
+    let px_per_point = ui.pixels_per_point();
+    let place = |&corner: &DVec2| point_from_px(rect, camera.screen_from_world(corner), px_per_point);
+    for ring in region.polygons().iter().flatten() {
+        let closed = ring.iter().chain(ring.first()).map(place);
+        marks::paint_rimmed_line(painter, closed, tokens(ui).accent, OUTLINE);
     }
 }
 
@@ -74,7 +94,7 @@ impl Places {
 
     fn paint_triangles(&self, painter: &Painter, player: &StepPlayer, colors: &LevelColors) {
         let (mut fills, mut edges) = (Mesh::default(), Vec::new());
-        let line = Stroke::new(1.0, Color32::from_black_alpha(120));
+        let line = Stroke::new(1.0, EDGE);
         for (index, row) in player.rows().iter().enumerate() {
             let corners = self.corners(player, index as u32 + 1);
             if !self.is_visible(&corners) {
@@ -90,12 +110,19 @@ impl Places {
         painter.extend(edges);
     }
 
-    /// Numbers the nodes between large triangles: a dot with the number above it.
-    fn paint_node_numbers(&self, painter: &Painter, player: &StepPlayer) {
+    /// Numbers the nodes between large triangles, and those of the triangles of the step, which the panel
+    /// names: a dot with the number above it.
+    fn paint_node_numbers(&self, painter: &Painter, player: &StepPlayer, parts: &[(u32, StepPart)]) {
         let mut has_room = vec![true; self.nodes.len()];
         for (index, row) in player.rows().iter().enumerate() {
             if shortest_edge(&self.corners(player, index as u32 + 1)) < NUMBERED_NODE {
                 row[..3].iter().for_each(|&node| has_room[node as usize - 1] = false);
+            }
+        }
+        for (number, _) in parts {
+            if shortest_edge(&self.corners(player, *number)) >= NUMBERED_NODE_OF_STEP {
+                let [a, b, c, ..] = player.rows()[*number as usize - 1];
+                [a, b, c].into_iter().for_each(|node| has_room[node as usize - 1] = true);
             }
         }
         let nodes = self.nodes.iter().enumerate();

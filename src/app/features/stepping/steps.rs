@@ -10,9 +10,9 @@ use crate::app::document_id::DocumentId;
 use crate::app::jobs::{Jobs, Slot};
 use crate::app::session::Session;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_mesh::mesh::{Mesh, Progress};
+use meshbrush_mesh::mesh::{Mesh, Progress, barycentric};
 use meshbrush_study::report::ReportFigure;
-use meshbrush_study::steps::{Recording, StepPlayer, StepRecorder};
+use meshbrush_study::steps::{Recording, StepAction, StepPlayer, StepRecorder};
 
 /// A mesh with more triangles is recorded up to here: nobody follows more steps.
 pub const MOST_TRIANGLES: usize = 20_000;
@@ -26,15 +26,27 @@ const SLICE: usize = 4096;
 /// The steps of one document.
 pub struct Steps {
     document: DocumentState,
-    recording: Slot<(), Result<Recording, String>>,
+    recording: Slot<(), Result<Recorded, String>>,
     /// The figure of the report that the first step shown is to show.
     figure: Option<ReportFigure>,
+    /// The point, in world units, to whose triangle the first step shown belongs.
+    queried: Option<DVec2>,
     player: Option<StepPlayer>,
     /// The time up to which steps were played, in seconds, while it goes forwards by itself.
     played_until: Option<f64>,
     speed: f64,
+    /// Whether the next and the previous step are bisections.
+    pub only_bisections: bool,
     /// The first and the last step to be exported.
     pub(super) export_range: [usize; 2],
+}
+
+/// What was recorded on another thread.
+#[derive(Clone)]
+struct Recorded {
+    recording: Arc<Recording>,
+    /// The index of the bisection that made the triangle around the queried point.
+    made_queried: Option<usize>,
 }
 
 /// Identifies a document and its state.
@@ -52,15 +64,17 @@ impl DocumentState {
 
 impl Steps {
     /// Returns the steps of the document of a session: to begin at the one that a figure of the report shows,
-    /// or before the first one.
-    pub fn new(session: &Session, figure: Option<ReportFigure>) -> Self {
+    /// at the one that made the triangle around a point in world units, or before the first one.
+    pub fn new(session: &Session, figure: Option<ReportFigure>, queried: Option<DVec2>) -> Self {
         Self {
             document: DocumentState::of(session),
             recording: Slot::default(),
             figure,
+            queried,
             player: None,
             played_until: None,
             speed: SPEEDS[1].0,
+            only_bisections: false,
             export_range: [0, FIRST_EXPORTED],
         }
     }
@@ -98,20 +112,19 @@ impl Steps {
         if self.recording.has(&()) {
             let works = self.recording.take(jobs);
             if let Some((_, recorded)) = self.recording.last() {
-                let mut player = StepPlayer::new(Arc::new(recorded.clone()?));
-                let shown = player
-                    .recording()
-                    .steps()
-                    .iter()
-                    .position(|step| self.figure.is_some_and(|figure| figure.shows(step)));
-                player.go_to(shown.map_or(0, |index| index + 1));
+                let Recorded { recording, made_queried } = recorded.clone()?;
+                let mut player = StepPlayer::new(recording);
+                let steps = player.recording().steps();
+                let shown =
+                    steps.iter().position(|step| self.figure.is_some_and(|figure| figure.shows(step)));
+                player.go_to(shown.or(made_queried).map_or(0, |index| index + 1));
                 self.player = Some(player);
                 self.recording = Slot::default();
             }
             return Ok(works);
         }
         if session.follower().is_in_step(session.document()) {
-            self.recording.start((), record(session)?, jobs);
+            self.recording.start((), record(session, self.queried)?, jobs);
         } else if session.stage().is_settled() {
             return Err("There are no steps to show, as the mesh is not up to date with the document.".into());
         }
@@ -125,11 +138,12 @@ impl Steps {
         }
     }
 
-    /// Goes so many steps forwards, or backwards, and ends the playing.
+    /// Goes so many steps, or bisections, forwards or backwards, and ends the playing.
     pub fn go_by(&mut self, steps: isize) {
         self.played_until = None;
+        let only_bisections = self.only_bisections;
         if let Some(player) = &mut self.player {
-            player.go_to(player.position().saturating_add_signed(steps));
+            go(player, steps, only_bisections);
         }
     }
 
@@ -166,7 +180,7 @@ impl Steps {
     fn play(&mut self, ctx: &Context) {
         let (Some(player), Some(until)) = (&mut self.player, &mut self.played_until) else { return };
         let steps = ((ctx.input(|input| input.time) - *until) * self.speed).max(0.0).floor();
-        player.go_to(player.position() + steps as usize);
+        go(player, steps as isize, self.only_bisections);
         *until += steps / self.speed;
         if player.position() == player.len() {
             self.played_until = None;
@@ -176,8 +190,45 @@ impl Steps {
     }
 }
 
+/// Goes so many steps forwards or backwards, or so many bisections: where no more follow, to the end.
+fn go(player: &mut StepPlayer, steps: isize, only_bisections: bool) {
+    if !only_bisections {
+        return player.go_to(player.position().saturating_add_signed(steps));
+    }
+    let (mut position, mut left) = (player.position(), steps.unsigned_abs());
+    let recorded = player.recording().steps();
+    while left > 0 && if steps > 0 { position < recorded.len() } else { position > 0 } {
+        position = position.saturating_add_signed(steps.signum());
+        let is_bisection = position > 0 && recorded[position - 1].action == StepAction::Bisect;
+        left -= usize::from(is_bisection);
+    }
+    player.go_to(position);
+}
+
+/// Returns the index of the last bisection of a triangle around a point in world units.
+fn bisection_around(recording: &Arc<Recording>, point: DVec2) -> Option<usize> {
+    let mut player = StepPlayer::new(recording.clone());
+    let at = recording.lattice.lattice_from_world(point);
+    let mut last = None;
+    for (index, step) in recording.steps().iter().enumerate() {
+        if step.action != StepAction::Bisect {
+            continue;
+        }
+        player.go_to(index);
+        let divided = [Some(step.triangle), step.across];
+        let is_around = |number| barycentric(player.corners(number), at).iter().all(|share| *share >= 0.0);
+        if divided.into_iter().flatten().any(is_around) {
+            last = Some(index);
+        }
+    }
+    last
+}
+
 /// Returns the work of recording, for another thread.
-fn record(session: &Session) -> Result<impl FnOnce() -> Result<Recording, String> + Send + 'static, String> {
+fn record(
+    session: &Session,
+    queried: Option<DVec2>,
+) -> Result<impl FnOnce() -> Result<Recorded, String> + Send + 'static, String> {
     let follower = session.follower();
     let spec = follower.settings().mesh_spec().map_err(|error| error.to_string())?;
     let (domain, field) = (follower.domain().clone(), follower.shared_field());
@@ -198,6 +249,8 @@ fn record(session: &Session) -> Result<impl FnOnce() -> Result<Recording, String
             .map_err(|error| error.to_string())?
             == Progress::More
         {}
-        Ok(recorder.finish())
+        let recording = Arc::new(recorder.finish());
+        let made_queried = queried.and_then(|point| bisection_around(&recording, point));
+        Ok(Recorded { recording, made_queried })
     })
 }

@@ -8,15 +8,16 @@ use glam::dvec2;
 use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, InspectCommand};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::pictures::drawn_window;
 use crate::app::tests::{
-    CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, triangles,
-    wait_until, window,
+    CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, settings,
+    triangles, wait_until, window,
 };
 use crate::app::tools::PAN;
-use meshbrush_core::document::Setting;
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::fingerprint_of;
 use meshbrush_study::steps::{StepAction, StepPlayer};
 
@@ -117,6 +118,69 @@ fn it_goes_forwards_by_itself_and_stops_when_asked() {
 }
 
 #[test]
+fn the_steps_begin_where_the_queried_triangle_was_made() {
+    let mut window = window();
+    coarse(&mut window);
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.31, 0.44))));
+    let id = window.state().session().queried_triangle().unwrap();
+    let queried = window.state().session().mesh().corners(id);
+    begin(&mut window);
+    let shown = player(&window);
+    assert_eq!(shown.step().map(|step| step.action), Some(StepAction::Bisect));
+    let sorted = |mut corners: [LatticePoint; 3]| {
+        corners.sort_by_key(|corner| (corner.x, corner.y));
+        corners
+    };
+    let is_there =
+        (1..=shown.rows().len() as u32).any(|number| sorted(shown.corners(number)) == sorted(queried));
+    assert!(is_there, "the triangle is in the mesh after this step");
+    let parts = shown.parts();
+    assert!(parts.iter().any(|(number, _)| sorted(shown.corners(*number)) == sorted(queried)), "{parts:?}");
+}
+
+#[test]
+fn only_bisections_are_stepped_through_on_request() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    window.get_by_role_and_label(Role::CheckBox, "Only bisections").click();
+    window.run();
+    let mut last = 0;
+    for _ in 0..5 {
+        key(&mut window, Modifiers::NONE, Key::ArrowRight);
+        let shown = player(&window);
+        assert_eq!(shown.step().unwrap().action, StepAction::Bisect);
+        assert!(shown.position() > last);
+        last = shown.position();
+    }
+    key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert!(player(&window).position() < last);
+    assert_eq!(player(&window).step().unwrap().action, StepAction::Bisect);
+    for _ in 0..5 {
+        key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    }
+    assert_eq!(player(&window).position(), 0);
+}
+
+#[test]
+fn a_coast_says_what_becomes_of_the_grid_along_its_outline() {
+    let mut window = window();
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    // So that all of it is recorded.
+    let coarser = settings(&window).boundary.with_diameter(0.4);
+    set(&mut window, Setting::Boundary(coarser));
+    set(&mut window, Setting::SmallestDiameter(0.5));
+    wait_until(&mut window, |window| window.state().session().derived().is_some());
+    begin(&mut window);
+    assert!(window.query_by_label_contains("the outline of the domain is drawn over it").is_some());
+    press_button(&mut window, "Last step");
+    let count = crate::app::widgets::format::count(window.state().session().triangle_count() as u64);
+    let text = format!("outside the outline are removed: the mesh of the document has {count}");
+    assert!(window.query_by_label_contains(&text).is_some(), "{}", player(&window).rows().len());
+    assert!(window.query_by_label_contains("nodes are then moved onto it").is_some());
+}
+
+#[test]
 fn the_slider_goes_to_any_step() {
     let mut window = window();
     coarse(&mut window);
@@ -159,6 +223,8 @@ fn a_large_mesh_is_shown_up_to_a_limit() {
     let shown = player(&window).rows().len();
     assert!((MOST_TRIANGLES..MOST_TRIANGLES + 100).contains(&shown), "{shown}");
     assert!(window.query_by_label_contains("the steps end here").is_some());
+    press_button(&mut window, "First step");
+    assert!(window.query_by_label_contains("more triangles than the 20,000 that are recorded").is_some());
     set(&mut window, Setting::Spacing(0.005));
     begin(&mut window);
     assert!(window.state().stepping().is_none());
