@@ -6,7 +6,7 @@ use super::command::{Command, FileCommand};
 use super::features::ROWS;
 use crate::app::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_io::io::project::ENDING;
-use meshbrush_io::io::{recipe, recording};
+use meshbrush_io::io::{RasterFormat, recipe, recording};
 use meshbrush_render::render::export::ExportFormat;
 
 /// Returns the kinds of files to open by ending: the first one that accepts the ending counts.
@@ -38,7 +38,7 @@ pub static OPEN_ANY: FileKind = FileKind {
 pub static ADD_DATA: FileKind = FileKind {
     title: "Add data",
     act: FileAct::Add,
-    endings: || vec!["geojson", "json", "asc", "png", "csv"],
+    endings: || RasterFormat::all().map(RasterFormat::ending).chain(["geojson", "json", "csv"]).collect(),
     contents: "Grids, pictures, shapes and tables",
     folder: "data",
     ..FileKind::new(|path| Command::File(FileCommand::AddData(path)))

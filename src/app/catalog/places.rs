@@ -3,12 +3,13 @@
 use crate::app::kit::Place;
 
 /// The places, section by section.
-pub static PLACES: [Place; 26] = [
+pub static PLACES: [Place; 27] = [
     Place::new("layers", "Layers", "").words("stack order visible hide lock"),
     Place::new("gradation", "Gradation", "Limit gradation").words("growth smooth grading slope"),
     Place::new("layers", "Selected layer", "").words("combine finest floor replace mask curve formula"),
-    Place::new("transfer", "Size and risk", "").words("transfer curve"),
+    Place::new("transfer", "Size and risk", "").words("transfer curve risk to diameter"),
     Place::new("transfer", "Size and risk", "h_min").words("smallest finest diameter size"),
+    Place::new("transfer", "Size and risk", "h_risk").words("diameter at risk one curve size"),
     Place::new("transfer", "Size and risk", "h_max").words("largest coarsest diameter size"),
     Place::new("levels", "Levels", "").words("isolate show one level alone hide legend histogram colours"),
     Place::new("mesh", "Mesh", "").words("grid settings"),

@@ -104,10 +104,10 @@ fn the_manual_is_searched_and_a_result_opens_at_its_heading() {
     window.get_by_role_and_label(Role::TextInput, "Search the manual").type_text("gaussian radar");
     window.run();
     assert!(!has_heading(&window, "First steps"), "the results are in place of the page");
-    window.get_by_role_and_label(Role::Link, "Risk and diameter › Risks of threats").click();
+    window.get_by_role_and_label(Role::Link, "Size and risk › Risks of threats").click();
     window.run();
     let heading = window.get_by_role_and_label(Role::Heading, "Risks of threats").rect();
-    let title = window.get_by_role_and_label(Role::Heading, "Risk and diameter").rect();
+    let title = window.get_by_role_and_label(Role::Heading, "Size and risk").rect();
     let field = window.get_by_role_and_label(Role::TextInput, "Search the manual").rect();
     assert!((heading.top() - field.top()).abs() < 60.0, "{heading:?} is at the top, {field:?}");
     assert!(title.bottom() < field.top(), "the page is scrolled: {title:?}");

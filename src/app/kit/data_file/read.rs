@@ -9,10 +9,11 @@ use glam::DVec2;
 use super::{DataContents, DataFile, Preview, RasterFacts};
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
+use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::Raster;
-use meshbrush_io::io::png::Behind;
-use meshbrush_io::io::{self, Meter};
+use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader, RasterValues};
+use meshbrush_io::io::{self, Meter, RasterFormat};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -35,12 +36,11 @@ pub fn look_at(background: &mut Background, path: &Path) {
 /// # Errors
 /// Fails with a sentence when the file is of no use, or the work was cancelled.
 fn read(path: &Path, meter: &Meter) -> Result<DataFile, String> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let seen = match ending.as_str() {
-        "asc" => grid(path, meter)?,
-        "png" => picture(path, meter)?,
-        "csv" => table(path, meter)?,
-        _ => shapes(path, meter)?,
+    let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let seen = match RasterFormat::of(path) {
+        Ok(_) => raster(path, meter)?,
+        Err(_) if is_table => table(path, meter)?,
+        Err(_) => shapes(path, meter)?,
     };
     let Seen { contents, extent, unit, preview } = seen;
     Ok(DataFile { path: path.to_owned(), bytes: meter.total().unwrap_or(0), contents, extent, unit, preview })
@@ -54,28 +54,21 @@ struct Seen {
     preview: Preview,
 }
 
-fn grid(path: &Path, meter: &Meter) -> Result<Seen, String> {
-    let raster = io::asc::read_metered(path, meter).map_err(|error| error.to_string())?;
-    let facts = facts(&raster);
-    Ok(Seen {
-        contents: DataContents::Grid(facts),
-        extent: Some(raster.bounds()),
-        unit: LengthUnit::None,
-        preview: Preview::of_raster(&raster, facts.values),
-    })
-}
-
-fn picture(path: &Path, meter: &Meter) -> Result<Seen, String> {
-    let read = io::png::read_metered(path, Rect::UNIT, Behind::White, meter);
-    let raster = read.map_err(|error| error.to_string())?;
-    let extent = io::world_file::bounds_beside(path, raster.size()).map_err(|error| error.to_string())?;
-    let facts = facts(&raster);
-    Ok(Seen {
-        contents: DataContents::Picture(facts),
-        extent,
-        unit: LengthUnit::None,
-        preview: Preview::of_raster(&raster, facts.values),
-    })
+fn raster(path: &Path, meter: &Meter) -> Result<Seen, String> {
+    let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
+    let frame = RasterFrame { domain: Rect::UNIT, transfer: Settings::default().transfer };
+    let read = RasterLoader::new(meter).load(&file, RasterValues::Any, &frame);
+    let pyramid = read.map_err(|error| error.to_string())?;
+    let raster = pyramid.raster();
+    let facts = facts(raster);
+    let (contents, extent) = if file.format.is_grid() {
+        (DataContents::Grid(facts), Some(raster.bounds()))
+    } else {
+        let beside = io::world_file::bounds_beside(path, raster.size());
+        (DataContents::Picture(facts), beside.map_err(|error| error.to_string())?)
+    };
+    let preview = Preview::of_raster(raster, facts.values);
+    Ok(Seen { contents, extent, unit: LengthUnit::None, preview })
 }
 
 fn facts(raster: &Raster) -> RasterFacts {
