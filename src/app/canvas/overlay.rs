@@ -56,12 +56,15 @@ struct Pixels {
 #[derive(Default)]
 pub struct OverlayColors {
     latest: Slot<OverlayState, Pixels>,
+    /// What is shown until the first colours are there: the neutral colour, as one pixel.
+    neutral: [[u8; 4]; 1],
     /// Grows with each new colours.
     revision: u64,
 }
 
 impl OverlayColors {
-    /// Returns the overlay to draw, if any: the last one that was computed.
+    /// Returns the overlay to draw, if any: the last one that was computed, or a neutral one until there is
+    /// one. So the colours of levels are never beside the legend of an overlay.
     pub fn overlay<'a>(
         &'a mut self,
         kind: FieldOverlay,
@@ -76,6 +79,7 @@ impl OverlayColors {
         }
         let beyond = palette.neutral();
         let state = OverlayState::new(kind, session, palette, camera);
+        let domain = state.domain;
         self.take_ready(jobs);
         self.latest.want(&state, jobs);
         // Those of another domain, another kind or another theme are of no use.
@@ -88,9 +92,15 @@ impl OverlayColors {
             let has_ended = self.latest.is_running() && !self.latest.take(jobs);
             self.note(has_ended);
         }
-        let (OverlayState { bounds, size: [columns, rows], .. }, Pixels { rgba }) = self.latest.last()?;
-        let (bounds, revision) = (*bounds, self.revision);
-        Some(Overlay { bounds, columns: *columns, rows: *rows, rgba, beyond, revision })
+        if self.neutral != [beyond] {
+            self.neutral = [beyond];
+            self.revision += 1;
+        }
+        let (bounds, [columns, rows], rgba) = match self.latest.last() {
+            Some((OverlayState { bounds, size, .. }, Pixels { rgba })) => (*bounds, *size, &rgba[..]),
+            None => (domain, [1, 1], &self.neutral[..]),
+        };
+        Some(Overlay { bounds, columns, rows, rgba, beyond, revision: self.revision })
     }
 
     fn take_ready(&mut self, jobs: &Jobs) {
@@ -190,7 +200,9 @@ mod tests {
         let camera = Camera::fit(lattice, lattice.bounds(), [100, 100], 0.0);
         let mut shown = OverlayColors::default();
         for kind in [FieldOverlay::Target, FieldOverlay::None].repeat(50) {
-            assert!(shown.overlay(kind, &session, palette.clone(), &camera, &jobs).is_none());
+            let overlay = shown.overlay(kind, &session, palette.clone(), &camera, &jobs);
+            let colors = overlay.map(|overlay| overlay.rgba.to_vec());
+            assert_eq!(colors, (kind != FieldOverlay::None).then(|| vec![palette.neutral()]));
             assert!(jobs.threads(Kind::Compute) <= 1);
         }
         assert_eq!(jobs.started(), 1, "the first one has not ended for the window");

@@ -285,8 +285,16 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
             [3, 10],
             "The diameter at risk 1, 1, must be from the smallest diameter 2",
         ),
-        ("[limits]\nh_risk = 2\nh_max = 1", [3, 9], "The smallest diameter 2 is above the largest, 1"),
-        ("[paths]\nroutes = [[[0, 0], [1, 1]]]\nnames = [\"a\", \"b\"]", [3, 9], "more names than paths"),
+        (
+            "[limits]\nh_risk = 2\nh_max = 1",
+            [2, 10],
+            "The diameter at risk 1, 2, must be from the smallest diameter 1",
+        ),
+        (
+            "[paths]\nroutes = [[[0, 0], [1, 1]]]\nnames = [\"a\", \"b\"]",
+            [3, 9],
+            "there are more names than paths",
+        ),
         ("[limits]\nshape = 100", [2, 9], "The shape 100"),
         ("[limits]\ngradation = 0", [2, 13], "a gradation of 0 cannot be kept"),
         ("[limits]\ngradation = nan", [2, 13], "a gradation of NaN cannot be kept"),

@@ -200,7 +200,8 @@ impl SavedLimits {
         self.h_risk.map_or(Ok(()), |h_risk| length("h_risk", h_risk))?;
         self.h_max.map_or(Ok(()), |h_max| length("h_max", h_max))?;
         // Where one end is not given, another takes its place: only the rest is checked then.
-        let h_min = self.h_min.or(self.h_risk).or(self.h_max).unwrap_or(1.0);
+        let least = [self.h_risk, self.h_max].into_iter().flatten().reduce(f64::min);
+        let h_min = self.h_min.or(least).unwrap_or(1.0);
         let h_risk = self.h_risk.unwrap_or(h_min);
         let h_max = self.h_max.unwrap_or(h_risk.max(h_min));
         let transfer = Transfer { h_min, h_risk, h_max, shape: self.shape.unwrap_or(1.0) };
