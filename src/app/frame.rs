@@ -23,7 +23,7 @@ use super::dialogs::FileFacts;
 use super::features::{ROWS, stepping};
 use super::journal::JournalKeeper;
 use super::readout::Readout;
-use super::{help, journal, keys, panels, replacing};
+use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{FrameState, NO_LIMIT};
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
@@ -171,6 +171,9 @@ impl App {
             .frame(Frame::NONE)
             .show(ui, |ui| self.draw_canvas(ui, readout.as_ref(), &mut commands));
         self.draw_dialogs(ui.ctx(), &mut commands);
+        if self.view.presentation.is_some() {
+            presentation::paint_pointer_ring(ui.ctx());
+        }
         if !commands.is_empty() {
             // They run in the next frame.
             ui.ctx().request_repaint();

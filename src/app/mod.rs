@@ -33,6 +33,7 @@ mod kit;
 mod layer_edits;
 mod notices;
 mod panels;
+mod presentation;
 mod project;
 
 pub mod readout;
@@ -86,10 +87,13 @@ const THEME_KEY: &str = "theme";
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
 const REPORT: &str = "Mesh Generation via Local Bisection Refinement of Triangulated Grids";
-/// Initial size of the window, in points.
+/// Initial size of the window, in points: it fits a screen of 1440 × 900 with its frame.
+const FIRST_SIZE: [f32; 2] = [1360.0, 800.0];
+/// Size of the window in screenshots, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
-/// Size below which the panels no longer fit, in points.
-const SMALLEST_SIZE: [f32; 2] = [900.0, 600.0];
+/// Size below which the panels no longer fit, in points. A screen of 1920 × 1080 pixels at 200 % has
+/// 960 × 540 points, less the frame and the bar of the desktop.
+const SMALLEST_SIZE: [f32; 2] = [800.0, 460.0];
 
 /// The program in its window.
 pub struct App {
@@ -184,6 +188,7 @@ impl App {
             self.view.dock.load(storage);
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
+            presentation::end_last(storage, &cc.egui_ctx);
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
                 self.limit_threads(count);
             }
@@ -233,6 +238,7 @@ impl eframe::App for App {
         self.dialogs.store(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         self.view.dock.store(storage);
+        presentation::store(self.view.presentation, storage);
         eframe::set_value(storage, THREADS_KEY, &self.threads.limit());
     }
 
@@ -266,7 +272,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
             .with_title("Meshbrush")
             .with_app_id(APP_ID)
             .with_icon(window_icon())
-            .with_inner_size(WINDOW_SIZE)
+            .with_inner_size(FIRST_SIZE)
             .with_min_inner_size(vec2(SMALLEST_SIZE[0], SMALLEST_SIZE[1])),
         ..eframe::NativeOptions::default()
     };

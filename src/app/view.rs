@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::command::ViewCommand;
 use super::dock::Dock;
 use super::kit::Tab;
+use super::presentation::Presentation;
 use super::readout::Quantity;
 use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
@@ -117,6 +118,8 @@ pub struct View {
     pub panels: bool,
     /// Which tab of the lower dock is shown.
     pub dock: Dock,
+    /// The mode for a projector, while it is on.
+    pub presentation: Option<Presentation>,
     /// A level that is shown alone, while the pointer is on it in the legend.
     pub lone_level: Option<u32>,
     /// Bit ℓ: whether level ℓ is hidden on the canvas.
@@ -143,6 +146,7 @@ impl Default for View {
             aids: CanvasAids::default(),
             panels: true,
             dock: Dock::default(),
+            presentation: None,
             lone_level: None,
             hidden_levels: 0,
             hovered_neighbour: None,
@@ -220,6 +224,7 @@ impl View {
             }
             ViewCommand::TogglePanels => self.toggle_panels(),
             ViewCommand::ShowTab(tab) => self.show_tab(tab),
+            ViewCommand::TogglePresentation => self.toggle_presentation(ctx),
         }
     }
 
@@ -248,6 +253,20 @@ impl View {
         self.dock.choose(tab);
         // Nothing in a hidden tab is under the pointer.
         (self.lone_level, self.hovered_neighbour) = (None, None);
+    }
+
+    /// Begins or ends the mode for a projector. It begins without panels.
+    fn toggle_presentation(&mut self, ctx: &Context) {
+        let panels = match self.presentation.take() {
+            Some(presentation) => presentation.end(ctx),
+            None => {
+                self.presentation = Some(Presentation::begin(self.panels, ctx));
+                false
+            }
+        };
+        if panels != self.panels {
+            self.toggle_panels();
+        }
     }
 
     fn toggle_panels(&mut self) {

@@ -345,6 +345,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "kit",
             "layer_edits",
             "notices",
+            "presentation",
             "project",
             "readout",
             "session",

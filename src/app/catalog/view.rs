@@ -58,6 +58,9 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         theme("Light theme", ThemePreference::Light),
         theme("Theme of the desktop", ThemePreference::System),
         item("Panels", ViewCommand::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        item("Presentation", ViewCommand::TogglePresentation)
+            .key(Key::F5)
+            .checked(view.presentation.is_some()),
         CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
     ]);
     items

@@ -50,4 +50,6 @@ pub enum ViewCommand {
     TogglePanels,
     /// Shows a tab of the lower dock.
     ShowTab(Tab),
+    /// Begins or ends the mode for a projector.
+    TogglePresentation,
 }

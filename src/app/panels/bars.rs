@@ -38,12 +38,18 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
 
 /// A button for each tool, and below them undo, redo and fit.
 pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    ui.spacing_mut().item_spacing.y = 6.0;
+    // In a low window there is no room for what the menus have, too.
+    let rows = (all_tools(state.rows).len() + 3) as f32;
+    let is_low = ui.available_height() < rows * (metrics::TOOL + 6.0);
+    ui.spacing_mut().item_spacing.y = if is_low { 2.0 } else { 6.0 };
     for tool in all_tools(state.rows) {
         let button = ToolButton::new(tool.icon, tool.name).key(tool.key.symbol_or_name());
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
             commands.push(Command::Shell(ShellCommand::Use(tool)));
         }
+    }
+    if is_low {
+        return;
     }
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = 6.0;

@@ -37,11 +37,15 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         return;
     }
     let t = *tokens(ui);
-    egui::Panel::left("tools")
-        .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
-        .resizable(false)
-        .exact_size(metrics::TOOL + 12.0)
-        .show(ui, |ui| bars::tool_strip(ui, state, commands));
+    // In a presentation there is one panel at most.
+    let presents = state.view.presentation.is_some();
+    if !presents {
+        egui::Panel::left("tools")
+            .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
+            .resizable(false)
+            .exact_size(metrics::TOOL + 12.0)
+            .show(ui, |ui| bars::tool_strip(ui, state, commands));
+    }
     if state.features.stepping.steps().is_some() {
         egui::Panel::right("step")
             .frame(Frame::new().fill(t.panel))
@@ -51,7 +55,9 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     } else {
         docks::show(ui, state, commands);
     }
-    strip::show(ui, state, commands);
+    if !presents {
+        strip::show(ui, state, commands);
+    }
 }
 
 /// Draws the bars at the top and at the bottom of the window.

@@ -26,6 +26,7 @@ mod overlays;
 mod palette;
 pub mod pictures;
 mod places;
+mod presentation;
 mod project;
 mod recipes;
 mod settings;

@@ -133,7 +133,7 @@ fn the_theme_switches_by_menu_and_by_the_view_options() {
 
 #[test]
 fn the_bars_have_room_for_what_they_show_at_any_width() {
-    for width in [900.0, 940.0, 1000.0, 1100.0, 1440.0] {
+    for width in [800.0, 900.0, 940.0, 1000.0, 1100.0, 1440.0] {
         for zoom in [1.0, 1e6] {
             let mut window = window_of(vec2(width, 600.0));
             window.hover_at(canvas(&window).center());
