@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::command::{Command, FileCommand};
+use super::command::{Command, FileCommand, ShellCommand};
 use super::features::ROWS;
 use crate::app::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_io::io::project::ENDING;
@@ -94,6 +94,27 @@ pub static EXPORT_TEST: FileKind = FileKind {
     folder: "tests",
     command_after_browsing: |path| Command::File(FileCommand::ExportTest(path)),
     ..FileKind::new(|path| Command::File(FileCommand::ExportTestAs(path)))
+};
+
+/// The keys that were changed.
+pub static EXPORT_KEYS: FileKind = FileKind {
+    title: "Export keys",
+    act: FileAct::Export,
+    endings: || vec!["json"],
+    contents: "Keys",
+    folder: "keys",
+    suffix: " keys",
+    command_after_browsing: |path| Command::Shell(ShellCommand::ExportKeys(path)),
+    ..FileKind::new(|path| Command::Shell(ShellCommand::ExportKeysAs(path)))
+};
+
+/// Changed keys, in place of those of the window.
+pub static IMPORT_KEYS: FileKind = FileKind {
+    title: "Import keys",
+    endings: || vec!["json"],
+    contents: "Keys",
+    folder: "keys",
+    ..FileKind::new(|path| Command::Shell(ShellCommand::ImportKeys(path)))
 };
 
 /// The mesh.

@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, exported};
 use super::command::{Command, FileCommand, Opened, ShellCommand};
+use super::kit::Keymap;
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
@@ -65,6 +66,33 @@ pub fn open_recipe(background: &mut Background, path: &Path) {
             Outcome::Read { path: file, commands }
         }
         Err(error) => Outcome::not_read(error),
+    });
+}
+
+/// Most bytes of a file of keys.
+const MOST_BYTES_OF_KEYS: u64 = 1_000_000;
+
+/// Writes the keys that were changed.
+pub fn export_keys(keymap: &Keymap, background: &mut Background, path: &Path) {
+    let (text, file) = (keymap.to_text(), path.to_owned());
+    background.start(Aim::Export, path, move |meter| {
+        let written = io::write_file_metered(&file, meter, |out| out.write_all(text.as_bytes()));
+        exported(written, meter, &file, || format!("The changed keys were written to {}.", file.display()))
+    });
+}
+
+/// Reads changed keys in place of those of the window.
+pub fn import_keys(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |_| {
+        let read = io::read_text(&file, MOST_BYTES_OF_KEYS).map_err(|error| format!("{error}."));
+        match read.and_then(|text| Keymap::parse(&text)) {
+            Ok(keymap) => Outcome::PartRead(vec![
+                Command::Shell(ShellCommand::SetKeys(keymap)),
+                Command::Shell(ShellCommand::Tell(format!("The keys of {} are in use.", file.display()))),
+            ]),
+            Err(problem) => Outcome::NotRead(format!("{} could not be read. {problem}", file.display())),
+        }
     });
 }
 

@@ -14,17 +14,20 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{self, Context, Event, Frame, Key, Modifiers, Popup, Ui};
+use eframe::egui::{self, Context, Event, Frame, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::App;
+use super::canvas::Toast;
 use super::catalog::catalog;
-use super::command::{Command, FileCommand};
+use super::command::{Command, FileCommand, ShellCommand};
 use super::dialogs::FileFacts;
 use super::features::{ROWS, stepping};
 use super::journal::JournalKeeper;
+use super::keys::Receiver;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
-use crate::app::kit::{FrameState, NO_LIMIT};
+use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
+use crate::app::widgets::shown_keys;
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
@@ -37,6 +40,11 @@ const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40))
 /// The share and the most time for work on the mesh where drawing is slow and the pointer draws nothing. The
 /// mesh should be complete soon, and nobody waits for the next frame.
 const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
+
+/// Returns whether a command moves the focus between parts of the window.
+fn is_for_parts(command: &Command) -> bool {
+    matches!(command, Command::Shell(ShellCommand::FocusPart(_)))
+}
 
 impl App {
     /// The first half of a frame: everything that changes.
@@ -80,9 +88,8 @@ impl App {
         let mut used_keys = Vec::new();
         for (index, event) in events.iter().enumerate() {
             self.run_commands(ctx);
-            if let Some(command) = self.command_of_key(event, ctx) {
+            if self.run_key(event, ctx) {
                 used_keys.push(index);
-                self.commands.push(command);
             }
             let lattice = self.session.mesh().lattice();
             self.canvas.take_event(event, ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
@@ -96,20 +103,47 @@ impl App {
         self.canvas.take_state(ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
     }
 
-    fn command_of_key(&self, event: &Event, ctx: &Context) -> Option<Command> {
-        let (key, modifiers) = match *event {
-            Event::Key { key, physical_key, pressed: true, modifiers, .. } => {
-                (keys::with_digits(key, physical_key, modifiers), modifiers)
-            }
+    /// Runs the command of a key. Returns whether there was one: widgets must not act on the key again.
+    fn run_key(&mut self, event: &Event, ctx: &Context) -> bool {
+        let (key, physical_key, modifiers) = match *event {
+            Event::Key { key, physical_key, pressed: true, modifiers, .. } => (key, physical_key, modifiers),
             // Ctrl+C reaches the window as this event only.
-            Event::Copy => (Key::C, Modifiers::COMMAND),
-            _ => return None,
+            Event::Copy => (Key::C, None, Modifiers::COMMAND),
+            _ => return false,
         };
         // A menu or a dialog takes Escape and Enter itself.
-        if self.asks_something() || Popup::is_any_open(ctx) {
-            return None;
+        if self.asks_something() || Popup::is_any_open(ctx) || help::takes_next_key(ctx) {
+            return false;
         }
-        keys::command_of(key, modifiers, ctx.egui_wants_keyboard_input(), catalog(&self.state(None)))
+        let mut catalog = catalog(&self.state(None));
+        if self.help.is_some() {
+            // Nothing behind the help receives keys.
+            let escape = Command::Shell(ShellCommand::Escape);
+            catalog.retain(|item| {
+                item.menu == Menu::Help || item.command == escape || is_for_parts(&item.command)
+            });
+        }
+        let receiver = Receiver::of(ctx, self.canvas.id());
+        let entry = keys::entry_of(key, physical_key, modifiers, receiver, &catalog);
+        let Some(entry) = entry else { return false };
+        let before = self.tools.clone();
+        self.commands.push(entry.command.clone());
+        self.run_commands(ctx);
+        if self.tools.differs_in_choice(&before) {
+            let pressed = shortcut_text(&KeyboardShortcut::new(modifiers, key));
+            let now = ctx.input(|input| input.time);
+            self.canvas.tell(Toast::new(format!("{pressed}: {}", self.done(entry)), now));
+        }
+        true
+    }
+
+    /// Returns the effect of an entry that was just run: its title, with on or off where it is a switch.
+    fn done(&self, entry: &CatalogItem) -> String {
+        let now = catalog(&self.state(None)).into_iter().find(|item| item.id == entry.id);
+        match now {
+            Some(now) if entry.checked && !now.checked => format!("{} – off", now.title),
+            _ => entry.title.clone(),
+        }
     }
 
     /// Runs all commands, and those that they send.
@@ -162,6 +196,9 @@ impl App {
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
         let mut commands = Vec::new();
+        let keys =
+            catalog(&self.state(None)).into_iter().filter_map(|item| Some((item.shown_keys()?, item.id)));
+        shown_keys::publish(ui.ctx(), keys.map(|(keys, id)| (id, keys)).collect());
         if let Some(panel) = self.view.revealed_panel.and_then(panels::named) {
             self.view.dock.choose(panel.tab);
         }
@@ -214,7 +251,7 @@ impl App {
         }
         replacing::questions(ctx, &state, self.dialogs.asks_for_file(), commands);
         if let Some(topic) = self.help {
-            help::show(ctx, topic, &catalog(&state), commands);
+            help::show(ctx, topic, &catalog(&state), &self.keymap, commands);
         }
         if self.dialogs.is_open() {
             self.dialogs.show(ctx, &state, commands);
@@ -227,6 +264,7 @@ impl App {
             project: &self.project,
             tools: &self.tools,
             view: &self.view,
+            keymap: &self.keymap,
             features: &self.features,
             rows: ROWS,
             threads: &self.threads,

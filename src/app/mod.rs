@@ -33,6 +33,7 @@ mod kit;
 mod layer_edits;
 mod notices;
 mod panels;
+mod parts;
 mod presentation;
 mod project;
 
@@ -67,6 +68,7 @@ use frame_log::FrameLog;
 use help::HelpTopic;
 use jobs::Jobs;
 use journal::JournalKeeper;
+use kit::Keymap;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -83,6 +85,8 @@ const LAST_WAIT: Duration = Duration::from_secs(5);
 const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
+/// Key of the changed keys in the window's own storage.
+const KEYS_KEY: &str = "keys";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
@@ -103,6 +107,8 @@ pub struct App {
     view: View,
     canvas: Canvas,
     features: Features,
+    /// Keys that differ from those that entries have by themselves.
+    keymap: Keymap,
     threads: Threads,
     dialogs: Dialogs,
     /// The contents of the help window, while it is open.
@@ -166,6 +172,7 @@ impl App {
             view,
             canvas: Canvas::new(gpu, &jobs),
             features: Features::default(),
+            keymap: Keymap::default(),
             threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,
@@ -189,6 +196,8 @@ impl App {
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
             presentation::end_last(storage, &cc.egui_ctx);
+            let keys = storage.get_string(KEYS_KEY).and_then(|text| Keymap::parse(&text).ok());
+            self.keymap = keys.unwrap_or_default();
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
                 self.limit_threads(count);
             }
@@ -236,6 +245,7 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.project.store(storage);
         self.dialogs.store(storage);
+        storage.set_string(KEYS_KEY, self.keymap.to_text());
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         self.view.dock.store(storage);
         presentation::store(self.view.presentation, storage);
@@ -252,12 +262,6 @@ impl eframe::App for App {
         let remove = self.project.may_leave(&self.session);
         if let Some(keeper) = &mut self.journal {
             keeper.end(remove, &self.jobs);
-        }
-    }
-
-    fn raw_input_hook(&mut self, ctx: &Context, raw_input: &mut egui::RawInput) {
-        if !self.asks_something() {
-            self.commands.extend(keys::catch_tab(ctx, raw_input));
         }
     }
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{Align2, Id, Rect, Response, Ui, UiBuilder, pos2, vec2};
 
-use super::{Canvas, coordinates, legend, menu, way_back};
+use super::{Canvas, coordinates, legend, menu, navigation, way_back};
 use crate::app::background::Row;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::painting::show_limit_offer;
@@ -30,6 +30,7 @@ impl Canvas {
         commands: &mut Vec<Command>,
     ) -> Vec<Rect> {
         let inner = response.rect.shrink(12.0);
+        navigation::show_focus(ui, response);
         let mut places = self.draw_progress(ui, inner, state.session, files, commands);
         let hints = state.tools.hint(state);
         // In a small window only one of them fits.
@@ -50,6 +51,10 @@ impl Canvas {
         }
         menu::show(ui, state, commands);
         places.extend(draw_notice(ui, inner, state.session, commands));
+        // A message is more important, and at the same place.
+        if let Some(toast) = self.toast.as_ref().filter(|_| state.session.notices().shown().is_none()) {
+            toast.show(ui, inner);
+        }
         places
     }
 

@@ -6,9 +6,11 @@ mod floats;
 mod gpu;
 mod legend;
 mod menu;
+mod navigation;
 mod overlay;
 mod overlay_palette;
 mod price;
+mod toast;
 mod way_back;
 
 use eframe::egui::{
@@ -19,6 +21,7 @@ use glam::DVec2;
 pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
 use overlay_palette::OverlayPalette;
+pub use toast::Toast;
 
 use super::busy::Busy;
 use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
@@ -27,6 +30,7 @@ use super::features::ROWS;
 use super::features::painting::picks;
 use super::features::picture::BackgroundTexture;
 use super::jobs::Jobs;
+use super::parts::{Part, mark};
 use super::session::Session;
 use super::software_window::SoftwareWindow;
 use super::theme::tokens;
@@ -42,8 +46,6 @@ use meshbrush_render::scene::Highlights;
 const FIT_MARGIN: f32 = 24.0;
 /// Additional space below it, where hints are, in points.
 const HINT_HEIGHT: f32 = 32.0;
-/// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
-const ZOOM_PER_POINT: f64 = 0.004;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
@@ -61,6 +63,8 @@ pub struct Canvas {
     gesture: Option<Box<dyn Gesture>>,
     pointer: Option<DVec2>,
     mesh_work: Busy,
+    /// What the last key did, if it changed the tool.
+    toast: Option<Toast>,
 }
 
 impl Canvas {
@@ -77,6 +81,7 @@ impl Canvas {
             gesture: None,
             pointer: None,
             mesh_work: Busy::default(),
+            toast: None,
         }
     }
 
@@ -105,6 +110,16 @@ impl Canvas {
     /// Returns where the canvas was in the last frame, in points.
     pub fn rect(&self) -> Option<Rect> {
         self.shown.map(|(_, rect)| rect)
+    }
+
+    /// Returns the widget of the canvas, once it was shown.
+    pub fn id(&self) -> Option<Id> {
+        self.shown.map(|(id, _)| id)
+    }
+
+    /// Says what a key did, for a moment.
+    pub fn tell(&mut self, toast: Toast) {
+        self.toast = Some(toast);
     }
 
     /// Ends a gesture that Escape ends. Returns whether there was one.
@@ -176,8 +191,9 @@ impl Canvas {
             self.interrupt(commands);
         }
         if response.contains_pointer() {
-            zoom(ctx, &mut pointer, commands);
+            navigation::zoom(ctx, &mut pointer, commands);
         }
+        commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::View));
         let at = response.hover_pos().or(response.interact_pointer_pos());
         self.pointer = at.map(|at| pointer.world(at));
     }
@@ -264,22 +280,6 @@ fn space_is_down(ctx: &Context) -> bool {
     ctx.input(|input| input.key_down(Key::Space)) && !ctx.egui_wants_keyboard_input()
 }
 
-/// Zooms about the pointer by the wheel or by pinching.
-fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
-    let (scrolled, pinched, at) = ctx.input(|input| {
-        let scrolled = f64::from(input.smooth_scroll_delta().y);
-        (scrolled, f64::from(input.zoom_delta()), input.pointer.hover_pos())
-    });
-    let factor = pinched * (scrolled * ZOOM_PER_POINT).exp();
-    if let Some(at) = at
-        && factor != 1.0
-    {
-        let px = pointer.px(at);
-        pointer.camera = pointer.camera.zoomed(factor, px);
-        commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
-    }
-}
-
 /// Fits the view's camera to a canvas of the given rectangle in points.
 fn fit_camera(view: &mut View, lattice: &Lattice, rect: Rect, px_per_point: f32) {
     let size = (rect.size() * px_per_point).round();
@@ -292,6 +292,7 @@ impl Canvas {
     /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is
     /// no room to draw.
     pub fn layout(&mut self, ui: &mut Ui, view: &mut View, lattice: &Lattice) -> Option<Response> {
+        mark(ui, Part::Canvas);
         let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, CANVAS_NAME));
         if rect.width() < 1.0 || rect.height() < 1.0 {

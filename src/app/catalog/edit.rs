@@ -25,8 +25,9 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(Edit, undo, Command::Edit(EditCommand::Undo)).enabled(can_undo)
     };
     let mut items = vec![
-        undo.ctrl(Key::Z),
+        undo.id("undo").ctrl(Key::Z),
         CatalogItem::new(Edit, redo, Command::Edit(EditCommand::Redo))
+            .id("redo")
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
             .enabled(can_redo && !in_polygon),
         CatalogItem::new(Edit, "Clear paint", Command::Edit(EditCommand::ClearPaint))
@@ -43,7 +44,11 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(Edit, "Cancel or deselect", Command::Shell(ShellCommand::Escape)).key(Key::Escape),
     ];
     if in_polygon {
-        items.push(CatalogItem::new(Edit, "Remove the last corner", remove()).key(Key::Backspace));
+        items.push(
+            CatalogItem::new(Edit, "Remove the last corner", remove())
+                .key(Key::Backspace)
+                .only("while a polygon is drawn", true),
+        );
     }
     items
 }

@@ -53,7 +53,7 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             format!("Open recent {name}"),
             Command::File(FileCommand::Open(path.clone())),
         );
-        let item = item.in_menu(i < MOST_RECENT_IN_MENU);
+        let item = item.id(format!("open-recent-{}", i + 1)).in_menu(i < MOST_RECENT_IN_MENU);
         items.push(if i == 0 { item.group() } else { item });
     }
     items.push(CatalogItem::new(File, "Quit", Command::File(FileCommand::Quit)).ctrl(Key::Q).group());

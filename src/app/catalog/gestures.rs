@@ -12,7 +12,7 @@ pub fn gestures() -> Vec<&'static GestureHelp> {
 }
 
 /// Those that belong to no feature.
-static GESTURES: [GestureHelp; 25] = [
+static GESTURES: [GestureHelp; 26] = [
     GestureHelp::new(GesturePlace::Querying, "Inspect a triangle", "click"),
     GestureHelp::new(GesturePlace::Querying, "Move a pin", "drag it"),
     GestureHelp::new(GesturePlace::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
@@ -32,6 +32,7 @@ static GESTURES: [GestureHelp; 25] = [
     GestureHelp::new(GesturePlace::Canvas, "Move the view", "middle-drag"),
     GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "wheel"),
     GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "pinch"),
+    GestureHelp::new(GesturePlace::Canvas, "Move the view while the canvas has the focus", "arrow keys"),
     GestureHelp::new(GesturePlace::Panel, "Change a number", "drag"),
     GestureHelp::new(GesturePlace::Panel, "Change a number ten times finer", "Shift+drag"),
     GestureHelp::new(GesturePlace::Panel, "Scroll", "wheel"),

@@ -1,4 +1,5 @@
-//! The commands that have a title: what menus, keys and the palette offer.
+//! The commands that have a title: what menus, keys and the palette offer. Their keys are final: menus, tips,
+//! palette, help and the window itself read them here.
 
 mod edit;
 mod file;
@@ -29,6 +30,7 @@ pub fn catalog(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ];
     let of_features = ROWS.iter().flat_map(|row| (row.entries)(state));
     let mut items: Vec<CatalogItem> = of_window.into_iter().flatten().chain(of_features).collect();
+    items.iter_mut().for_each(|item| state.keymap.apply(item));
     items.sort_by_key(|item| (item.menu, !item.is_above));
     items
 }

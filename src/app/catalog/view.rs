@@ -22,7 +22,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let theme = |title: &str, theme| item(title, ViewCommand::Theme(theme)).checked(view.theme == theme);
     let mut items = vec![
         item("Fit domain", ViewCommand::Fit).key(Key::Home),
-        item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus),
+        item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus).key(Key::Equals),
         item("Zoom out", ViewCommand::Zoom(1.0 / 1.5)).key(Key::Minus),
         CatalogItem::new(View, "Go to…", Command::Shell(ShellCommand::AskPlace)).ctrl(Key::G),
         item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
@@ -57,10 +57,15 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         theme("Dark theme", ThemePreference::Dark).group(),
         theme("Light theme", ThemePreference::Light),
         theme("Theme of the desktop", ThemePreference::System),
-        item("Panels", ViewCommand::TogglePanels).key(Key::Tab).checked(view.panels).group(),
+        item("Panels", ViewCommand::TogglePanels).ctrl(Key::B).checked(view.panels).group(),
         item("Presentation", ViewCommand::TogglePresentation)
             .key(Key::F5)
             .checked(view.presentation.is_some()),
+        CatalogItem::new(View, "Next part of the window", Command::Shell(ShellCommand::FocusPart(1)))
+            .key(Key::F6)
+            .group(),
+        CatalogItem::new(View, "Previous part of the window", Command::Shell(ShellCommand::FocusPart(-1)))
+            .keys(Modifiers::SHIFT, Key::F6),
         CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
     ]);
     items

@@ -1,12 +1,13 @@
 //! Commands about the window around the document.
 
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use crate::app::help::HelpTopic;
-use crate::app::kit::{DataFile, Tool};
+use crate::app::kit::{DataFile, Keymap, Tool};
 
 /// One thing to do with tools, dialogs, help and messages.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,16 @@ pub enum ShellCommand {
     Tell(String),
     /// Dismisses the message.
     DismissNotice,
+    /// Moves the focus by so many parts of the window: menus, tools, canvas, panel, status bar.
+    FocusPart(i32),
+    /// Changes the keys of entries.
+    SetKeys(Keymap),
+    /// Writes the changed keys to a file, and asks before another one is replaced.
+    ExportKeysAs(PathBuf),
+    /// Writes the changed keys to a file.
+    ExportKeys(PathBuf),
+    /// Reads changed keys from a file.
+    ImportKeys(PathBuf),
     /// Copies a text to the clipboard.
     Copy(String),
 }

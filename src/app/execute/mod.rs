@@ -11,6 +11,8 @@ use super::App;
 use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::{Features, ROWS};
+use super::help::stop_editing_keys;
+use super::{files as file_work, parts};
 use crate::app::kit::{Ctx, Tool};
 
 impl App {
@@ -91,12 +93,28 @@ impl App {
             }
             ShellCommand::AskRole(file) => self.dialogs.ask_role(file),
             ShellCommand::CloseDialog => self.dialogs.close(),
-            ShellCommand::ShowHelp(topic) => self.help = Some(topic),
-            ShellCommand::CloseHelp => self.help = None,
+            ShellCommand::ShowHelp(topic) => {
+                stop_editing_keys(ctx);
+                self.help = Some(topic);
+            }
+            ShellCommand::CloseHelp => {
+                stop_editing_keys(ctx);
+                self.help = None;
+            }
             ShellCommand::LimitThreads(count) => self.limit_threads(count),
             ShellCommand::Report(failure) => self.session.report(failure),
             ShellCommand::Tell(news) => self.session.notices_mut().tell(news),
             ShellCommand::DismissNotice => self.session.notices_mut().dismiss(),
+            ShellCommand::FocusPart(by) => parts::focus(ctx, self.canvas.id(), by),
+            ShellCommand::SetKeys(keymap) => self.keymap = keymap,
+            ShellCommand::ExportKeysAs(path) => {
+                let write = Command::Shell(ShellCommand::ExportKeys(path.clone()));
+                self.commands.extend(self.project.ask_to_replace(vec![path], write));
+            }
+            ShellCommand::ExportKeys(path) => {
+                file_work::export_keys(&self.keymap, &mut self.background, &path);
+            }
+            ShellCommand::ImportKeys(path) => file_work::import_keys(&mut self.background, &path),
             ShellCommand::Copy(text) => self.copy(text, ctx),
         }
     }

@@ -1,26 +1,37 @@
-//! Keyboard and mouse: every command with a key, and every gesture.
+//! Keyboard and mouse: every gesture, and every command with its keys, which can be changed.
+
+use std::borrow::Cow;
 
 use eframe::egui::{Id, Role, Sense, Ui, WidgetInfo, vec2};
 
+use super::key_editor::KeyEditor;
 use crate::app::catalog::gestures;
-use crate::app::kit::{CatalogItem, Menu};
+use crate::app::command::Command;
+use crate::app::kit::{CatalogItem, Keymap, Menu, shortcut_text};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{SearchField, key_row, matches};
 
 /// A line of the list.
 struct Entry<'a> {
     group: &'a str,
-    title: &'a str,
+    title: Cow<'a, str>,
     keys: String,
+    /// The entry of a menu; a gesture has none.
+    item: Option<&'a CatalogItem>,
 }
 
-/// A search field, and below it the keys and gestures that match.
-pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
+/// Shows a search field, and below it the keys and gestures that match. The keys can be changed.
+pub fn show(ui: &mut Ui, catalog: &[CatalogItem], keymap: &Keymap, commands: &mut Vec<Command>) {
     let id = Id::unique("search in the list of keys");
     let mut query: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     SearchField::new("Search for a key", "Search: a key, or what it does").show(ui, &mut query);
+    let mut editor = KeyEditor::load(ui);
+    editor.bar(ui, catalog, keymap, &mut query, commands);
     let entries = entries(catalog);
-    let found: Vec<&Entry<'_>> = entries.iter().filter(|entry| entry.matches(&query)).collect();
+    // What is searched for can have no key yet.
+    let found =
+        entries.iter().filter(|entry| entry.matches(&query) && (entry.has_keys() || !query.is_empty()));
+    let found: Vec<&Entry<'_>> = found.collect();
     if found.is_empty() {
         ui.label("No key or gesture matches.");
     }
@@ -30,8 +41,12 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem]) {
             group = entry.group;
             heading(ui, group);
         }
-        key_row(ui, entry.title, &entry.keys);
+        match entry.item {
+            Some(item) => editor.row(ui, item, catalog, keymap, commands),
+            None => drop(key_row(ui, &entry.title, &entry.keys)),
+        }
     }
+    editor.store(ui);
     ui.data_mut(|data| data.insert_temp(id, query));
 }
 
@@ -42,7 +57,7 @@ pub fn page(catalog: &[CatalogItem]) -> String {
                     Written by a test.\n"
         .to_owned();
     let mut group = "";
-    for entry in entries(catalog) {
+    for entry in entries(catalog).into_iter().filter(Entry::has_keys) {
         if entry.group != group {
             group = entry.group;
             page += &format!("\n## {group}\n\n| | |\n|---|---|\n");
@@ -56,19 +71,33 @@ pub fn page(catalog: &[CatalogItem]) -> String {
 fn entries(catalog: &[CatalogItem]) -> Vec<Entry<'_>> {
     let gestures = gestures().into_iter().map(|gesture| Entry {
         group: gesture.place.name(),
-        title: gesture.title,
+        title: gesture.title.into(),
         keys: gesture.keys.to_owned(),
+        item: None,
     });
     let keys = Menu::ALL.iter().flat_map(|(menu, group)| {
-        let items = catalog.iter().filter(move |item| item.menu == *menu && item.shortcut.is_some());
-        items.map(move |item| Entry { group, title: &item.title, keys: item.keys_text() })
+        // Gestures are listed already.
+        let items = catalog.iter().filter(move |item| item.menu == *menu && item.gesture.is_empty());
+        items.map(move |item| {
+            let keys: Vec<String> = item.shortcuts.iter().map(shortcut_text).collect();
+            Entry {
+                group,
+                title: item.title_with_situation().into(),
+                keys: keys.join(", "),
+                item: Some(item),
+            }
+        })
     });
     gestures.chain(keys).collect()
 }
 
 impl Entry<'_> {
+    fn has_keys(&self) -> bool {
+        !self.keys.is_empty()
+    }
+
     fn matches(&self, query: &str) -> bool {
-        matches(query, self.title) || matches(query, &self.keys) || matches(query, self.group)
+        matches(query, &self.title) || matches(query, &self.keys) || matches(query, self.group)
     }
 }
 

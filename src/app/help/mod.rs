@@ -1,11 +1,13 @@
 //! Help inside the window: the manual, and the list of keys and gestures.
 
+mod key_editor;
 mod keys;
 mod manual;
 mod markdown;
 mod page;
 mod search;
 
+pub use key_editor::{stop as stop_editing_keys, takes_next_key};
 #[cfg(test)]
 pub use keys::page as keys_page;
 
@@ -13,7 +15,7 @@ use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
 use super::command::{Command, ShellCommand};
 use super::theme::tokens_of;
-use crate::app::kit::CatalogItem;
+use crate::app::kit::{CatalogItem, Keymap};
 
 /// The contents of the help window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,7 +55,13 @@ const LIST_WIDTH: f32 = 168.0;
 const SIZE: egui::Vec2 = vec2(820.0, 600.0);
 
 /// Shows a topic in a window of its own, beside the list of all topics. The canvas stays usable.
-pub fn show(ctx: &Context, topic: HelpTopic, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+pub fn show(
+    ctx: &Context,
+    topic: HelpTopic,
+    catalog: &[CatalogItem],
+    keymap: &Keymap,
+    commands: &mut Vec<Command>,
+) {
     let mut open = true;
     let room = ctx.content_rect().size() - vec2(48.0, 96.0);
     let frame = Frame::popup(&ctx.global_style()).inner_margin(Margin::same(12));
@@ -64,13 +72,19 @@ pub fn show(ctx: &Context, topic: HelpTopic, catalog: &[CatalogItem], commands: 
         .min_size(vec2(480.0, 280.0))
         .default_pos(ctx.content_rect().center() - SIZE.min(room) / 2.0)
         .collapsible(false)
-        .show(ctx, |ui| contents(ui, topic, catalog, commands));
+        .show(ctx, |ui| contents(ui, topic, catalog, keymap, commands));
     if !open {
         commands.push(Command::Shell(ShellCommand::CloseHelp));
     }
 }
 
-fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &mut Vec<Command>) {
+fn contents(
+    ui: &mut Ui,
+    topic: HelpTopic,
+    catalog: &[CatalogItem],
+    keymap: &Keymap,
+    commands: &mut Vec<Command>,
+) {
     let mut query = String::new();
     egui::Panel::left("topics of the help").frame(Frame::NONE).resizable(false).exact_size(LIST_WIDTH).show(
         ui,
@@ -97,7 +111,7 @@ fn contents(ui: &mut Ui, topic: HelpTopic, catalog: &[CatalogItem], commands: &m
             }
             // Each topic keeps how far it was scrolled.
             ScrollArea::vertical().id_salt(topic.title()).auto_shrink(false).show(ui, |ui| match topic {
-                HelpTopic::Keys => keys::show(ui, catalog),
+                HelpTopic::Keys => keys::show(ui, catalog, keymap, commands),
                 HelpTopic::Page(file) => {
                     if let Some(page) = manual::page_of(file) {
                         page::show(ui, page, None, commands);

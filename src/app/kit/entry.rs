@@ -2,6 +2,7 @@
 
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 
+use super::shortcut::shortcut_text;
 use crate::app::command::Command;
 
 /// The keys of digits, from 1.
@@ -17,6 +18,11 @@ pub const DIGITS: [Key; 10] = [
     Key::Num9,
     Key::Num0,
 ];
+
+/// The situation of keys that work with the query tool.
+pub const QUERYING: &str = "with the query tool";
+/// The situation of keys that work with any other tool.
+pub const NOT_QUERYING: &str = "with any other tool";
 
 /// The menu that a command is in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,12 +62,21 @@ impl Menu {
 /// A command with its title, its menu and its key.
 #[derive(Clone, Debug)]
 pub struct CatalogItem {
+    /// Names the entry in files of keys. It never changes: an entry whose title varies, or was changed, sets
+    /// it.
+    pub id: String,
     /// The menu of the entry.
     pub menu: Menu,
     /// The title in menus and in the palette.
     pub title: String,
-    /// The shortcut, if there is one.
-    pub shortcut: Option<KeyboardShortcut>,
+    /// The keys that run it; the first one is shown.
+    pub shortcuts: Vec<KeyboardShortcut>,
+    /// The keys that it has where nobody changed them.
+    pub usual_shortcuts: Vec<KeyboardShortcut>,
+    /// The situation in which its keys work, such as a tool; entries of different ones can share a key.
+    pub situation: Option<&'static str>,
+    /// Whether its keys work now.
+    pub keys_work: bool,
     /// The pointer gesture that does the same, as shown beside the title.
     pub gesture: &'static str,
     /// The command that it sends.
@@ -81,10 +96,15 @@ pub struct CatalogItem {
 impl CatalogItem {
     /// Creates a command that is enabled, without a key.
     pub fn new(menu: Menu, title: impl Into<String>, command: Command) -> Self {
+        let title = title.into();
         Self {
+            id: id_of(&title),
             menu,
-            title: title.into(),
-            shortcut: None,
+            title,
+            shortcuts: Vec::new(),
+            usual_shortcuts: Vec::new(),
+            situation: None,
+            keys_work: true,
             gesture: "",
             command,
             enabled: true,
@@ -92,6 +112,33 @@ impl CatalogItem {
             begins_group: false,
             is_above: false,
             is_in_menu: true,
+        }
+    }
+
+    /// Sets the id, where the title varies or was changed.
+    pub fn id(mut self, id: impl Into<String>) -> Self {
+        self.id = id.into();
+        self
+    }
+
+    /// Says that the keys work only in a situation, such as with a tool, and whether that is so now. Entries
+    /// of different situations can share a key.
+    pub fn only(mut self, situation: &'static str, is_so: bool) -> Self {
+        (self.situation, self.keys_work) = (Some(situation), is_so);
+        self
+    }
+
+    /// Returns the title, with the situation in which its keys work: `Add to the domain (with the domain
+    /// tool)`.
+    pub fn title_with_situation(&self) -> String {
+        self.situation.map_or_else(|| self.title.clone(), |situation| format!("{} ({situation})", self.title))
+    }
+
+    /// Returns whether this entry and another one can be meant by one key.
+    pub fn can_meet(&self, other: &Self) -> bool {
+        match (self.situation, other.situation) {
+            (Some(own), Some(others)) => own == others,
+            _ => true,
         }
     }
 
@@ -105,9 +152,11 @@ impl CatalogItem {
         self.keys(Modifiers::COMMAND, key)
     }
 
-    /// Adds a key with modifiers as shortcut.
+    /// Adds a key with modifiers as shortcut. The first one is shown.
     pub fn keys(mut self, modifiers: Modifiers, key: Key) -> Self {
-        self.shortcut = Some(KeyboardShortcut::new(modifiers, key));
+        let shortcut = KeyboardShortcut::new(modifiers, key);
+        self.shortcuts.push(shortcut);
+        self.usual_shortcuts.push(shortcut);
         self
     }
 
@@ -117,9 +166,16 @@ impl CatalogItem {
         self
     }
 
-    /// Returns the shortcut or the gesture, as menus and the palette show it; empty if there is none.
+    /// Returns the shortcut that works now or the gesture, as menus and the palette show it; empty if there
+    /// is none.
     pub fn keys_text(&self) -> String {
-        self.shortcut.as_ref().map_or_else(|| self.gesture.to_owned(), shortcut_text)
+        let shown = self.shortcuts.first().filter(|_| self.keys_work);
+        shown.map_or_else(|| self.gesture.to_owned(), shortcut_text)
+    }
+
+    /// Returns the shortcut in whatever situation it works, or `None` where no key runs the entry.
+    pub fn shown_keys(&self) -> Option<String> {
+        self.shortcuts.first().map(shortcut_text)
     }
 
     /// Sets whether the entry is enabled.
@@ -158,19 +214,8 @@ impl CatalogItem {
     }
 }
 
-/// Returns a shortcut in words.
-fn shortcut_text(shortcut: &KeyboardShortcut) -> String {
-    let mut text = String::new();
-    if shortcut.modifiers.command {
-        text += "Ctrl+";
-    }
-    if shortcut.modifiers.shift {
-        text += "Shift+";
-    }
-    text + match shortcut.logical_key {
-        Key::OpenCurlyBracket => "[",
-        Key::CloseCurlyBracket => "]",
-        Key::Escape => "Esc",
-        key => key.symbol_or_name(),
-    }
+/// Returns a title as an id: `Larger brush` is `larger-brush`.
+fn id_of(title: &str) -> String {
+    let words = title.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }

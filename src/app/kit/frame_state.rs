@@ -1,6 +1,6 @@
 //! The data that a frame shows.
 
-use super::Row;
+use super::{Keymap, Row};
 use crate::app::features::Features;
 use crate::app::project::ProjectFile;
 use crate::app::readout::Readout;
@@ -21,6 +21,8 @@ pub struct FrameState<'a> {
     pub tools: &'a Tools,
     /// The settings of the view.
     pub view: &'a View,
+    /// The keys that were changed.
+    pub keymap: &'a Keymap,
     /// The features. Each reads its own.
     pub features: &'a Features,
     /// The parts of all features.

@@ -18,6 +18,7 @@ mod formula_row;
 mod frame_state;
 mod gesture;
 mod gesture_help;
+mod keymap;
 mod layer_kind;
 pub mod marks;
 mod mask_file;
@@ -27,18 +28,20 @@ mod place;
 mod radius_row;
 mod strip;
 mod tab;
+mod shortcut;
 mod tool;
 
 pub use ctx::{Ctx, NO_LIMIT};
 pub use data_file::{DataContents, DataFile, DataRole, RasterFacts, look_at};
 pub use empty_document::{EmptyDocument, show_over_extent};
-pub use entry::{CatalogItem, DIGITS, Menu};
+pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING};
 pub use feature::{Feature, Row};
 pub use file_kind::{FileAct, FileKind, FileRequest};
 pub use formula_row::FormulaRow;
 pub use frame_state::FrameState;
 pub use gesture::{CLICK_SLACK, GRIP_POINTS, Gesture, Pointer, Press, SettingsDrag, nearest_within};
 pub use gesture_help::{GestureHelp, GesturePlace};
+pub use keymap::{Keymap, conflicts, owners};
 pub use layer_kind::{
     Addition, LayerKindRow, add_layer, kinds_of_layers, range_rows, set_kind, set_kind_once,
 };
@@ -47,6 +50,7 @@ pub use menu_item::menu_item;
 pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once};
 pub use place::Place;
 pub use radius_row::radius_row;
+pub use shortcut::{same_keys, shortcut_text};
 pub use strip::StripItem;
 pub use tab::Tab;
 pub use tool::{OverMesh, Tool, ToolSpec, all_tools};

@@ -16,8 +16,8 @@ pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
         .typed_range(1e-4 * extent..=extent)
         .default(Tools::for_domain(extent, 0.0).radius)
         .unit(state.unit().symbol());
-    let help =
-        "Radius of the brush, in the unit of the document. [ and ] change it, as does a drag with Shift.";
+    let help = "Radius of the brush, in the unit of the document. Shift+drag changes it[, as do {smaller-brush} and \
+                {larger-brush}].";
     if slider.help(help).show(ui).changed() {
         commands.push(Command::Brush(BrushCommand::Radius(radius)));
     }

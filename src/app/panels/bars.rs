@@ -43,7 +43,7 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     let is_low = ui.available_height() < rows * (metrics::TOOL + 6.0);
     ui.spacing_mut().item_spacing.y = if is_low { 2.0 } else { 6.0 };
     for tool in all_tools(state.rows) {
-        let button = ToolButton::new(tool.icon, tool.name).key(tool.key.symbol_or_name());
+        let button = ToolButton::new(tool.icon, tool.name).entry(tool.name);
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
             commands.push(Command::Shell(ShellCommand::Use(tool)));
         }
@@ -53,12 +53,12 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     }
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = 6.0;
-        if ToolButton::new(Icon::FIT, "Fit domain").key("Home").show(ui).clicked() {
+        if ToolButton::new(Icon::FIT, "Fit domain").entry("Fit domain").show(ui).clicked() {
             commands.push(Command::View(ViewCommand::Fit));
         }
         let history = state.session.document().history();
-        let redo = ToolButton::new(Icon::REDO, "Redo").key("Ctrl+Shift+Z");
-        let undo = ToolButton::new(Icon::UNDO, "Undo").key("Ctrl+Z");
+        let redo = ToolButton::new(Icon::REDO, "Redo").entry("redo");
+        let undo = ToolButton::new(Icon::UNDO, "Undo").entry("undo");
         if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
             commands.push(Command::Edit(EditCommand::Redo));
         }

@@ -24,6 +24,7 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 
 use super::command::Command;
 use super::features::{ROWS, report, stepping};
+use super::parts::{Part, mark};
 use super::theme::{metrics, tokens};
 use crate::app::kit::{FrameState, Panel, Tab};
 
@@ -44,14 +45,20 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             .frame(Frame::new().fill(t.panel).inner_margin(Margin::symmetric(6, 10)))
             .resizable(false)
             .exact_size(metrics::TOOL + 12.0)
-            .show(ui, |ui| bars::tool_strip(ui, state, commands));
+            .show(ui, |ui| {
+                mark(ui, Part::Tools);
+                bars::tool_strip(ui, state, commands);
+            });
     }
     if state.features.stepping.steps().is_some() {
         egui::Panel::right("step")
             .frame(Frame::new().fill(t.panel))
             .resizable(false)
             .exact_size(stepping::WIDTH)
-            .show(ui, |ui| step_panel(ui, state, commands));
+            .show(ui, |ui| {
+                mark(ui, Part::Panel);
+                step_panel(ui, state, commands);
+            });
     } else {
         docks::show(ui, state, commands);
     }
@@ -67,14 +74,14 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     // egui puts the row of a menu bar at its top: the margin centres it.
     let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
     let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
-    egui::Panel::top("menu")
-        .frame(menu)
-        .exact_size(metrics::MENU_BAR)
-        .show(ui, |ui| bars::menu_bar(ui, state, commands));
-    egui::Panel::bottom("status")
-        .frame(bar)
-        .exact_size(metrics::STATUS_BAR)
-        .show(ui, |ui| status::status_bar(ui, state));
+    egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
+        mark(ui, Part::Menus);
+        bars::menu_bar(ui, state, commands);
+    });
+    egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
+        mark(ui, Part::Status);
+        status::status_bar(ui, state);
+    });
     if let Some(steps) = state.features.stepping.steps() {
         egui::Panel::bottom("steps")
             .frame(bar)

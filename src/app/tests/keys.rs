@@ -2,7 +2,7 @@
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{
@@ -10,7 +10,8 @@ use super::{
     wheel, window, window_of,
 };
 use crate::app::features::ROWS;
-use crate::app::features::painting::BRUSH;
+use crate::app::features::inspection::QUERY;
+use crate::app::features::painting::{BRUSH, ERASER};
 use crate::app::kit::all_tools;
 
 #[test]
@@ -126,4 +127,116 @@ fn keys_typed_into_a_field_stay_there() {
         painted,
         "neither undo nor clearing reaches the document from a text field"
     );
+}
+
+#[test]
+fn keys_do_not_reach_what_is_behind_the_help() {
+    let mut window = window();
+    key(&mut window, Modifiers::NONE, Key::F1);
+    let edges = window.state().view().edges;
+    for letter in [Key::E, Key::Q, Key::G, Key::Num1] {
+        key(&mut window, Modifiers::NONE, letter);
+    }
+    key(&mut window, Modifiers::COMMAND, Key::Backspace);
+    assert_eq!(window.state().tools().tool, &BRUSH);
+    assert_eq!(window.state().view().edges, edges);
+    assert_eq!(entries(&window), 0);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    key(&mut window, Modifiers::NONE, Key::Q);
+    assert_eq!(window.state().tools().tool, &QUERY, "the help is closed");
+}
+
+#[test]
+fn a_key_that_changes_the_tool_says_so_for_a_moment() {
+    let mut window = window();
+    let says = |window: &Window, text: &str| {
+        let labels = window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+        labels.into_iter().any(|label| label == text)
+    };
+    window.key_press(Key::E);
+    window.step();
+    window.step();
+    assert!(says(&window, "E: Eraser"));
+    window.run();
+    window.run_steps(10);
+    assert!(!says(&window, "E: Eraser"), "it goes away");
+    for (key, text) in [(Key::B, "B: Brush"), (Key::V, "V: Set the value"), (Key::Num3, "3: Risk 0.3")] {
+        window.key_press(key);
+        window.step();
+        window.step();
+        assert!(says(&window, text), "{text}");
+    }
+    window.run();
+}
+
+#[test]
+fn page_keys_walk_the_tree_with_the_query_tool_and_the_layers_with_others() {
+    let mut window = window();
+    let layer = |window: &Window| super::active(window).id;
+    let before = layer(&window);
+    key(&mut window, Modifiers::NONE, Key::PageDown);
+    let below = layer(&window);
+    assert_ne!(below, before);
+    key(&mut window, Modifiers::NONE, Key::Q);
+    click(&mut window, dvec2(0.245, 0.765), Modifiers::NONE);
+    key(&mut window, Modifiers::NONE, Key::PageUp);
+    assert_eq!(layer(&window), below, "the layer stays");
+    let entries = crate::app::catalog::catalog(&window.state().state(None));
+    let back = entries.iter().find(|entry| entry.title == "Go back to the queried triangle");
+    assert!(back.is_some_and(|entry| entry.enabled), "the parent is shown");
+}
+
+fn focused(window: &Window) -> Option<String> {
+    let all =
+        [Role::Group, Role::Image, Role::Button].into_iter().flat_map(|role| window.query_all_by_role(role));
+    all.into_iter()
+        .find(|node| node.accesskit_node().is_focused())
+        .and_then(|node| node.accesskit_node().label())
+}
+
+#[test]
+fn f6_leads_through_the_parts_of_the_window_and_tab_into_them() {
+    let mut window = window();
+    let mut seen = Vec::new();
+    for _ in 0..5 {
+        key(&mut window, Modifiers::NONE, Key::F6);
+        seen.extend(focused(&window));
+    }
+    assert_eq!(seen, ["Panel", "Status bar", "Menus", "Tools", "Mesh canvas"]);
+    key(&mut window, Modifiers::SHIFT, Key::F6);
+    assert_eq!(focused(&window).as_deref(), Some("Tools"));
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert_eq!(focused(&window).as_deref(), Some("Brush"));
+    assert!(window.state().view().panels, "Tab hides nothing");
+    key(&mut window, Modifiers::NONE, Key::F6);
+    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"), "from a control within a part, too");
+    window.get_by_role_and_label(Role::TextInput, "Radius value").focus();
+    window.run();
+    key(&mut window, Modifiers::SHIFT, Key::F6);
+    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"), "also from a field");
+    key(&mut window, Modifiers::COMMAND, Key::B);
+    assert!(!window.state().view().panels);
+}
+
+#[test]
+fn arrows_and_plus_move_and_zoom_the_view_while_the_canvas_has_the_focus() {
+    let mut window = window();
+    let center = |window: &Window| super::in_world(window, canvas(window).center());
+    let before = center(&window);
+    key(&mut window, Modifiers::NONE, Key::ArrowRight);
+    assert_eq!(center(&window), before, "without the focus arrows do nothing");
+    key(&mut window, Modifiers::SHIFT, Key::F6);
+    key(&mut window, Modifiers::NONE, Key::F6);
+    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"));
+    key(&mut window, Modifiers::NONE, Key::ArrowRight);
+    let right = center(&window);
+    assert!(right.x > before.x && right.y == before.y, "{before} {right}");
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    assert!(center(&window).y > right.y);
+    let scale = |window: &Window| window.state().view().camera.unwrap().px_per_world();
+    let zoomed = scale(&window);
+    key(&mut window, Modifiers::NONE, Key::Plus);
+    assert!(scale(&window) > zoomed);
+    key(&mut window, Modifiers::NONE, Key::E);
+    assert_eq!(window.state().tools().tool, &ERASER, "the keys of tools work there");
 }

@@ -15,6 +15,7 @@ mod held_jobs;
 mod help;
 #[cfg(unix)]
 mod identity;
+mod key_table;
 mod keys;
 mod long_work;
 mod menus;
@@ -44,7 +45,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use eframe::App as _;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Event, Key, Modifiers, PointerButton, Pos2, Rect, Vec2, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -203,24 +203,6 @@ pub fn stroke(window: &mut Window, from: DVec2, to: DVec2) {
 
 pub fn key(window: &mut Window, modifiers: Modifiers, key: Key) {
     window.key_press_modifiers(modifiers, key);
-    window.run();
-}
-
-/// A press of Tab as the window passes it on: before egui moves the focus by it.
-pub fn press_tab(window: &mut Window) {
-    let tab = Event::Key {
-        key: Key::Tab,
-        physical_key: None,
-        pressed: true,
-        repeat: false,
-        modifiers: Modifiers::NONE,
-    };
-    let mut raw = egui::RawInput { events: vec![tab], ..Default::default() };
-    let ctx = window.ctx.clone();
-    window.state_mut().raw_input_hook(&ctx, &mut raw);
-    for event in raw.events {
-        window.event(event);
-    }
     window.run();
 }
 

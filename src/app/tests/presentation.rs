@@ -8,7 +8,7 @@ use eframe::egui::{Context, Key, Modifiers, Pos2, RawInput, Rect, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 
 use super::pictures::{drawn_window, picture};
-use super::{Window, canvas, key, press_tab, window, window_of};
+use super::{Window, canvas, key, window, window_of};
 use crate::app::features::ROWS;
 use crate::app::kit::all_tools;
 use crate::app::presentation::end_last;
@@ -27,9 +27,9 @@ fn a_presentation_is_larger_and_has_one_panel_at_most() {
     key(&mut window, Modifiers::NONE, Key::F5);
     assert_eq!(window.ctx.zoom_factor(), 1.5);
     assert!(tool_button(&window, "Eraser").is_none() && !has_side_panel(&window));
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     assert!(tool_button(&window, "Eraser").is_none() && has_side_panel(&window), "one panel");
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     key(&mut window, Modifiers::NONE, Key::F5);
     assert_eq!(window.ctx.zoom_factor(), 1.0);
     assert!(tool_button(&window, "Eraser").is_some() && has_side_panel(&window), "as before");
@@ -115,7 +115,7 @@ fn nothing_is_off_the_screen_of_1080_pixels_at_200_percent() {
         }
         let shown = canvas(&window);
         assert!(screen.contains_rect(shown) && shown.width() > 400.0 && shown.height() > 380.0, "{shown}");
-        press_tab(&mut window);
+        key(&mut window, Modifiers::COMMAND, Key::B);
         assert!(screen.contains_rect(canvas(&window)));
     }
 }

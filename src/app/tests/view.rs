@@ -7,7 +7,7 @@ use glam::dvec2;
 
 use super::{
     RESTING_PLACE, TALL, Window, canvas, choose, entries, in_world, key, on_screen, open_popup, open_tab,
-    press_at, press_tab, release_at, send, settings, wheel, window, window_of,
+    press_at, release_at, send, settings, wheel, window, window_of,
 };
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::Tab;
@@ -84,14 +84,14 @@ fn the_hint_covers_nothing_of_a_fitted_domain() {
 }
 
 #[test]
-fn tab_hides_the_panels_and_brings_them_back() {
+fn ctrl_b_hides_the_panels_and_brings_them_back() {
     let mut window = window();
     let narrow = canvas(&window);
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     assert!(!window.state().view().panels);
     assert!(canvas(&window).width() > narrow.width() + 300.0);
     assert!(window.query_by_label("Levels").is_none());
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     assert_eq!(canvas(&window), narrow);
 }
 
@@ -111,9 +111,9 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
         window.run();
         assert_eq!(style(&window), 1 << level);
     }
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     assert_eq!(style(&window), u64::MAX, "no legend, no lone level");
-    press_tab(&mut window);
+    key(&mut window, Modifiers::COMMAND, Key::B);
     window.hover_at(RESTING_PLACE);
     window.run();
     assert_eq!(style(&window), u64::MAX);

@@ -103,6 +103,15 @@ impl Tools {
         }
     }
 
+    /// Returns whether another tool, kind of paint, mode or amount is chosen than in `other`.
+    pub fn differs_in_choice(&self, other: &Self) -> bool {
+        let choices =
+            |tools: &Self| (tools.tool, tools.kind, tools.mode, tools.domain.mode, tools.domain.adds);
+        let amounts = |tools: &Self| [tools.paint_strength, tools.erase_strength, tools.risk];
+        let boundary = self.boundary.mode != other.boundary.mode;
+        choices(self) != choices(other) || amounts(self) != amounts(other) || boundary
+    }
+
     /// Selects a tool.
     pub fn select(&mut self, tool: Tool) {
         self.chosen = tool;

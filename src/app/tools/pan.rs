@@ -4,7 +4,7 @@ use eframe::egui::{CursorIcon, Key, PointerButton, Pos2};
 
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{Gesture, Pointer, ToolSpec};
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, KeyOf, Text};
 use crate::app::widgets::Icon;
 
 /// Moves the view.
@@ -17,7 +17,7 @@ pub static PAN: ToolSpec = ToolSpec {
 };
 
 const HINT: &[Hint] =
-    &[Text("Drag to move, wheel to zoom"), HintKey("Home"), Text("fits"), HintKey("B"), Text("brush")];
+    &[Text("Drag to move, wheel to zoom"), KeyOf("fit-domain"), Text("fits"), KeyOf("brush"), Text("brush")];
 
 /// Moving the view.
 #[derive(Debug)]

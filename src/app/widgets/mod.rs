@@ -11,6 +11,7 @@ mod floating;
 pub mod format;
 mod paint;
 mod reveal;
+pub mod shown_keys;
 pub mod tips;
 pub mod typed;
 mod vanished;

@@ -1,12 +1,14 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
+use super::shown_keys::with_keys;
 use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
 /// Points at an edge of the window within which a panel counts as being at that edge.
 const EDGE: f32 = 2.0;
 
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
-/// choice is that of its group and its own.
+/// choice is that of its group and its own. A key is written as the id of its entry in braces, and what to
+/// leave out where there is none, in brackets: `[; {undo}]`.
 static SENTENCES: [(&str, &str); 218] = [
     (
         "Open background…",
@@ -40,12 +42,15 @@ static SENTENCES: [(&str, &str); 218] = [
     ("What the brush paints/Diameter", "The brush paints the target diameter itself."),
     (
         "How a stroke changes the paint/Build up",
-        "Each stroke raises the risk, or only refines where a diameter is painted; U.",
+        "Each stroke raises the risk, or only refines where a diameter is painted[; {build-up}].",
     ),
-    ("How a stroke changes the paint/Set", "A stroke paints one value, whatever was painted there; V."),
+    (
+        "How a stroke changes the paint/Set",
+        "A stroke paints one value, whatever was painted there[; {set-the-value}].",
+    ),
     (
         "How a stroke changes the paint/Lower",
-        "A stroke takes a share of the risk away, or makes painted diameters larger; L.",
+        "A stroke takes a share of the risk away, or makes painted diameters larger[; {lower}].",
     ),
     ("Mirror x", "Repeats strokes left and right of the middle of the domain."),
     ("Mirror y", "Repeats strokes above and below the middle of the domain."),
@@ -73,8 +78,8 @@ static SENTENCES: [(&str, &str); 218] = [
         "Curve shape",
         "Bends the curve between h_max and h_risk: its exponent, without a unit. Right-click for its default.",
     ),
-    ("Layer", "Selects the layer. Drag it to another place; a double click or F2 renames it."),
-    ("Layer/visible", "Shows or hides the layer; a hidden layer asks for nothing. Shift+H switches."),
+    ("Layer", "Selects the layer. Drag it to another place; a double click[ or {rename-layer}] renames it."),
+    ("Layer/visible", "Shows or hides the layer[ ({layer-is-visible})]; a hidden layer asks for nothing."),
     ("Layer/locked", "Locks or unlocks the layer; a locked layer cannot be painted on or changed."),
     ("New name of the layer", "Enter gives the layer this name, Escape keeps the old one."),
     ("Add layer", "Adds a layer above the selected one."),
@@ -102,7 +107,10 @@ static SENTENCES: [(&str, &str); 218] = [
     ("Mask from file…", "Reads polygons from a GeoJSON file: the layer counts only inside them."),
     ("Remove mask", "Removes the mask, so that the layer counts everywhere."),
     ("Add threat", "Adds a threat in the middle of the view, like the selected one."),
-    ("Delete threat", "Removes the selected threat; Delete does so too while the tool Threats is selected."),
+    (
+        "Delete threat",
+        "Removes the selected threat[; {delete-the-selected-threat} does so too while the tool Threats is selected].",
+    ),
     ("Open table…", "Reads the threats of this layer from a table, in place of those that it has."),
     (
         "Save table…",
@@ -147,12 +155,15 @@ static SENTENCES: [(&str, &str); 218] = [
         "Show on the canvas",
         "Draws the triangles that led to the queried one, and a cross where the least target diameter is.",
     ),
-    ("Parent", "Shows the triangle that this one is half of; Page Up."),
-    ("Sibling", "Shows the other half of the parent; Shift+Page Up."),
-    ("First half", "Shows the first half of a bisected triangle; Page Down."),
-    ("Second half", "Shows the second half of a bisected triangle; Shift+Page Down."),
-    ("Coarse triangle", "Shows the triangle of the coarse grid that this one is part of; Ctrl+Page Up."),
-    ("Queried triangle", "Shows the queried triangle again; Ctrl+Page Down."),
+    ("Parent", "Shows the triangle that this one is half of[; {go-to-the-parent-triangle}]."),
+    ("Sibling", "Shows the other half of the parent[; {go-to-the-sibling}]."),
+    ("First half", "Shows the first half of a bisected triangle[; {go-to-the-first-half}]."),
+    ("Second half", "Shows the second half of a bisected triangle[; {go-to-the-second-half}]."),
+    (
+        "Coarse triangle",
+        "Shows the triangle of the coarse grid that this one is part of[; {go-to-the-coarse-triangle}].",
+    ),
+    ("Queried triangle", "Shows the queried triangle again[; {go-back-to-the-queried-triangle}]."),
     ("Node of the triangle/No node", "Shows no node."),
     ("Node of the triangle/Apex", "Shows the node at the right angle, the newest one of the triangle."),
     ("Node of the triangle/End 1", "Shows the node at the first end of the bisection edge."),
@@ -178,8 +189,8 @@ static SENTENCES: [(&str, &str); 218] = [
     ("What cuts the domain/Rectangle", "Cuts the domain with a rectangle that you drag."),
     ("What cuts the domain/Polygon", "Cuts the domain with a polygon whose corners you click."),
     ("What cuts the domain/Frame", "Draws the rectangle that the coarse grid covers."),
-    ("Add or remove/Remove", "The domain tool removes area; X switches."),
-    ("Add or remove/Add", "The domain tool adds area; X switches."),
+    ("Add or remove/Remove", "The domain tool removes area[; {add-to-the-domain} switches]."),
+    ("Add or remove/Add", "The domain tool adds area[; {add-to-the-domain} switches]."),
     (
         "Boundary treatment/On outline",
         "Moves nodes onto the outline, with all angles between 18.4° and 143.2°.",
@@ -210,11 +221,11 @@ static SENTENCES: [(&str, &str); 218] = [
         "Reads polygons from a GeoJSON file as the domain of this document, and keeps the paint.",
     ),
     ("Whole rectangle", "Makes the whole rectangle the domain."),
-    ("What a click does/Select", "A click selects a piece of the boundary; S switches."),
-    ("What a click does/Split", "A click ends a piece of the boundary there; S switches."),
+    ("What a click does/Select", "A click selects a piece of the boundary[; {select-or-split} switches]."),
+    ("What a click does/Split", "A click ends a piece of the boundary there[; {select-or-split} switches]."),
     ("Join with next", "Makes one piece of this one and the next along the boundary."),
     ("Name", "Name of the piece in files."),
-    ("Edges", "Draws the edges of the triangles; G switches."),
+    ("Edges", "Draws the edges of the triangles[; {edges} switches]."),
     ("Coordinates", "Draws the coordinates along two sides of the canvas, in the unit of the document."),
     ("Scale bar", "Draws a bar whose length on the canvas is written on it, in the unit of the document."),
     (
@@ -224,7 +235,7 @@ static SENTENCES: [(&str, &str); 218] = [
     ("Theme/Dark", "Light text on a dark window."),
     ("Theme/Light", "Dark text on a light window."),
     ("Theme/Desktop", "Dark or light, as the desktop is set."),
-    ("Plot", "Which figures of the mesh, or which times, are plotted; F9 opens this panel."),
+    ("Plot", "Which figures of the mesh, or which times, are plotted[; {show-the-plots} opens this panel]."),
     (
         "Deepest level",
         "The finest mesh that is measured: the report goes to level 13 with 2,113,944 triangles.",
@@ -258,7 +269,7 @@ static SENTENCES: [(&str, &str); 218] = [
     ("Swap start and goal", "Lets the path go the other way."),
     (
         "Delete place",
-        "Removes the selected place in between, or the path of a selected start or goal; Delete does so too.",
+        "Removes the selected place in between, or the path of a selected start or goal[; {delete-the-selected-place-of-a-path} does so too].",
     ),
     ("Delete all paths", "Removes all paths of the document."),
     (
@@ -275,9 +286,18 @@ static SENTENCES: [(&str, &str); 218] = [
     ),
     ("Use the layer's mask", "Keeps paths out of the polygons of the selected layer's mask."),
     ("Remove keep-out region", "Lets paths through this region again."),
-    ("Pin", "Marks the point and follows its triangle and values through every edit; Shift+P."),
-    ("Pin the query", "Marks the queried point and follows its triangle and values; Shift+P."),
-    ("Delete pin", "Removes the selected pin; Delete does so too while the query tool is selected."),
+    (
+        "Pin",
+        "Marks the point and follows its triangle and values through every edit[; {pin-the-queried-point}].",
+    ),
+    (
+        "Pin the query",
+        "Marks the queried point and follows its triangle and values[; {pin-the-queried-point}].",
+    ),
+    (
+        "Delete pin",
+        "Removes the selected pin[; {delete-the-selected-pin} does so too while the query tool is selected].",
+    ),
     ("Delete all pins", "Removes all pins of the document."),
     (
         "Copy table",
@@ -378,14 +398,16 @@ pub fn sentence(name: &str) -> &'static str {
 ///
 /// It appears beside the panel that the control is in, so that it covers no other control.
 pub fn explain(ui: &Ui, response: Response, text: &str) -> Response {
-    explain_with(ui, response, text, |ui| drop(ui.label(text)))
+    explain_with(ui, response, text, |ui| drop(ui.label(with_keys(ui.ctx(), text).into_owned())))
 }
 
-/// Explains a widget as [`explain`] does, with `contents` in the tooltip at the pointer.
+/// Explains a widget as [`explain`] does, also with entries in place of their keys, with `contents` in the
+/// tooltip at the pointer.
 pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOnce(&mut Ui)) -> Response {
     if text.is_empty() {
         return response;
     }
+    let text = &*with_keys(ui.ctx(), text);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(text));
     let mut tooltip = Tooltip::for_enabled(&response);
     if let Some((beside, align)) = place(ui.clip_rect(), ui.ctx().content_rect(), response.rect) {
@@ -395,8 +417,8 @@ pub fn explain_with(ui: &Ui, response: Response, text: &str, contents: impl FnOn
     response
 }
 
-/// Returns the place of the tooltip or a message of a control at `rect`, if its panel is at the left or right edge of the
-/// window.
+/// Returns the place of the tooltip or a message of a control at `rect`, if its panel is at the left or right
+/// edge of the window.
 pub(super) fn place(panel: Rect, window: Rect, rect: Rect) -> Option<(Rect, RectAlign)> {
     let at_right = panel.right() > window.right() - EDGE && panel.left() > window.center().x;
     let at_left = panel.left() < window.left() + EDGE && panel.right() < window.center().x;

@@ -51,6 +51,7 @@ mod stamp;
 pub mod stl;
 pub mod svg;
 mod table;
+mod text_file;
 pub mod threats;
 mod triangle_pieces;
 mod values;
@@ -73,6 +74,7 @@ use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
 pub use raster_file::{RasterFormat, RasterFormatSpec, ReadRaster};
 pub use stamp::{FileStamp, Stamping};
+pub use text_file::read_text;
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 7] =

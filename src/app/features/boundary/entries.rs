@@ -17,7 +17,11 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     ];
     if tools.tool == &BOUNDARY {
         let other = if tools.boundary.mode == split { select } else { split };
-        items.push(item("Select or split", BoundaryCommand::Mode(other)).key(Key::S));
+        items.push(
+            item("Select or split", BoundaryCommand::Mode(other))
+                .key(Key::S)
+                .only("with the boundary tool", true),
+        );
         items.push(item("Join the piece with the next", BoundaryCommand::Join));
     }
     // The menu has what the selected tool does.

@@ -7,7 +7,7 @@ use super::{BOUNDARY_OPTIONS, BoundaryCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
 use crate::app::theme::font;
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 
@@ -37,9 +37,9 @@ pub static BOUNDARY: ToolSpec = ToolSpec {
 
 const HINT: &[Hint] = &[
     Text("Click a piece of the boundary to name it"),
-    HintKey("S"),
+    KeyOf("select-or-split"),
     Text("select or split"),
-    HintKey("Ctrl+Z"),
+    KeyOf("undo"),
     Text("undo"),
 ];
 

@@ -22,7 +22,11 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
     ];
     if !tools.domain.corners.is_empty() {
-        items.push(item("Close the polygon", DomainCommand::ClosePolygon).key(Key::Enter));
+        items.push(
+            item("Close the polygon", DomainCommand::ClosePolygon)
+                .key(Key::Enter)
+                .only("while a polygon is drawn", true),
+        );
     }
     // The menu has what the selected tool does.
     let is_tool = tools.tool == &DOMAIN;

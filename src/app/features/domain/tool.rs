@@ -7,7 +7,7 @@ use super::{DOMAIN_OPTIONS, DomainCommand};
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks};
 use crate::app::tools::Tools;
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_mesh::geometry::Rect as WorldRect;
@@ -51,11 +51,11 @@ const FRAME_HINT: &[Hint] =
     &[Text("Drag a rectangle: the coarse grid covers it, and cuts polygons off at its sides")];
 const HINT: &[Hint] = &[
     Text("Cut the domain: brush, rectangle or polygon"),
-    HintKey("X"),
+    KeyOf("add-to-the-domain"),
     Text("add or remove"),
     HintKey("Alt"),
     Text("the opposite"),
-    HintKey("Ctrl+Z"),
+    KeyOf("undo"),
     Text("undo"),
 ];
 

@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{ExploreCommand, InspectCommand, TreeStep};
 use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu};
+use crate::app::kit::{CatalogItem, DIGITS, FrameState, Menu, QUERYING};
 
 /// To neighbours, and through the bisection tree. The menu has what the selected tool does.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
@@ -23,7 +23,7 @@ fn neighbours(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
         let item =
             CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::QueryNeighbour(place)))
                 .enabled(is_queried);
-        let item = if has_keys { item.key(DIGITS[place]) } else { item };
+        let item = item.key(DIGITS[place]).only(QUERYING, has_keys);
         if place == 0 { item.group() } else { item }
     })
 }
@@ -38,7 +38,7 @@ fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
         let item =
             CatalogItem::new(Menu::Tool, title, Command::Inspect(InspectCommand::FollowNeighbour(place)))
                 .enabled(is_queried);
-        if has_keys { item.keys(Modifiers::SHIFT, DIGITS[place]) } else { item }
+        item.keys(Modifiers::SHIFT, DIGITS[place]).only(QUERYING, has_keys)
     })
 }
 
@@ -65,7 +65,7 @@ fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use
         let item = CatalogItem::new(Menu::Tool, title, command).enabled(leads);
         // The others have buttons in the tab Inspect.
         let item = item.in_menu(has_keys && place < STEPS_IN_MENU);
-        let item = if has_keys { item.keys(modifiers, key) } else { item };
+        let item = item.keys(modifiers, key).only(QUERYING, has_keys);
         if place == 0 { item.group() } else { item }
     })
 }

@@ -5,7 +5,7 @@ use eframe::egui::Key;
 use super::QUERY_OPTIONS;
 use crate::app::command::{Command, InspectCommand, PinsCommand};
 use crate::app::kit::{SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, KeyOf, Text};
 use crate::app::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
@@ -30,14 +30,14 @@ pub static QUERY: ToolSpec = ToolSpec {
 
 const HINT: &[Hint] = &[
     Text("Click a triangle to inspect it"),
-    HintKey("Shift+P"),
+    KeyOf("pin-the-queried-point"),
     Text("pin"),
-    HintKey("1"),
-    HintKey("2"),
-    HintKey("3"),
+    KeyOf("go-to-the-bisection-neighbour"),
+    KeyOf("go-to-the-second-neighbour"),
+    KeyOf("go-to-the-third-neighbour"),
     Text("neighbours"),
-    HintKey("Ctrl+C"),
+    KeyOf("copy-the-values-of-the-triangle"),
     Text("copy values"),
-    HintKey("Esc"),
+    KeyOf("cancel-or-deselect"),
     Text("deselect"),
 ];

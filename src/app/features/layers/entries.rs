@@ -5,7 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use super::LayerCommand;
 use super::selected::combine_name;
 use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, FrameState, Menu, kinds_of_layers};
+use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING, kinds_of_layers};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 
 /// Returns the stack of layers, and the selected one.
@@ -90,10 +90,12 @@ fn stack(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let move_to = |title: &str, place: Option<usize>| {
         item(title, LayerCommand::Move(id, place.unwrap_or(0))).enabled(place.is_some())
     };
+    // With the query tool these keys lead through the bisection tree.
+    let has_keys = !state.tools.tool.queries;
     vec![
-        select("Select the layer above", next_above).key(Key::PageUp).group(),
-        select("Select the layer below", next_below).key(Key::PageDown),
-        move_to("Move layer up", above).ctrl(Key::CloseBracket),
-        move_to("Move layer down", below).ctrl(Key::OpenBracket),
+        select("Select the layer above", next_above).key(Key::PageUp).only(NOT_QUERYING, has_keys).group(),
+        select("Select the layer below", next_below).key(Key::PageDown).only(NOT_QUERYING, has_keys),
+        move_to("Move layer up", above).ctrl(Key::ArrowUp).ctrl(Key::CloseBracket),
+        move_to("Move layer down", below).ctrl(Key::ArrowDown).ctrl(Key::OpenBracket),
     ]
 }

@@ -7,7 +7,7 @@ use super::{BRUSH_OPTIONS, BrushCommand};
 use crate::app::command::Command;
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
 use crate::app::tools::{PaintKind, Tools};
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
@@ -29,12 +29,12 @@ const LONGEST_STRING: f32 = 80.0;
 
 const PAINT_RISK: &[Hint] = &[
     Text("Drag to paint risk: the mesh follows"),
-    HintKey("["),
-    HintKey("]"),
+    KeyOf("smaller-brush"),
+    KeyOf("larger-brush"),
     Text("size"),
-    HintKey("E"),
+    KeyOf("eraser"),
     Text("erase"),
-    HintKey("Q"),
+    KeyOf("query"),
     Text("query"),
     Text("wheel zooms"),
     HintKey("Space"),
@@ -42,8 +42,8 @@ const PAINT_RISK: &[Hint] = &[
 ];
 const PAINT_DIAMETER: &[Hint] = &[
     Text("Drag to paint a target diameter"),
-    HintKey("["),
-    HintKey("]"),
+    KeyOf("smaller-brush"),
+    KeyOf("larger-brush"),
     Text("size"),
     HintKey("Alt"),
     Text("click picks a diameter"),

@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers};
 
 use super::{BrushCommand, BrushMode, ERASER, GESTURES};
 use crate::app::command::Command;
-use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu};
+use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
 use crate::app::tools::{PaintKind, Tools};
 
 /// The brush, gestures that are hard to find, and what the digits set.
@@ -28,11 +28,13 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
     let mirror = |title: &str, command: fn(bool) -> BrushCommand, on: bool| {
         CatalogItem::new(InTool, title, Command::Brush(command(!on))).checked(on).palette_only()
     };
-    let harder = |title: &str, step: f64, key| {
+    let harder = |title: &str, step: f64, key, bracket| {
         let hardness = (tools.hardness + step).clamp(0.0, 1.0);
         CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
             .keys(Modifiers::SHIFT, key)
+            .keys(Modifiers::SHIFT, bracket)
     };
+    // I is above J on every keyboard; brackets need AltGr on many.
     vec![
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
@@ -42,12 +44,14 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
         mirror("Mirror strokes left and right", BrushCommand::MirrorX, tools.mirrored[0]).group(),
         mirror("Mirror strokes above and below", BrushCommand::MirrorY, tools.mirrored[1]),
         CatalogItem::new(InTool, "Larger brush", Command::Brush(BrushCommand::Scale(1.15)))
+            .key(Key::I)
             .key(Key::CloseBracket)
             .group(),
         CatalogItem::new(InTool, "Smaller brush", Command::Brush(BrushCommand::Scale(1.0 / 1.15)))
+            .key(Key::J)
             .key(Key::OpenBracket),
-        harder("Harder brush", 0.1, Key::CloseCurlyBracket),
-        harder("Softer brush", -0.1, Key::OpenCurlyBracket),
+        harder("Harder brush", 0.1, Key::I, Key::CloseCurlyBracket),
+        harder("Softer brush", -0.1, Key::J, Key::OpenCurlyBracket),
     ]
 }
 
@@ -66,7 +70,7 @@ fn amounts(tools: &Tools) -> impl Iterator<Item = CatalogItem> + use<> {
             (format!("Strength {} %", 10 * (i + 1)), BrushCommand::Strength(share))
         };
         let item = CatalogItem::new(Menu::Tool, title, Command::Brush(command)).enabled(is_share);
-        let item = if has_keys { item.key(key) } else { item };
+        let item = item.id(format!("amount-{}", i + 1)).key(key).only(NOT_QUERYING, has_keys);
         if i == 0 { item.group() } else { item }
     })
 }

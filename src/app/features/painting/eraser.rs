@@ -6,7 +6,7 @@ use super::ERASER_OPTIONS;
 use super::brush::{line_to_here, press_to_paint};
 use crate::app::kit::{Tab, ToolSpec};
 use crate::app::tools::Tools;
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::paint::{Brush, Medium};
 
@@ -25,9 +25,9 @@ pub static ERASER: ToolSpec = ToolSpec {
 
 const HINT: &[Hint] = &[
     Text("Drag to remove paint: the mesh coarsens"),
-    HintKey("B"),
+    KeyOf("brush"),
     Text("brush"),
-    HintKey("Ctrl+Z"),
+    KeyOf("undo"),
     Text("undo"),
 ];
 

@@ -121,7 +121,8 @@ fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let mut hardness = state.tools.hardness;
     let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
     let slider = slider.default(Tools::for_domain(1.0, 0.0).hardness);
-    let help = "Share of the radius with full strength, 0 to 1. Shift+[ and Shift+] change it.";
+    let help =
+        "Share of the radius with full strength, 0 to 1[; {softer-brush} and {harder-brush} change it].";
     if slider.help(help).show(ui).changed() {
         send(BrushCommand::Hardness(hardness), commands);
     }

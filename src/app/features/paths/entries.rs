@@ -20,7 +20,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let delete =
         item("Delete the selected place of a path", PathCommand::Delete).enabled(is_selected).group();
     let items = vec![
-        if state.tools.tool == &PATH { delete.key(Key::Delete) } else { delete },
+        delete.key(Key::Delete).only("with the path tool", state.tools.tool == &PATH),
         item("Swap start and goal", PathCommand::Swap).enabled(has_paths),
         item("Delete all paths", PathCommand::DeleteAll).enabled(has_paths),
         cost("Weigh length and risk of paths", CostKind::Weights).group(),

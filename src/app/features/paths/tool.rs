@@ -7,7 +7,7 @@ use super::colors::path_color;
 use super::{PATH_OPTIONS, PathCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::PathPlan;
 
@@ -43,10 +43,11 @@ const HINT: &[Hint] = &[
     Text("Click the start of a path, then its goal; drag them"),
     HintKey("Ctrl+click"),
     Text("a place in between"),
-    HintKey("Del"),
+    KeyOf("delete-the-selected-place-of-a-path"),
     Text("deletes it"),
 ];
-const GOAL_HINT: &[Hint] = &[Text("Click the goal of the path"), HintKey("Esc"), Text("no path")];
+const GOAL_HINT: &[Hint] =
+    &[Text("Click the goal of the path"), KeyOf("cancel-or-deselect"), Text("no path")];
 
 /// How far from a place a press still takes hold of it, in points.
 const REACH_POINTS: f64 = 10.0;

@@ -6,7 +6,7 @@ use glam::DVec2;
 use super::PinsCommand;
 use super::files::EXPORT_PINS;
 use crate::app::command::{Command, FileCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu};
+use crate::app::kit::{CatalogItem, FrameState, Menu, QUERYING};
 
 /// Entries of the menu of the canvas, with the tool that moves pins.
 pub fn entries_at(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
@@ -25,8 +25,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let pins = &state.session.document().settings().pins;
     let has_pins = !pins.is_empty();
     let delete = item("Delete the selected pin", Command::Pins(PinsCommand::Delete));
-    let delete = if state.tools.tool.queries { delete.key(Key::Delete) } else { delete };
     let is_tool = state.tools.tool.queries;
+    let delete = delete.key(Key::Delete).only(QUERYING, is_tool);
     let items = vec![
         item("Pin the queried point", Command::Pins(PinsCommand::Pin))
             .keys(Modifiers::SHIFT, Key::P)

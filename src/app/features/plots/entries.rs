@@ -24,6 +24,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     } else {
         of_method("Measure the time per triangle", PlotsCommand::Measure)
     };
+    let measure = measure.id("measure-the-time-per-triangle");
     let is_known = plots.is_known();
     let export = CatalogItem::new(Menu::View, "Export plot…", Command::File(FileCommand::Ask(&EXPORT_PLOT)));
     let copy = item("Copy the numbers of the plot", PlotsCommand::Copy);

@@ -26,14 +26,14 @@ pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
             (Icon::PLAY, "Play the steps")
         };
         let buttons = [
-            (Icon::FIRST, "First step", "Shift+←", position > 0, StepCommand::GoTo(0)),
-            (Icon::BACK, "Previous step", "←", position > 0, StepCommand::Move(-1)),
-            (play.0, play.1, "Space", count > 0, StepCommand::TogglePlay),
-            (Icon::FORWARD, "Next step", "→", position < count, StepCommand::Move(1)),
-            (Icon::LAST, "Last step", "Shift+→", position < count, StepCommand::GoTo(count)),
+            (Icon::FIRST, "First step", "First step", position > 0, StepCommand::GoTo(0)),
+            (Icon::BACK, "Previous step", "Previous step", position > 0, StepCommand::Move(-1)),
+            (play.0, play.1, "Play the steps", count > 0, StepCommand::TogglePlay),
+            (Icon::FORWARD, "Next step", "Next step", position < count, StepCommand::Move(1)),
+            (Icon::LAST, "Last step", "Last step", position < count, StepCommand::GoTo(count)),
         ];
-        for (icon, name, key, is_enabled, command) in buttons {
-            let button = ToolButton::new(icon, name).key(key);
+        for (icon, name, entry, is_enabled, command) in buttons {
+            let button = ToolButton::new(icon, name).entry(entry);
             if ui.add_enabled_ui(is_enabled, |ui| button.show(ui)).inner.clicked() {
                 send(command);
             }

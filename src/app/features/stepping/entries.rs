@@ -7,6 +7,9 @@ use super::files::EXPORT_STEPS;
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
+/// The situation of keys that work while steps are shown.
+const STEPPING: &str = "while steps are shown";
+
 /// How to begin; and once begun, how to move.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let item = |title: &str, command| CatalogItem::new(Menu::Method, title, Command::Steps(command));
@@ -18,13 +21,27 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let play = if steps.is_playing() { "Pause the steps" } else { "Play the steps" };
     vec![
         item(title, StepCommand::Leave).key(Key::F10).checked(true).group(),
-        item("Next step", StepCommand::Move(1)).key(Key::ArrowRight).enabled(position < count),
-        item("Previous step", StepCommand::Move(-1)).key(Key::ArrowLeft).enabled(position > 0),
+        item("Next step", StepCommand::Move(1))
+            .key(Key::ArrowRight)
+            .only(STEPPING, true)
+            .enabled(position < count),
+        item("Previous step", StepCommand::Move(-1))
+            .key(Key::ArrowLeft)
+            .only(STEPPING, true)
+            .enabled(position > 0),
         item("Last step", StepCommand::GoTo(count))
             .keys(Modifiers::SHIFT, Key::ArrowRight)
+            .only(STEPPING, true)
             .enabled(position < count),
-        item("First step", StepCommand::GoTo(0)).keys(Modifiers::SHIFT, Key::ArrowLeft).enabled(position > 0),
-        item(play, StepCommand::TogglePlay).key(Key::Space).enabled(count > 0),
+        item("First step", StepCommand::GoTo(0))
+            .keys(Modifiers::SHIFT, Key::ArrowLeft)
+            .only(STEPPING, true)
+            .enabled(position > 0),
+        item(play, StepCommand::TogglePlay)
+            .id("play-the-steps")
+            .key(Key::Space)
+            .only(STEPPING, true)
+            .enabled(count > 0),
         item("Only bisections", StepCommand::OnlyBisections(!steps.only_bisections))
             .checked(steps.only_bisections),
         CatalogItem::new(

@@ -19,6 +19,9 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     }
     let is_selected = state.features.threats.selected_in(state.session.document()).is_some();
     let delete = Command::Threats(ThreatsCommand::Delete);
-    let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete).key(Key::Delete).group();
+    let item = CatalogItem::new(Menu::Tool, "Delete the selected threat", delete)
+        .key(Key::Delete)
+        .only("with the threats tool", true)
+        .group();
     vec![item.enabled(is_selected), open, save]
 }

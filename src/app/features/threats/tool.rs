@@ -7,7 +7,7 @@ use super::options::THREAT_OPTIONS;
 use super::{ThreatGrip, threats_layer};
 use crate::app::command::{Command, ThreatsCommand};
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
-use crate::app::widgets::Hint::{self, Key as HintKey, Text};
+use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::layers::Threat;
 
@@ -40,7 +40,7 @@ const HINT: &[Hint] = &[
     Text("Click to place a threat, drag its middle or its ring"),
     HintKey("Ctrl+click"),
     Text("always places one"),
-    HintKey("Del"),
+    KeyOf("delete-the-selected-threat"),
     Text("deletes it"),
 ];
 

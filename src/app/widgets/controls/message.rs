@@ -9,7 +9,8 @@ use crate::app::widgets::tips;
 const WIDTH: f32 = 260.0;
 
 /// Shows a sentence about the contents of `field`: beside the panel that the field is in, or else above the
-/// field. It covers no control and takes no room, so that nothing moves under the pointer, and takes no click.
+/// field. It covers no control and takes no room, so that nothing moves under the pointer, and takes no
+/// click.
 pub(super) fn message(ui: &Ui, id: Id, field: Rect, text: &str) {
     if !ui.is_rect_visible(field) {
         return;

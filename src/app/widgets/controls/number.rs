@@ -39,7 +39,8 @@ impl<'a> NumberRow<'a> {
         self
     }
 
-    /// Sets the range: a number outside `range` becomes its nearer end, and a sentence beside the panel says so.
+    /// Sets the range: a number outside `range` becomes its nearer end, and a sentence beside the panel says
+    /// so.
     pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
         self

@@ -11,6 +11,7 @@ use super::number_input::{Entered, NumberInput, PX_PER_STEP};
 use super::number_menu::{WAYS, number_menu, pasted};
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::shown_keys::with_keys;
 use crate::app::widgets::{tips, typed};
 
 /// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
@@ -20,10 +21,10 @@ const WHEEL_PX: f32 = 40.0;
 
 /// A number within a control.
 ///
-/// A click, a double click or Tab turns it into a text field with the whole number selected; the arrow keys Up
-/// and Down change it there. Dragging it sideways changes it, with Shift ten times finer; so does the wheel with
-/// Ctrl while the pointer is over it. A secondary click opens a menu with the default, Copy and Paste. If a
-/// number could not be taken as it was typed, a sentence says so; [`Self::show_remark`] shows it
+/// A click, a double click or Tab turns it into a text field with the whole number selected; the arrow keys
+/// Up and Down change it there. Dragging it sideways changes it, with Shift ten times finer; so does the
+/// wheel with Ctrl while the pointer is over it. A secondary click opens a menu with the default, Copy and
+/// Paste. If a number could not be taken as it was typed, a sentence says so; [`Self::show_remark`] shows it
 /// beside the panel.
 pub(super) struct NumberCell<'a> {
     /// Keeps the focus while the cell moves.
@@ -77,8 +78,8 @@ impl NumberCell<'_> {
         (around | response, typed.or(pasted).or(moved))
     }
 
-    /// Lets the number of the cell `id` be typed from the next frame on: in this one, a click elsewhere would take
-    /// the focus away again.
+    /// Lets the number of the cell `id` be typed from the next frame on: in this one, a click elsewhere would
+    /// take the focus away again.
     pub fn edit_soon(ui: &Ui, id: Id) {
         ui.data_mut(|data| data.insert_temp(id.with("edit soon"), ()));
         ui.ctx().request_repaint();
@@ -143,8 +144,8 @@ impl NumberCell<'_> {
         (response, taken.or(reset).filter(|value| *value != self.input.value))
     }
 
-    /// Adds the meaning of the number to its tooltip, and how it is changed. A remark is where the tooltip would
-    /// be.
+    /// Adds the meaning of the number to its tooltip, and how it is changed. A remark is where the tooltip
+    /// would be.
     fn explain(&self, ui: &Ui, response: Response) -> Response {
         if ui.data(|data| data.get_temp::<Remark>(self.id.with("remark"))).is_some() {
             return response;
@@ -152,7 +153,7 @@ impl NumberCell<'_> {
         let text = [self.help, WAYS].join(if self.help.is_empty() { "" } else { " " });
         tips::explain_with(ui, response, &text, |ui| {
             if !self.help.is_empty() {
-                ui.label(self.help);
+                ui.label(with_keys(ui.ctx(), self.help));
             }
             ui.label(egui::RichText::new(WAYS).font(font::caption()).color(tokens(ui).label));
         })
@@ -171,8 +172,8 @@ impl NumberCell<'_> {
         response.drag_stopped()
     }
 
-    /// Follows the wheel while Ctrl is held; returns whether it came to rest. Without Ctrl the wheel scrolls the
-    /// panel, so that scrolling never changes a number.
+    /// Follows the wheel while Ctrl is held; returns whether it came to rest. Without Ctrl the wheel scrolls
+    /// the panel, so that scrolling never changes a number.
     fn turn(&self, ui: &Ui, response: &Response, moving: &mut Option<Moving>) -> bool {
         let now = ui.input(|input| input.time);
         let steps = if response.hovered() { ui.input(wheel_steps) } else { 0.0 };

@@ -4,6 +4,7 @@ use eframe::egui::{self, Color32, Rect, Response, Role, Sense, Ui, Vec2, WidgetI
 
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::shown_keys::{key_of, with_keys};
 use crate::app::widgets::tips;
 use crate::app::widgets::vanished::guard;
 
@@ -13,6 +14,7 @@ pub struct ToolButton<'a> {
     icon: Icon,
     name: &'a str,
     key: &'a str,
+    entry: &'a str,
     selected: bool,
     size: f32,
 }
@@ -20,7 +22,7 @@ pub struct ToolButton<'a> {
 impl<'a> ToolButton<'a> {
     /// Creates a button of the tool strip, 40 points wide.
     pub fn new(icon: Icon, name: &'a str) -> Self {
-        Self { icon, name, key: "", selected: false, size: metrics::TOOL }
+        Self { icon, name, key: "", entry: "", selected: false, size: metrics::TOOL }
     }
 
     /// Returns a button within a row, 24 points wide.
@@ -28,9 +30,15 @@ impl<'a> ToolButton<'a> {
         Self { size: metrics::ROW, ..Self::new(icon, name) }
     }
 
-    /// Returns the shortcut shown in the tooltip: `B`, `Ctrl+Z`.
+    /// Returns a key that nobody can change, for the tooltip: `Alt+↑`.
     pub fn key(mut self, key: &'a str) -> Self {
         self.key = key;
+        self
+    }
+
+    /// Sets the entry of a menu that does the same, by its id or title: the tooltip shows its key.
+    pub fn entry(mut self, entry: &'a str) -> Self {
+        self.entry = entry;
         self
     }
 
@@ -69,12 +77,15 @@ impl<'a> ToolButton<'a> {
 
     fn tooltip(&self, ui: &mut Ui) {
         let name = paint::line(ui, self.name, font::body(), tokens(ui).text);
-        let keys = if self.key.is_empty() { 0.0 } else { 12.0 + paint::shortcut_width(ui, self.key) };
+        let key = key_of(ui.ctx(), &self.entry.to_lowercase().replace(' ', "-"));
+        let key = key.unwrap_or_else(|| self.key.to_owned());
+        let keys = if key.is_empty() { 0.0 } else { 12.0 + paint::shortcut_width(ui, &key) };
         let (rect, _) = ui.allocate_exact_size(vec2(name.size().x + keys, 20.0), Sense::hover());
         paint::at_left(ui, rect, name);
-        paint::shortcut_at_right(ui, rect, self.key);
+        paint::shortcut_at_right(ui, rect, &key);
         let text = tips::sentence(self.name);
         if !text.is_empty() {
+            let text = with_keys(ui.ctx(), text);
             ui.label(egui::RichText::new(text).color(tokens(ui).label));
         }
     }
@@ -112,8 +123,8 @@ impl<'a> ActionButton<'a> {
         self
     }
 
-    /// Says that the button disappears by itself, for example when work ends. Then its place takes no click for
-    /// half a second.
+    /// Says that the button disappears by itself, for example when work ends. Then its place takes no click
+    /// for half a second.
     pub fn vanishing(mut self) -> Self {
         self.vanishes = true;
         self

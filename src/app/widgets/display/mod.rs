@@ -14,7 +14,7 @@ pub use chip::{Chip, chips};
 pub use empty::empty_state;
 pub use file_row::FileRow;
 pub use icon::Icon;
-pub use key_row::key_row;
+pub use key_row::{key_row, key_row_button};
 pub use levels::{LevelLegend, LevelRow};
 pub use plot::{plot_picker, plot_view};
 pub use status::StatusCell;

@@ -6,6 +6,7 @@ use eframe::egui::{
 
 use super::{Icon, paint};
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::vanished::guard;
 use crate::app::widgets::{ActionButton, ToolButton};
 
 /// The kinds of [`Banner`].
@@ -95,8 +96,12 @@ impl<'a> Banner<'a> {
     fn buttons(&self, ui: &mut Ui, rect: Rect) -> BannerAnswer {
         let builder = egui::UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center));
         let mut child = ui.new_child(builder);
-        if !self.stands && ToolButton::small(Icon::CLOSE, "Dismiss").show(&mut child).clicked() {
-            return BannerAnswer::Dismissed;
+        if !self.stands {
+            let dismiss = ToolButton::small(Icon::CLOSE, "Dismiss").show(&mut child);
+            guard(&dismiss);
+            if dismiss.clicked() {
+                return BannerAnswer::Dismissed;
+            }
         }
         match self.action {
             Some(action) if child.add(ActionButton::new(action).vanishing()).clicked() => BannerAnswer::Acted,

@@ -7,6 +7,7 @@ use eframe::egui::{
 
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::shown_keys::key_of;
 
 /// A text at the left of `rect`, ended by `…` where it is too long.
 pub fn elided_text(ui: &Ui, rect: Rect, text: &str, color: Color32) {
@@ -47,6 +48,9 @@ pub enum Hint<'a> {
     Text(&'a str),
     /// A key or a shortcut, drawn as keys.
     Key(&'a str),
+    /// The key of an entry of a menu, by the id of the entry. Without a key it is left out, and so are the
+    /// words about it.
+    KeyOf(&'a str),
 }
 
 /// Returns the next useful thing for the current tool, over the canvas: `Drag to paint risk · [ ] size · …`.
@@ -55,7 +59,9 @@ pub enum Hint<'a> {
 /// `align` says which point of the pill is at `anchor`; it is moved to stay within `bounds`. Pieces that do
 /// not fit into `bounds` are left out from the end.
 pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hint<'_>]) -> Response {
-    let shown = fitting(ui, hints, bounds.width() - 24.0);
+    let hints = with_keys(ui, hints);
+    let hints: Vec<Hint<'_>> = hints.iter().map(Piece::as_hint).collect();
+    let shown = fitting(ui, &hints, bounds.width() - 24.0);
     let size = vec2(width(ui, shown) + 24.0, 32.0).ceil();
     let rect = within(align.anchor_size(anchor, size), bounds).round_to_pixels(ui.pixels_per_point());
     let response = ui.interact(rect, ui.scope_id().with("hint pill"), Sense::hover());
@@ -75,6 +81,42 @@ pub fn hint_pill(ui: &Ui, anchor: Pos2, align: Align2, bounds: Rect, hints: &[Hi
         at.x += gap;
     }
     response
+}
+
+/// A part of a hint with the key that works now.
+enum Piece<'a> {
+    Text(&'a str),
+    Key(String),
+}
+
+impl Piece<'_> {
+    fn as_hint(&self) -> Hint<'_> {
+        match self {
+            Self::Text(text) => Hint::Text(text),
+            Self::Key(key) => Hint::Key(key),
+        }
+    }
+}
+
+/// Returns the hints with the keys of entries. Words about entries none of which has a key are left out.
+fn with_keys<'a>(ui: &Ui, hints: &[Hint<'a>]) -> Vec<Piece<'a>> {
+    let mut pieces = Vec::new();
+    let mut lacks_key = false;
+    for hint in hints {
+        match *hint {
+            Hint::Text(_) if lacks_key && !matches!(pieces.last(), Some(Piece::Key(_))) => lacks_key = false,
+            Hint::Text(text) => {
+                pieces.push(Piece::Text(text));
+                lacks_key = false;
+            }
+            Hint::Key(key) => pieces.push(Piece::Key(key.to_owned())),
+            Hint::KeyOf(entry) => match key_of(ui.ctx(), entry) {
+                Some(key) => pieces.push(Piece::Key(key)),
+                None => lacks_key = true,
+            },
+        }
+    }
+    pieces
 }
 
 /// Space between keys, and between a key and what it does.
@@ -104,7 +146,7 @@ fn within(rect: Rect, bounds: Rect) -> Rect {
 fn piece_width(ui: &Ui, hint: &Hint<'_>) -> f32 {
     match hint {
         Hint::Text(text) => paint::line(ui, text, font::body(), tokens(ui).label).size().x,
-        Hint::Key(key) => paint::shortcut_width(ui, key),
+        Hint::Key(key) | Hint::KeyOf(key) => paint::shortcut_width(ui, key),
     }
 }
 
@@ -128,7 +170,7 @@ fn paint_piece(ui: &Ui, at: Pos2, hint: &Hint<'_>) -> f32 {
     let rect = Rect::from_min_size(at - vec2(0.0, 10.0), vec2(width, 20.0));
     match hint {
         Hint::Text(text) => paint::at_left(ui, rect, paint::line(ui, text, font::body(), tokens(ui).label)),
-        Hint::Key(key) => paint::shortcut_at_right(ui, rect, key),
+        Hint::Key(key) | Hint::KeyOf(key) => paint::shortcut_at_right(ui, rect, key),
     }
     width
 }
@@ -137,7 +179,7 @@ fn spoken(hints: &[Hint<'_>]) -> String {
     let words: Vec<_> = hints
         .iter()
         .map(|hint| match hint {
-            Hint::Text(text) | Hint::Key(text) => *text,
+            Hint::Text(text) | Hint::Key(text) | Hint::KeyOf(text) => *text,
         })
         .collect();
     words.join(" ")

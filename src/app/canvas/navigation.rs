@@ -1,0 +1,63 @@
+//! Moving the view by the wheel, and by the arrow keys while the canvas has the focus.
+
+use eframe::egui::{Context, Event, EventFilter, Id, Key, Response, Stroke, StrokeKind, Ui};
+use glam::{DVec2, dvec2};
+
+use crate::app::command::{Command, ViewCommand};
+use crate::app::kit::Pointer;
+use crate::app::theme::tokens;
+
+/// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
+const ZOOM_PER_POINT: f64 = 0.004;
+/// Points that an arrow key moves the view; with Shift an eighth of it.
+const STEP_POINTS: f64 = 64.0;
+
+/// Zooms about the pointer by the wheel or by pinching.
+pub fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    let (scrolled, pinched, at) = ctx.input(|input| {
+        let scrolled = f64::from(input.smooth_scroll_delta().y);
+        (scrolled, f64::from(input.zoom_delta()), input.pointer.hover_pos())
+    });
+    let factor = pinched * (scrolled * ZOOM_PER_POINT).exp();
+    if let Some(at) = at
+        && factor != 1.0
+    {
+        let px = pointer.px(at);
+        pointer.camera = pointer.camera.zoomed(factor, px);
+        commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
+    }
+}
+
+/// Returns the movement of the picture, in pixels, that arrow keys ask for in this frame.
+pub fn movement(ctx: &Context, canvas: Id) -> Option<DVec2> {
+    if !ctx.memory(|memory| memory.has_focus(canvas)) {
+        return None;
+    }
+    let step = STEP_POINTS * f64::from(ctx.pixels_per_point());
+    let moves = ctx.input(|input| input.events.iter().filter_map(direction).sum::<DVec2>());
+    (moves != DVec2::ZERO).then(|| -step * moves)
+}
+
+/// Returns the direction in which a key moves the view, in steps to the right and down.
+fn direction(event: &Event) -> Option<DVec2> {
+    let Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let size = if modifiers.shift { 0.125 } else { 1.0 };
+    let direction = match key {
+        Key::ArrowLeft => dvec2(-1.0, 0.0),
+        Key::ArrowRight => dvec2(1.0, 0.0),
+        Key::ArrowUp => dvec2(0.0, -1.0),
+        Key::ArrowDown => dvec2(0.0, 1.0),
+        _ => return None,
+    };
+    (!modifiers.command && !modifiers.alt).then_some(size * direction)
+}
+
+/// Keeps the arrow keys for the canvas, and shows that it has the focus.
+pub fn show_focus(ui: &Ui, response: &Response) {
+    if response.has_focus() {
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        let edge = Stroke::new(1.5, tokens(ui).accent);
+        ui.painter().rect_stroke(response.rect.shrink(1.0), 2, edge, StrokeKind::Inside);
+    }
+}

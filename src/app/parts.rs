@@ -1,0 +1,90 @@
+//! The parts of the window, between which F6 moves the focus.
+
+use std::collections::BTreeMap;
+
+use eframe::egui::{Context, Id, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
+
+use crate::app::theme::tokens;
+
+/// A part of the window, in the order of the key.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// The bar of menus.
+    Menus,
+    /// The strip of tools.
+    Tools,
+    /// The options of the tool.
+    Strip,
+    /// The canvas.
+    Canvas,
+    /// The dock with the layers.
+    Layers,
+    /// The dock with the tabs, or the panel in its place while steps are shown.
+    Panel,
+    /// The bar below the canvas.
+    Status,
+}
+
+impl Part {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Menus => "Menus",
+            Self::Tools => "Tools",
+            Self::Strip => "Options of the tool",
+            Self::Canvas => "Canvas",
+            Self::Layers => "Layers dock",
+            Self::Panel => "Panel",
+            Self::Status => "Status bar",
+        }
+    }
+
+    fn id(self) -> Id {
+        Id::unique(("part of the window", self.name()))
+    }
+}
+
+/// Where the parts were last shown, with the number of the pass.
+type Shown = BTreeMap<Part, (u64, Rect)>;
+
+fn shown_id() -> Id {
+    Id::unique("parts of the window")
+}
+
+/// Notes a part of the window, before its controls. After F6 it has the focus: a ring shows where, and Tab
+/// leads to its first control.
+pub fn mark(ui: &Ui, part: Part) {
+    let rect = ui.max_rect();
+    let pass = ui.ctx().cumulative_pass_nr();
+    ui.data_mut(|data| data.get_temp_mut_or_default::<Shown>(shown_id()).insert(part, (pass, rect)));
+    if part == Part::Canvas || !ui.memory(|memory| memory.has_focus(part.id())) {
+        return;
+    }
+    let response = ui.interact(rect, part.id(), Sense::focusable_noninteractive());
+    response.widget_info(|| WidgetInfo::labeled(Role::Group, true, part.name()));
+    let ring = rect.intersect(ui.clip_rect()).shrink(1.0);
+    ui.painter().rect_stroke(ring, 2, Stroke::new(1.5, tokens(ui).accent), StrokeKind::Inside);
+}
+
+/// Moves the focus `by` parts, in a circle. The canvas is where keys go while nothing has the focus.
+pub fn focus(ctx: &Context, canvas: Option<Id>, by: i32) {
+    let pass = ctx.cumulative_pass_nr();
+    let shown: Shown = ctx.data(|data| data.get_temp(shown_id())).unwrap_or_default();
+    let parts: Vec<(Part, Rect)> = shown
+        .into_iter()
+        .filter(|(_, (at, _))| at + 2 > pass)
+        .map(|(part, (_, rect))| (part, rect))
+        .collect();
+    let focused = ctx.memory(|memory| memory.focused());
+    let place = focused.and_then(|id| ctx.read_response(id)).map(|response| response.rect.center());
+    let own = place.and_then(|place| parts.iter().position(|(_, rect)| rect.contains(place)));
+    let canvas_at = || parts.iter().position(|(part, _)| *part == Part::Canvas);
+    let Some(from) = own.or_else(canvas_at).filter(|_| !parts.is_empty()) else { return };
+    let to = (from as i32 + by).rem_euclid(parts.len() as i32) as usize;
+    let id = match parts[to].0 {
+        Part::Canvas => canvas,
+        part => Some(part.id()),
+    };
+    if let Some(id) = id {
+        ctx.memory_mut(|memory| memory.request_focus(id));
+    }
+}
