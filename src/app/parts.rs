@@ -53,7 +53,8 @@ fn shown_id() -> Id {
 /// Notes a part of the window, before its controls. After F6 it has the focus: a ring shows where, and Tab
 /// leads to its first control.
 pub fn mark(ui: &Ui, part: Part) {
-    let rect = ui.max_rect();
+    // With its margins.
+    let rect = ui.clip_rect();
     let pass = ui.ctx().cumulative_pass_nr();
     ui.data_mut(|data| data.get_temp_mut_or_default::<Shown>(shown_id()).insert(part, (pass, rect)));
     if part == Part::Canvas || !ui.memory(|memory| memory.has_focus(part.id())) {
@@ -61,8 +62,7 @@ pub fn mark(ui: &Ui, part: Part) {
     }
     let response = ui.interact(rect, part.id(), Sense::focusable_noninteractive());
     response.widget_info(|| WidgetInfo::labeled(Role::Group, true, part.name()));
-    let ring = rect.intersect(ui.clip_rect()).shrink(1.0);
-    ui.painter().rect_stroke(ring, 2, Stroke::new(1.5, tokens(ui).accent), StrokeKind::Inside);
+    ui.painter().rect_stroke(rect.shrink(1.0), 2, Stroke::new(1.5, tokens(ui).accent), StrokeKind::Inside);
 }
 
 /// Moves the focus `by` parts, in a circle. The canvas is where keys go while nothing has the focus.

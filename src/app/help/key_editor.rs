@@ -25,6 +25,8 @@ pub struct KeyEditor {
     capture: Option<Capture>,
     /// A key that was pressed for the open entry and belongs to others.
     taken: Option<KeyboardShortcut>,
+    /// The key whose entries are shown alone.
+    sought: Option<KeyboardShortcut>,
 }
 
 fn id() -> Id {
@@ -58,21 +60,14 @@ impl KeyEditor {
         ui: &mut Ui,
         catalog: &[CatalogItem],
         keymap: &Keymap,
-        query: &mut String,
         commands: &mut Vec<Command>,
     ) {
-        if self.capture == Some(Capture::Search)
-            && let Some(shortcut) = self.captured(ui)
-        {
-            *query = shortcut_text(&shortcut);
+        if self.capture == Some(Capture::Search) {
+            self.sought = self.captured(ui);
         }
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
-            let waits = self.capture == Some(Capture::Search);
-            let search = if waits { "Press a key…" } else { "Search by pressing a key" };
-            if ui.add(ActionButton::new(search)).clicked() {
-                self.begin(ui, Capture::Search);
-            }
+            self.search_button(ui);
             let file = |kind| Command::File(FileCommand::Ask(kind));
             if ui.add(ActionButton::new("Import keys…")).clicked() {
                 commands.push(file(&IMPORT_KEYS));
@@ -88,6 +83,27 @@ impl KeyEditor {
         for sentence in conflicts(catalog) {
             ui.label(RichText::new(sentence).color(tokens(ui).danger));
         }
+    }
+
+    /// Shows the button that waits for a key to search by, and the way back to all entries.
+    fn search_button(&mut self, ui: &mut Ui) {
+        let waits = self.capture == Some(Capture::Search);
+        let search = if waits { "Press a key…" } else { "Search by pressing a key" };
+        if ui.add(ActionButton::new(search)).clicked() {
+            self.begin(ui, Capture::Search);
+        }
+        if let Some(sought) = self.sought {
+            let text = format!("Show all, not only {}", shortcut_text(&sought));
+            if ui.add(ActionButton::new(&text)).clicked() {
+                self.sought = None;
+            }
+        }
+    }
+
+    /// Returns whether the list shows an entry, or with `None` a gesture: a key can be sought.
+    pub fn shows(&self, item: Option<&CatalogItem>) -> bool {
+        let has = |sought| item.is_some_and(|item| item.shortcuts.iter().any(|own| same_keys(own, &sought)));
+        self.sought.is_none_or(has)
     }
 
     /// Shows an entry with its keys. A click opens them for editing.

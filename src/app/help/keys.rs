@@ -26,12 +26,12 @@ pub fn show(ui: &mut Ui, catalog: &[CatalogItem], keymap: &Keymap, commands: &mu
     let mut query: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
     SearchField::new("Search for a key", "Search: a key, or what it does").show(ui, &mut query);
     let mut editor = KeyEditor::load(ui);
-    editor.bar(ui, catalog, keymap, &mut query, commands);
+    editor.bar(ui, catalog, keymap, commands);
     let entries = entries(catalog);
     // What is searched for can have no key yet.
     let found =
         entries.iter().filter(|entry| entry.matches(&query) && (entry.has_keys() || !query.is_empty()));
-    let found: Vec<&Entry<'_>> = found.collect();
+    let found: Vec<&Entry<'_>> = found.filter(|entry| editor.shows(entry.item)).collect();
     if found.is_empty() {
         ui.label("No key or gesture matches.");
     }
