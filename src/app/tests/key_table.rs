@@ -21,7 +21,7 @@ use crate::app::features::painting::{BRUSH, ERASER};
 use crate::app::features::paths::PathCommand;
 use crate::app::features::threats::THREATS;
 use crate::app::kit::{CatalogItem, all_tools, conflicts, same_keys, shortcut_text};
-use meshbrush_core::layers::{LayerKind, Threats};
+use meshbrush_core::layers::{LayerId, LayerKind, Threats};
 
 fn entries(window: &Window) -> Vec<CatalogItem> {
     catalog(&window.state().state(None))
@@ -50,7 +50,9 @@ fn in_every_state(look: &mut dyn FnMut(&Window, &str)) {
     let mut window = window();
     send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
     let select = [
-        Command::Inspect(InspectCommand::Query(FREE)),
+        // A triangle with a parent, and a layer between others: most entries are enabled.
+        Command::Layer(LayerCommand::Select(LayerId(1))),
+        Command::Inspect(InspectCommand::Query(dvec2(0.245, 0.765))),
         Command::Pins(PinsCommand::Add(FREE)),
         Command::Pins(PinsCommand::Select(0)),
         Command::Threats(ThreatsCommand::Place(FREE)),
@@ -60,7 +62,7 @@ fn in_every_state(look: &mut dyn FnMut(&Window, &str)) {
     for (number, tool) in all_tools(ROWS).into_iter().enumerate() {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
         look(&window, tool.name);
-        for command in select.iter().take(if number == 0 { 6 } else { 4 }) {
+        for command in select.iter().take(if number == 0 { 7 } else { 5 }) {
             send(&mut window, command.clone());
             send(&mut window, Command::Shell(ShellCommand::Use(tool)));
             look(&window, tool.name);
