@@ -154,9 +154,9 @@ fn a_double_click_edits_the_number_with_all_of_it_selected() {
     }
     assert_eq!(settings(&window).spacing, 0.2, "no digit of the former number is left");
     assert_eq!(window.state().tools().hardness, 0.7);
-    let handle = window.get_by_role_and_label(Role::Slider, "h_min").rect().center();
+    let handle = window.get_by_role_and_label(Role::Slider, "h_risk").rect().center();
     double_click(&mut window, handle);
-    assert!(window.get_by_role_and_label(Role::TextInput, "h_min value").is_focused());
+    assert!(window.get_by_role_and_label(Role::TextInput, "h_risk value").is_focused());
     assert_eq!(entries(&window), 2, "nothing was reset");
 }
 
