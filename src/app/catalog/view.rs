@@ -61,14 +61,21 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Presentation", ViewCommand::TogglePresentation)
             .key(Key::F5)
             .checked(view.presentation.is_some()),
-        CatalogItem::new(View, "Next part of the window", Command::Shell(ShellCommand::FocusPart(1)))
-            .key(Key::F6)
-            .group(),
-        CatalogItem::new(View, "Previous part of the window", Command::Shell(ShellCommand::FocusPart(-1)))
-            .keys(Modifiers::SHIFT, Key::F6),
         CatalogItem::new(View, "Find a command…", Command::Shell(ShellCommand::Palette)).ctrl(Key::P),
     ]);
+    items.extend(parts());
     items
+}
+
+/// Returns the keys that move the focus between the parts of the window. No menu needs them.
+fn parts() -> [CatalogItem; 2] {
+    let item = |title: &str, by| {
+        CatalogItem::new(Menu::View, title, Command::Shell(ShellCommand::FocusPart(by))).palette_only()
+    };
+    [
+        item("Next part of the window", 1).key(Key::F6),
+        item("Previous part of the window", -1).keys(Modifiers::SHIFT, Key::F6),
+    ]
 }
 
 /// Returns the tabs of the lower dock. They are in sight, so that no menu needs them.

@@ -198,22 +198,28 @@ fn focused(window: &Window) -> Option<String> {
 fn f6_leads_through_the_parts_of_the_window_and_tab_into_them() {
     let mut window = window();
     let mut seen = Vec::new();
-    for _ in 0..5 {
+    for _ in 0..7 {
         key(&mut window, Modifiers::NONE, Key::F6);
         seen.extend(focused(&window));
     }
-    assert_eq!(seen, ["Panel", "Status bar", "Menus", "Tools", "Mesh canvas"]);
-    key(&mut window, Modifiers::SHIFT, Key::F6);
-    assert_eq!(focused(&window).as_deref(), Some("Tools"));
+    let docks_first =
+        ["Layers dock", "Panel", "Status bar", "Menus", "Tools", "Options of the tool", "Mesh canvas"];
+    assert_eq!(seen, docks_first);
+    for before in ["Options of the tool", "Tools"] {
+        key(&mut window, Modifiers::SHIFT, Key::F6);
+        assert_eq!(focused(&window).as_deref(), Some(before));
+    }
     key(&mut window, Modifiers::NONE, Key::Tab);
     assert_eq!(focused(&window).as_deref(), Some("Brush"));
     assert!(window.state().view().panels, "Tab hides nothing");
     key(&mut window, Modifiers::NONE, Key::F6);
-    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"), "from a control within a part, too");
+    assert_eq!(focused(&window).as_deref(), Some("Options of the tool"), "from a control within a part, too");
+    key(&mut window, Modifiers::NONE, Key::F6);
+    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"));
     window.get_by_role_and_label(Role::TextInput, "Radius value").focus();
     window.run();
     key(&mut window, Modifiers::SHIFT, Key::F6);
-    assert_eq!(focused(&window).as_deref(), Some("Mesh canvas"), "also from a field");
+    assert_eq!(focused(&window).as_deref(), Some("Tools"), "also from a field");
     key(&mut window, Modifiers::COMMAND, Key::B);
     assert!(!window.state().view().panels);
 }

@@ -325,8 +325,15 @@ fn wait(window: &mut Window, frames: impl Fn(&mut Window), is_so: impl Fn(&Windo
 
 /// Runs frames until no job is left.
 pub fn wait_for_jobs(window: &mut Window) {
-    window.state().jobs.wait_for_threads();
-    window.run();
+    loop {
+        let started = window.state().jobs.started();
+        window.state().jobs.wait_for_threads();
+        window.run();
+        // What a job finds can let another one begin.
+        if window.state().jobs.started() == started {
+            return;
+        }
+    }
 }
 
 #[track_caller]

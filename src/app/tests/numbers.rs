@@ -6,8 +6,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{
-    TALL, Window, button_event, entries, fingerprint, key, notice, open_section, press_at, release_at, set,
-    settings, type_into, value_of, wheel, wheel_with, window_with,
+    TALL, Window, button_event, entries, find, fingerprint, key, notice, open_section, press_at, release_at,
+    set, settings, type_into, value_of, wheel, wheel_with, window_with,
 };
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::LayerKind;
@@ -91,21 +91,25 @@ fn ctrl_and_the_wheel_turn_the_number_under_the_pointer_and_nothing_else() {
 
 #[test]
 fn the_wheel_scrolls_the_panel_over_numbers_sliders_and_lists() {
+    /// A height within the lower dock, in points.
+    const MIDDLE: f32 = 440.0;
     let mut window = quick_window();
-    open_section(&mut window, "View");
-    window.set_size(vec2(1440.0, 700.0));
+    for section in ["Mesh", "Domain"] {
+        open_section(&mut window, section);
+    }
+    window.set_size(vec2(1440.0, 560.0));
     window.run();
     let before = (settings(&window).clone(), window.state().tools().clone());
-    let overlay = window.state().view().overlay;
     for (role, name) in [
-        (Role::TextInput, "Radius value"),
-        (Role::Slider, "Hardness"),
+        (Role::TextInput, "Spacing δ value"),
+        (Role::Slider, "Spacing δ"),
         (Role::TextInput, "h_min value"),
-        (Role::ComboBox, "Overlay"),
+        (Role::ComboBox, "Unit"),
     ] {
+        find(&mut window, role, name);
         let place = |window: &Window| window.get_by_role_and_label(role, name).rect().center();
-        let beside = pos2(place(&window).x, 400.0);
-        let away = place(&window).y - 400.0;
+        let beside = pos2(place(&window).x, MIDDLE);
+        let away = place(&window).y - MIDDLE;
         wheel(&mut window, beside, -away);
         let back = if away > 0.0 { 20.0 } else { -20.0 };
         // A hand that is never quite still.
@@ -117,23 +121,22 @@ fn the_wheel_scrolls_the_panel_over_numbers_sliders_and_lists() {
         }
     }
     assert_eq!((settings(&window).clone(), window.state().tools().clone()), before);
-    assert_eq!(window.state().view().overlay, overlay);
 }
 
 #[test]
 fn ctrl_and_the_wheel_change_no_list() {
     let mut window = quick_window();
-    open_section(&mut window, "View");
-    let list = window.get_by_role_and_label(Role::ComboBox, "Overlay");
+    open_section(&mut window, "Domain");
+    let list = window.get_by_role_and_label(Role::ComboBox, "Unit");
     let at = list.rect().center();
     list.focus();
     window.run();
-    let overlay = window.state().view().overlay;
+    let unit = settings(&window).unit;
     for delta in [40.0, -40.0] {
         wheel_with(&mut window, at, delta, Modifiers::COMMAND);
         wheel(&mut window, at, delta);
     }
-    assert_eq!(window.state().view().overlay, overlay);
+    assert_eq!(settings(&window).unit, unit);
 }
 
 #[test]
@@ -154,6 +157,7 @@ fn a_double_click_edits_the_number_with_all_of_it_selected() {
     }
     assert_eq!(settings(&window).spacing, 0.2, "no digit of the former number is left");
     assert_eq!(window.state().tools().hardness, 0.7);
+    find(&mut window, Role::Slider, "h_risk");
     let handle = window.get_by_role_and_label(Role::Slider, "h_risk").rect().center();
     double_click(&mut window, handle);
     assert!(window.get_by_role_and_label(Role::TextInput, "h_risk value").is_focused());
@@ -193,6 +197,7 @@ fn the_menu_of_a_number_shows_its_default_and_sets_it() {
         assert_eq!(settings(&window).spacing, usual);
     }
     let handle = |window: &Window, name| window.get_by_role_and_label(Role::Slider, name).rect().center();
+    find(&mut window, Role::Slider, "Curve shape");
     let shape = handle(&window, "Curve shape");
     type_into(&mut window, "h_min value", "0.02");
     assert_eq!(settings(&window).transfer.h_min, 0.02);

@@ -43,7 +43,8 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .only(STEPPING, true)
             .enabled(count > 0),
         item("Only bisections", StepCommand::OnlyBisections(!steps.only_bisections))
-            .checked(steps.only_bisections),
+            .checked(steps.only_bisections)
+            .palette_only(),
         CatalogItem::new(
             Menu::Method,
             "Export steps as SVG…",
