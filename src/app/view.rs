@@ -35,6 +35,38 @@ pub enum FieldOverlay {
     Age,
 }
 
+impl FieldOverlay {
+    /// All of them, in the order of lists.
+    pub const ALL: [Self; 7] =
+        [Self::None, Self::Risk, Self::Target, Self::Layer, Self::Slack, Self::Forced, Self::Age];
+
+    /// Returns the name of the choice in the list of the panel.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "No overlay",
+            Self::Risk => "Risk",
+            Self::Target => "Target",
+            Self::Layer => "Layer",
+            Self::Slack => "Slack",
+            Self::Forced => "Forced",
+            Self::Age => "Age",
+        }
+    }
+
+    /// Returns the title of its entry in menus and in the palette.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::None => "No overlay",
+            Self::Risk => "Overlay risk",
+            Self::Target => "Overlay target",
+            Self::Layer => "Overlay deciding layer",
+            Self::Slack => "Overlay slack",
+            Self::Forced => "Overlay forced triangles",
+            Self::Age => "Overlay age of triangles",
+        }
+    }
+}
+
 /// An aid to orientation on the canvas, which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CanvasAid {

@@ -12,12 +12,6 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     use Menu::View;
     let view = state.view;
     let item = |title: &str, command| CatalogItem::new(View, title, Command::View(command));
-    let overlay = |title: &str, overlay| {
-        // The key of the overlay that is shown hides it.
-        let shown = view.overlay == overlay;
-        let next = if shown { FieldOverlay::None } else { overlay };
-        item(title, ViewCommand::SetOverlay(next)).checked(shown)
-    };
     let aid = |title: &str, aid| item(title, ViewCommand::ToggleAid(aid));
     let theme = |title: &str, theme| item(title, ViewCommand::Theme(theme)).checked(view.theme == theme);
     let mut items = vec![
@@ -30,14 +24,8 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),
-        overlay("No overlay", FieldOverlay::None).palette_only(),
-        overlay("Overlay risk", FieldOverlay::Risk).key(Key::O).group(),
-        overlay("Overlay target", FieldOverlay::Target).keys(Modifiers::SHIFT, Key::O),
-        overlay("Overlay deciding layer", FieldOverlay::Layer),
-        overlay("Overlay slack", FieldOverlay::Slack),
-        overlay("Overlay forced triangles", FieldOverlay::Forced).palette_only(),
-        overlay("Overlay age of triangles", FieldOverlay::Age).palette_only(),
     ];
+    items.extend(overlays(view.overlay));
     let queried = state.session.queried_triangle().map(|id| state.session.view().triangle(id).level());
     let of_triangle = |title: &str, command: fn(u32) -> ViewCommand| {
         item(title, command(queried.unwrap_or(0))).enabled(queried.is_some())
@@ -76,6 +64,22 @@ fn parts() -> [CatalogItem; 2] {
         item("Next part of the window", 1).key(Key::F6),
         item("Previous part of the window", -1).keys(Modifiers::SHIFT, Key::F6),
     ]
+}
+
+/// Returns an entry for each overlay. Those that the menu leaves out are in the list of the panel.
+fn overlays(shown: FieldOverlay) -> [CatalogItem; 7] {
+    FieldOverlay::ALL.map(|overlay| {
+        // The key of the overlay that is shown hides it.
+        let next = if overlay == shown { FieldOverlay::None } else { overlay };
+        let command = Command::View(ViewCommand::SetOverlay(next));
+        let item = CatalogItem::new(Menu::View, overlay.title(), command).checked(overlay == shown);
+        match overlay {
+            FieldOverlay::Risk => item.key(Key::O).group(),
+            FieldOverlay::Target => item.keys(Modifiers::SHIFT, Key::O),
+            FieldOverlay::Layer | FieldOverlay::Slack => item,
+            _ => item.palette_only(),
+        }
+    })
 }
 
 /// Returns the tabs of the lower dock. They are in sight, so that no menu needs them.

@@ -31,16 +31,9 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     ui.add_space(4.0);
     let mut overlay = view.overlay;
-    let overlays = [
-        (FieldOverlay::None, "No overlay"),
-        (FieldOverlay::Risk, "Risk"),
-        (FieldOverlay::Target, "Target"),
-        (FieldOverlay::Layer, "Layer"),
-        (FieldOverlay::Slack, "Slack"),
-        (FieldOverlay::Forced, "Forced"),
-        (FieldOverlay::Age, "Age"),
-    ];
-    if choice_rows(ui, "Overlay", &mut overlay, &overlays).changed() {
+    if choice_rows(ui, "Overlay", &mut overlay, &FieldOverlay::ALL.map(|overlay| (overlay, overlay.name())))
+        .changed()
+    {
         commands.push(Command::View(ViewCommand::SetOverlay(overlay)));
     }
     ui.add_space(8.0);
