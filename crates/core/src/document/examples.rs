@@ -10,7 +10,6 @@ use crate::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
     Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
-use crate::mesh::Cleaning;
 use crate::paint::{Brush, Medium};
 use crate::raster::{Raster, RasterPyramid};
 use crate::text::LengthUnit;
@@ -95,21 +94,13 @@ fn diamond() -> Settings {
     let formula = Formula::parse("if(abs(x) + abs(y) < 8, 0.25, 20)").expect("a valid formula");
     Settings {
         name: Example::Diamond.name().into(),
-        unit: LengthUnit::None,
-        background: None,
         domain: Domain::rectangle(Rect::around(DVec2::ZERO, 10.0)),
         spacing: 1.0,
         boundary: BoundaryTreatment::usual(1.0),
-        cleaning: Cleaning::FOR_SOLVERS,
-        boundary_marks: Arc::default(),
-        pins: Arc::default(),
-        paths: Arc::default(),
         transfer: Transfer::between(0.02, 20.0),
         layers: Layer::usual(LayerKind::target(formula)),
-        gradation: None,
         rule: RefinementRule::Vertex,
-        max_triangles: Settings::MAX_TRIANGLES,
-        max_memory: Settings::MAX_MEMORY,
+        ..Settings::default()
     }
 }
 
@@ -151,20 +142,12 @@ fn terrain(slope: Raster) -> Settings {
     Settings {
         name: Example::Terrain.name().into(),
         unit: LengthUnit::Kilometre,
-        background: None,
         domain: Domain::rectangle(bounds),
         spacing: bounds.size().max_element() / 24.0,
         boundary: BoundaryTreatment::usual(bounds.size().max_element() / 24.0),
-        cleaning: Cleaning::FOR_SOLVERS,
-        boundary_marks: Arc::default(),
-        pins: Arc::default(),
-        paths: Arc::default(),
         transfer: Transfer { shape: 1.6, ..Transfer::between(0.05, 2.0) },
         layers: Layer::usual(slope_as_risk),
-        gradation: None,
-        rule: RefinementRule::Area,
-        max_triangles: Settings::MAX_TRIANGLES,
-        max_memory: Settings::MAX_MEMORY,
+        ..Settings::default()
     }
 }
 
