@@ -244,7 +244,7 @@ fn corners(triangle: &Triangle) -> [LatticePoint; 3] {
 #[test]
 fn a_triangle_asks_for_more_where_the_definition_has_a_finer_point() {
     let [mut asked, mut refused] = [0; 2];
-    for seed in 0..150 {
+    for seed in 0..300 {
         let case = Case::random(seed, 0.02);
         let (field, definition) = (case.field(), case.definition());
         let mut random = Rng::with_seed(seed + 1000);
@@ -343,7 +343,7 @@ fn h_at_a_point_is_that_of_the_definition() {
 #[test]
 fn meshes_are_the_smallest_refinements_that_meet_the_definition() {
     let mut triangles = 0;
-    for seed in 0..25 {
+    for seed in 0..60 {
         let case = Case::random(seed + 5000, 0.035);
         let mut builder = MeshBuilder::new(MeshSpec {
             domain: Domain::rectangle(case.lattice.bounds()),

@@ -63,7 +63,7 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         let [low, high] = self.grid.squares(scale, cells);
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
-                if self.square(triangle, scale, [x, y], || self.grid.square(scale, x, y)) {
+                if self.square((triangle, cells), scale, [x, y], || self.grid.square(scale, x, y)) {
                     return true;
                 }
             }
@@ -71,11 +71,12 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         false
     }
 
-    /// Searches the square [x, y] at a scale, which has these cells.
+    /// Searches the square [x, y] at a scale, which has these cells. `around` are the cells of the lattice
+    /// around the triangle: a square beside the lattice can touch the triangle, and does not count.
     #[inline]
     fn square(
         &self,
-        triangle: &Octagon,
+        (triangle, around): (&Octagon, &Cells),
         scale: i32,
         [x, y]: [i64; 2],
         cells: impl FnOnce() -> Cells,
@@ -88,21 +89,20 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         let cells = cells();
         let octagon = cells.octagon();
         // A square between two lattice lines has no cell.
-        let is_empty = cells.min[0] >= cells.max[0] || cells.min[1] >= cells.max[1];
-        if is_empty || !triangle.meets(&octagon) {
+        if cells.intersection(around).is_none() || !triangle.meets(&octagon) {
             return false;
         }
         asks == Share::All
             || (self.question.is_monotone() && triangle.contains(&octagon))
-            || self.any_quarter(triangle, scale, [x, y], &cells)
+            || self.any_quarter((triangle, around), scale, [x, y], &cells)
     }
 
     /// Searches the quarters of a square.
-    fn any_quarter(&self, triangle: &Octagon, scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
+    fn any_quarter(&self, around: (&Octagon, &Cells), scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
         let middle = self.grid.middle(scale, [x, y]);
         for [i, j] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
             let quarter = || cells.quarter(middle, [i == 1, j == 1]);
-            if self.square(triangle, scale - 1, [2 * x + i, 2 * y + j], quarter) {
+            if self.square(around, scale - 1, [2 * x + i, 2 * y + j], quarter) {
                 return true;
             }
         }
