@@ -142,6 +142,8 @@ fn killed_at_a_random_moment_it_loses_no_more_than_the_stroke_under_way() {
         program.wait_for_window(&display);
         display.xdotool(&["key", NEW_KEYS]);
         display.point_at(RESTING_PLACE);
+        display.settled_picture(&scratch, "0-page of a new document");
+        display.xdotool(&["key", "Return"]); // the rectangle
         let domain = display.settled_picture(&scratch, "1-blank").domain();
         let moment = Duration::from_millis(random.u64(100..4000));
         let (ended, last_seen) = display.paint_until_killed(&mut program, &domain, moment);
