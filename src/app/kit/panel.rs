@@ -7,7 +7,7 @@ use eframe::egui::{Response, RichText, Ui};
 use super::{FrameState, Tab};
 use crate::app::command::{Command, EditCommand};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{self, ActionButton};
+use crate::app::widgets::{self, ActionButton, shown_keys};
 use meshbrush_core::document::Setting;
 
 /// A section of a dock.
@@ -58,8 +58,9 @@ pub fn set_once(setting: Setting, commands: &mut Vec<Command>) {
     commands.extend([Command::Edit(EditCommand::Set(setting)), Command::Edit(EditCommand::EndGesture)]);
 }
 
-/// A remark in small print.
+/// Shows a remark in small print. A key is written as in tips: as the id of its entry in braces.
 pub fn remark(ui: &mut Ui, text: &str) {
+    let text = shown_keys::with_keys(ui.ctx(), text);
     ui.label(RichText::new(text).font(font::caption()).color(tokens(ui).faint));
     ui.add_space(4.0);
 }

@@ -275,6 +275,18 @@ fn tips_show_the_key_that_works() {
 }
 
 #[test]
+fn remarks_show_the_key_that_works() {
+    let mut window = window();
+    super::open_tab(&mut window, crate::app::kit::Tab::Inspect);
+    let says = |window: &Window, text| window.query_by_label_contains(text).is_some();
+    assert!(says(&window, "with the query tool (Q):"));
+    open_keys_of(&mut window, "Query Q");
+    press(&mut window, "Remove Q");
+    send(&mut window, Command::Shell(ShellCommand::CloseHelp));
+    assert!(says(&window, "with the query tool:"), "an entry without a key");
+}
+
+#[test]
 fn an_entry_is_found_by_pressing_its_key() {
     let mut window = window();
     choose(&mut window, "Help", "Keyboard and mouse Shift+F1");

@@ -25,7 +25,7 @@ pub(super) fn key_of(ctx: &Context, entry: &str) -> Option<String> {
 
 /// Replaces entries in braces by their keys: `Removes it[; {delete} does so too].` What is in brackets is
 /// left out where an entry in it has no key.
-pub(super) fn with_keys<'a>(ctx: &Context, text: &'a str) -> Cow<'a, str> {
+pub fn with_keys<'a>(ctx: &Context, text: &'a str) -> Cow<'a, str> {
     if !text.contains('{') {
         return Cow::Borrowed(text);
     }

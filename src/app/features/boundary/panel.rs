@@ -29,7 +29,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let note = format::count(present as u64);
     Section::new("Boundary").id("boundary").note(&note).show(ui, |ui| {
         if selected.is_none() {
-            remark(ui, "Click a piece in the list, or on the canvas with the boundary tool (N), to name it.");
+            remark(ui, "Click a piece in the list, or on the canvas with the boundary tool[ ({boundary})], to name it.");
         }
         if let Some(selected) = selected {
             selected_rows(ui, state, pieces, selected);

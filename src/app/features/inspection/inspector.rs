@@ -30,7 +30,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             None
         }
         (None, _) => {
-            let text = "Click the mesh with the query tool (Q): triangle, neighbours and values appear here.";
+            let text = "Click the mesh with the query tool[ ({query})]: triangle, neighbours and values appear here.";
             empty_state(ui, Icon::QUERY, "No query yet", text);
             None
         }

@@ -13,7 +13,10 @@ pub static WALK: Panel = Panel { name: "walk", tab: Tab::Method, place: 1, show 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     Section::new("Point location").show(ui, |ui| {
         if state.readout.is_none() {
-            return remark(ui, "Click the mesh with the query tool (Q): the walk to the point appears here.");
+            return remark(
+                ui,
+                "Click the mesh with the query tool[ ({query})]: the walk to the point appears here.",
+            );
         }
         walk_rows(ui, state, commands);
     });

@@ -48,18 +48,18 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         add_button(ui, state, commands);
-        let mut button = |icon, name, key, command: Option<LayerCommand>| {
-            let button = ToolButton::small(icon, name).key(key);
+        let mut button = |icon, name, command: Option<LayerCommand>| {
+            let button = ToolButton::small(icon, name).entry(name);
             if ui.add_enabled_ui(command.is_some(), |ui| button.show(ui)).inner.clicked() {
                 commands.extend(command.map(Command::Layer));
             }
         };
-        button(Icon::COPY, "Duplicate layer", "Ctrl+J", id.map(LayerCommand::Duplicate));
+        button(Icon::COPY, "Duplicate layer", id.map(LayerCommand::Duplicate));
         let delete = id.filter(|_| deletes).map(LayerCommand::Delete);
-        button(Icon::DELETE, "Delete layer", "Shift+Delete", delete);
+        button(Icon::DELETE, "Delete layer", delete);
         let moved = |place: Option<usize>| Some(LayerCommand::Move(id?, place?));
-        button(Icon::UP, "Move layer up", "Ctrl+]", moved(up));
-        button(Icon::DOWN, "Move layer down", "Ctrl+[", moved(down));
+        button(Icon::UP, "Move layer up", moved(up));
+        button(Icon::DOWN, "Move layer down", moved(down));
     });
 }
 

@@ -28,7 +28,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let note = if count > 0 { format::count(count as u64) } else { String::new() };
     Section::new("Pins").note(&note).show(ui, |ui| {
         if count == 0 {
-            return remark(ui, "Pin a query (Shift+P) to follow its triangle and values through every edit.");
+            return remark(ui, "Pin a query[ ({pin-the-queried-point})] to follow its triangle and values through every edit.");
         }
         if !state.features.pins.reader.is_current(state.session, state.view.quantity) {
             // They are read only while the table is shown.

@@ -49,7 +49,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     };
     Section::new("Path").note(&note).show(ui, |ui| {
         let Some(route) = route else {
-            let text = "Click the start and then the goal with the path tool (P).";
+            let text = "Click the start and then the goal with the path tool[ ({path})].";
             return empty_state(ui, Icon::PATH, "No path", text);
         };
         name_row(ui, plan, route, commands);
