@@ -196,13 +196,13 @@ impl App {
     pub(super) fn draw(&mut self, ui: &mut Ui) {
         let readout = self.session.readout(self.view.quantity);
         let mut commands = Vec::new();
-        let keys =
-            catalog(&self.state(None)).into_iter().filter_map(|item| Some((item.shown_keys()?, item.id)));
-        shown_keys::publish(ui.ctx(), keys.map(|(keys, id)| (id, keys)).collect());
+        let entries = catalog(&self.state(None));
+        let keys = entries.iter().filter_map(|item| Some((item.id.clone(), item.shown_keys()?)));
+        shown_keys::publish(ui.ctx(), keys.collect());
         if let Some(panel) = self.view.revealed_panel.and_then(panels::named) {
             self.view.dock.choose(panel.tab);
         }
-        panels::show(ui, &self.state(readout.as_ref()), &mut commands);
+        panels::show(ui, &self.state(readout.as_ref()), &entries, &mut commands);
         self.view.revealed_panel = None;
         egui::CentralPanel::default()
             .frame(Frame::NONE)

@@ -2,9 +2,8 @@
 
 use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
-use crate::app::catalog::catalog;
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{FrameState, Menu, all_tools, menu_item};
+use crate::app::kit::{CatalogItem, FrameState, Menu, all_tools, menu_item};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{Icon, ToolButton};
 
@@ -12,8 +11,7 @@ use crate::app::widgets::{Icon, ToolButton};
 const HEIGHT_AROUND_MENU: f32 = metrics::MENU_BAR + 16.0;
 
 /// Every menu, and the document's name.
-pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let catalog = catalog(state);
+pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
     MenuBar::new().ui(ui, |ui| {
         ui.label(RichText::new("Meshbrush").font(font::strong()).color(tokens(ui).value));
         ui.add_space(8.0);
@@ -23,7 +21,7 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
                 // In a small window a long menu scrolls.
                 let height = ui.ctx().content_rect().height() - HEIGHT_AROUND_MENU;
                 ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-                    for item in catalog.iter().filter(|item| item.menu == menu && item.is_in_menu) {
+                    for item in entries.iter().filter(|item| item.menu == menu && item.is_in_menu) {
                         menu_item(ui, item, commands);
                     }
                 });

@@ -26,14 +26,14 @@ use super::command::Command;
 use super::features::{ROWS, report, stepping};
 use super::parts::{Part, mark};
 use super::theme::{metrics, tokens};
-use crate::app::kit::{FrameState, Panel, Tab};
+use crate::app::kit::{CatalogItem, FrameState, Panel, Tab};
 
 /// The sections of the docks that belong to no feature.
 static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];
 
-/// Draws all panels, from the rim inwards.
-pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    show_bars(ui, state, commands);
+/// Draws all panels, from the rim inwards. The menus have the `entries`.
+pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
+    show_bars(ui, state, entries, commands);
     if !state.view.panels {
         return;
     }
@@ -68,7 +68,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 /// Draws the bars at the top and at the bottom of the window.
-fn show_bars(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
     let t = *tokens(ui);
     let bar = Frame::new().fill(t.window).inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, 2));
     // egui puts the row of a menu bar at its top: the margin centres it.
@@ -76,7 +76,7 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
     egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
         mark(ui, Part::Menus);
-        bars::menu_bar(ui, state, commands);
+        bars::menu_bar(ui, state, entries, commands);
     });
     egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
         mark(ui, Part::Status);
