@@ -1,6 +1,6 @@
 //! The docks at the right, the strip above the canvas, and menus that stay short.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use eframe::App as _;
 use eframe::egui::accesskit::Role;
@@ -8,7 +8,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Rect, Vec2, pos2, vec2}
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{
-    Window, button_event, canvas, click_button, key, open_popup, open_section, open_tab, section, send,
+    Kept, Window, button_event, canvas, click_button, key, open_popup, open_section, open_tab, section, send,
     window, window_of,
 };
 use crate::app::catalog::{PLACES, catalog};
@@ -228,26 +228,6 @@ fn every_panel_has_a_name_of_its_own_and_every_tab_a_panel() {
         assert!(panels::all().any(|panel| panel.tab == tab), "{tab:?}");
         assert_eq!(Tab::named(tab.name()), Some(tab));
     }
-}
-
-/// What the window keeps from run to run.
-#[derive(Default)]
-struct Kept(BTreeMap<String, String>);
-
-impl eframe::Storage for Kept {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
 }
 
 #[test]

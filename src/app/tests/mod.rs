@@ -40,6 +40,7 @@ mod view;
 
 pub use places::*;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -82,6 +83,26 @@ pub const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND 
 /// The layers of paint in a new document.
 pub const PAINTED_DIAMETER: LayerId = LayerId(1);
 pub const PAINTED_RISK: LayerId = LayerId(2);
+
+/// The storage of what a window keeps from run to run, in memory.
+#[derive(Default)]
+pub struct Kept(BTreeMap<String, String>);
+
+impl eframe::Storage for Kept {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
 
 /// Returns the painted value of a layer at a point.
 pub fn painted(window: &Window, layer: LayerId, point: DVec2) -> f32 {

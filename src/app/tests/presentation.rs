@@ -1,14 +1,12 @@
 //! The mode for a projector, and small windows.
 
-use std::collections::BTreeMap;
-
 use eframe::App as _;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Context, Key, Modifiers, Pos2, RawInput, Rect, pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 
 use super::pictures::{drawn_window, picture};
-use super::{Window, canvas, key, window, window_of};
+use super::{Kept, Window, canvas, key, window, window_of};
 use crate::app::features::ROWS;
 use crate::app::kit::all_tools;
 use crate::app::presentation::end_last;
@@ -60,29 +58,9 @@ fn in_a_presentation_a_ring_is_around_the_pointer() {
     assert_eq!(ring(&mut window), None);
 }
 
-/// The storage of a window, in memory.
-#[derive(Default)]
-struct Stored(BTreeMap<String, String>);
-
-impl eframe::Storage for Stored {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
-}
-
 #[test]
 fn a_presentation_ends_with_the_program() {
-    let (mut window, mut stored) = (window(), Stored::default());
+    let (mut window, mut stored) = (window(), Kept::default());
     key(&mut window, Modifiers::NONE, Key::F5);
     window.state_mut().save(&mut stored);
     // egui keeps its zoom factor from run to run.

@@ -229,18 +229,7 @@ impl CurvePlot<'_> {
 
     fn paint_axes(&self, ui: &Ui, rect: Rect, plot: &Plot, axes: &Axes) {
         let t = tokens(ui);
-        let every = plot.axis.label_every();
-        for decade in plot.axis.decades() {
-            let diameter = 10_f64.powi(decade);
-            let y = plot.point(0.0, diameter).y;
-            ui.painter().hline(plot.rect.x_range(), y, Stroke::new(1.0, t.line));
-            if (decade - plot.axis.high) % every == 0 {
-                let place = Rect::from_x_y_ranges(rect.left()..=plot.rect.left() - 6.0, y - 8.0..=y + 8.0);
-                let is_short = (-3..=4).contains(&decade);
-                let text = if is_short { format::digits(diameter, 1) } else { format!("1e{decade}") };
-                paint::at_right(ui, place, paint::line(ui, &text, font::axis(), t.label));
-            }
-        }
+        plot.paint_decades(ui, rect.left(), 6.0, t.label);
         let row = Rect::from_x_y_ranges(plot.rect.x_range(), plot.rect.bottom() + 2.0..=rect.bottom() - 2.0);
         let [low, high] = axes.values.map(|value| format::digits(value, 4));
         paint::at_left(ui, row, paint::line(ui, &low, font::axis(), t.label));

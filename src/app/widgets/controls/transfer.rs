@@ -288,22 +288,7 @@ impl<'a> TransferCurve<'a> {
     fn paint_ground(&self, ui: &Ui, rect: Rect, plot: &Plot) {
         let t = tokens(ui);
         ui.painter().rect(rect, metrics::RADIUS_CONTROL, t.well, t.hairline(), StrokeKind::Inside);
-        let every = plot.axis.label_every();
-        for decade in plot.axis.decades() {
-            let diameter = 10_f64.powi(decade);
-            let y = plot.point(0.0, diameter).y;
-            ui.painter().hline(plot.rect.x_range(), y, Stroke::new(1.0, t.line));
-            if (decade - plot.axis.high) % every == 0 {
-                let place = Rect::from_x_y_ranges(rect.left()..=plot.rect.left() - 8.0, y - 8.0..=y + 8.0);
-                let number = if (-3..=4).contains(&decade) {
-                    format::digits(diameter, 1)
-                } else {
-                    format!("1e{decade}")
-                };
-                let text = paint::line(ui, &number, font::axis(), t.faint);
-                paint::at_right(ui, place, text);
-            }
-        }
+        plot.paint_decades(ui, rect.left(), 8.0, t.faint);
     }
 
     fn paint_curve(&self, ui: &Ui, plot: &Plot) {

@@ -2,7 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use eframe::egui::{self, Color32, Mesh, Pos2, Rect, Shape, pos2};
+use eframe::egui::{self, Color32, Mesh, Pos2, Rect, Shape, Stroke, Ui, pos2};
+
+use super::{format, paint};
+use crate::app::theme::{font, tokens};
 
 /// A logarithmic axis from 10^low to 10^high.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +49,23 @@ pub(super) struct Plot {
 }
 
 impl Plot {
+    /// Paints a line for each decade, and as many numbers as fit, from `left` to `gap` points before the
+    /// curve.
+    pub fn paint_decades(&self, ui: &Ui, left: f32, gap: f32, color: Color32) {
+        let every = self.axis.label_every();
+        for decade in self.axis.decades() {
+            let diameter = 10_f64.powi(decade);
+            let y = self.point(0.0, diameter).y;
+            ui.painter().hline(self.rect.x_range(), y, Stroke::new(1.0, tokens(ui).line));
+            if (decade - self.axis.high) % every == 0 {
+                let place = Rect::from_x_y_ranges(left..=self.rect.left() - gap, y - 8.0..=y + 8.0);
+                let is_short = (-3..=4).contains(&decade);
+                let number = if is_short { format::digits(diameter, 1) } else { format!("1e{decade}") };
+                paint::at_right(ui, place, paint::line(ui, &number, font::axis(), color));
+            }
+        }
+    }
+
     pub fn point(&self, risk: f64, diameter: f64) -> Pos2 {
         let x = egui::lerp(self.rect.x_range(), risk as f32);
         pos2(x, egui::lerp(self.rect.bottom()..=self.rect.top(), self.axis.share(diameter) as f32))
