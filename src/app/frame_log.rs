@@ -2,25 +2,28 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use super::notices::{Notice, Notices};
 use super::session::Session;
 
-/// Environment variable that asks for the lines. `tests/frame_times.py` reads them.
+/// Environment variable that asks for the lines. `tests/frame_times.py` and `tests/random_events.py` read them.
 const VARIABLE: &str = "MESHBRUSH_FRAMES";
 
 /// Tells when frames were drawn, and what the mesh was.
 pub struct FrameLog {
     wanted: bool,
+    /// The number of the message that was reported last.
+    message: Option<u64>,
 }
 
 impl FrameLog {
     /// Writes lines where the environment asks for them.
     pub fn from_environment() -> Self {
-        Self { wanted: std::env::var_os(VARIABLE).is_some() }
+        Self { wanted: std::env::var_os(VARIABLE).is_some(), message: None }
     }
 
-    /// Notes a frame that was drawn just now. The time is that of the system's clock, in seconds, which other
-    /// programs can read too.
-    pub fn note(&self, session: &Session) {
+    /// Notes a frame that was drawn just now, and the message on the canvas where that changed. The time is
+    /// that of the system's clock, in seconds, which other programs can read too.
+    pub fn note(&mut self, session: &Session) {
         if !self.wanted {
             return;
         }
@@ -28,5 +31,23 @@ impl FrameLog {
         let rests = session.follower().is_in_step(session.document()) && session.document().is_stroke_drawn();
         let state = if rests { "at rest" } else { "behind" };
         eprintln!("frame {now:.4} {} {state}", session.mesh().raw_triangle_count());
+        self.note_message(session.notices());
+    }
+
+    fn note_message(&mut self, notices: &Notices) {
+        let shown = notices.shown();
+        if self.message == shown.map(|notice| notice.number) {
+            return;
+        }
+        self.message = shown.map(|notice| notice.number);
+        let kind = |notice: &Notice| match (notices.shown_stands(), notice.failed) {
+            (true, _) => "standing",
+            (false, true) => "failed",
+            (false, false) => "news",
+        };
+        match shown {
+            Some(notice) => eprintln!("message {} {}", kind(notice), notice.text.replace('\n', " ")),
+            None => eprintln!("message none"),
+        }
     }
 }

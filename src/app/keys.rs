@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 
 use crate::app::kit::CatalogItem;
+use crate::app::widgets::key_menu::MENU_KEYS;
 
 /// The part of the window that a key goes to first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +38,9 @@ pub fn entry_of(
     receiver: Receiver,
     catalog: &[CatalogItem],
 ) -> Option<&CatalogItem> {
+    if receiver == Receiver::Control && MENU_KEYS == KeyboardShortcut::new(modifiers, key) {
+        return None; // the control shows its own menu
+    }
     let digit = physical_key.filter(|key| ("0"..="9").contains(&key.name()));
     let with = |key| best(key, modifiers, receiver, catalog);
     match digit.filter(|_| modifiers.shift) {

@@ -1,4 +1,4 @@
-//! The menu that the secondary button opens on the canvas.
+//! The menu of a point on the canvas, opened by the secondary button or by keyboard.
 
 use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
 use glam::DVec2;
@@ -6,6 +6,7 @@ use glam::DVec2;
 use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
+use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.
 fn id() -> Id {
@@ -19,15 +20,22 @@ pub fn open(ctx: &Context, at: Pos2, world: DVec2) {
     ctx.request_repaint();
 }
 
+/// Opens the menu by keyboard, while the canvas has the focus or nothing has.
+pub fn open_by_key(ctx: &Context, canvas: Id, at: Pos2, world: DVec2) {
+    ctx.data_mut(|data| data.insert_temp(id(), (at, world)));
+    open_menu_from(ctx, id(), canvas);
+}
+
 /// Shows the menu while it is open.
 pub fn show(ui: &Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some((at, world)) = ui.data(|data| data.get_temp::<(Pos2, DVec2)>(id())) else { return };
+    is_key_menu(ui.ctx(), id()); // gives the focus back
     let popup = Popup::new(id(), ui.ctx().clone(), at, ui.layer_id()).kind(PopupKind::Menu).open_memory(None);
     popup.style(eframe::egui::containers::menu::menu_style).show(|ui| {
         ui.set_min_width(220.0);
-        for item in items(state, world) {
-            menu_item(ui, &item, commands);
-        }
+        let items = items(state, world);
+        let buttons: Vec<_> = items.iter().map(|item| menu_item(ui, item, commands)).collect();
+        enter_menu(ui.ctx(), id(), &buttons);
     });
 }
 

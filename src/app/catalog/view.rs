@@ -5,6 +5,7 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
+use crate::app::widgets::key_menu::MENU_KEYS;
 use meshbrush_render::colormap::Colormap;
 
 /// Returns the commands that change the view.
@@ -55,14 +56,15 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
     items
 }
 
-/// Returns the keys that move the focus between the parts of the window. No menu needs them.
-fn parts() -> [CatalogItem; 2] {
-    let item = |title: &str, by| {
-        CatalogItem::new(Menu::View, title, Command::Shell(ShellCommand::FocusPart(by))).palette_only()
-    };
+/// Returns the keys that reach everything without a pointer. No menu needs them.
+fn parts() -> [CatalogItem; 3] {
+    let item =
+        |title: &str, command| CatalogItem::new(Menu::View, title, Command::Shell(command)).palette_only();
     [
-        item("Next part of the window", 1).key(Key::F6),
-        item("Previous part of the window", -1).keys(Modifiers::SHIFT, Key::F6),
+        item("Next part of the window", ShellCommand::FocusPart(1)).key(Key::F6),
+        item("Previous part of the window", ShellCommand::FocusPart(-1)).keys(Modifiers::SHIFT, Key::F6),
+        item("Menu of the canvas or of the number", ShellCommand::MenuOfCanvas)
+            .keys(MENU_KEYS.modifiers, MENU_KEYS.logical_key),
     ]
 }
 

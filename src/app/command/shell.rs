@@ -42,6 +42,8 @@ pub enum ShellCommand {
     DismissNotice,
     /// Moves the focus by so many parts of the window: menus, tools, canvas, panel, status bar.
     FocusPart(i32),
+    /// Opens the menu for a point of the canvas: that under the pointer, or the middle.
+    MenuOfCanvas,
     /// Changes the keys of entries.
     SetKeys(Keymap),
     /// Writes the changed keys to a file, and asks before another one is replaced.

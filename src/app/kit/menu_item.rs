@@ -1,15 +1,15 @@
 //! An entry of a menu as it is shown.
 
 use eframe::egui::accesskit::Toggled;
-use eframe::egui::{self, Align2, Button, Rect, Ui, vec2};
+use eframe::egui::{self, Align2, Button, Rect, Response, Ui, vec2};
 
 use super::CatalogItem;
 use crate::app::command::Command;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::Icon;
 
-/// Shows an entry of a menu, which sends its command when it is clicked.
-pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
+/// Shows an entry of a menu, which sends its command when it is clicked. Returns its button.
+pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) -> Response {
     if item.begins_group {
         ui.separator();
     }
@@ -32,4 +32,5 @@ pub fn menu_item(ui: &mut Ui, item: &CatalogItem, commands: &mut Vec<Command>) {
         commands.push(item.command.clone());
         ui.close();
     }
+    response
 }

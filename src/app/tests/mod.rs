@@ -16,6 +16,7 @@ mod help;
 #[cfg(unix)]
 mod identity;
 mod key_table;
+mod keyboard_walk;
 mod keys;
 mod long_work;
 mod menus;

@@ -341,3 +341,49 @@ fn a_refused_formula_keeps_its_text_and_is_marked() {
     assert!(is_marked(&window));
     assert_eq!(entries(&window), 0);
 }
+
+/// Returns the name of the button with the focus.
+fn focused_button(window: &Window) -> Option<String> {
+    let mut buttons = window.query_all_by_role(Role::Button);
+    buttons.find(|node| node.is_focused()).and_then(|node| node.accesskit_node().label())
+}
+
+#[test]
+fn the_menu_of_a_number_is_opened_by_keyboard_and_gives_the_focus_back() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    let usual = Settings::default().spacing;
+    for (role, name) in [(Role::TextInput, "Spacing δ value"), (Role::Slider, "Spacing δ")] {
+        set(&mut window, Setting::Spacing(0.1));
+        let is_focused = |window: &Window| window.get_by_role_and_label(role, name).is_focused();
+        window.get_by_role_and_label(role, name).focus();
+        window.run();
+        key(&mut window, Modifiers::SHIFT, Key::F10);
+        assert!(focused_button(&window).is_some_and(|button| button.starts_with("Reset to")), "{name}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(is_focused(&window), "{name}: the focus is back");
+        key(&mut window, Modifiers::SHIFT, Key::F10);
+        key(&mut window, Modifiers::NONE, Key::Enter);
+        assert_eq!(settings(&window).spacing, usual, "{name}");
+        assert!(is_focused(&window), "{name}");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(window.state().stepping().is_none(), "F10 steps through the refinement, Shift+F10 does not");
+    }
+}
+
+#[test]
+fn the_menu_of_the_canvas_is_opened_by_keyboard() {
+    let mut window = quick_window();
+    let entry = |window: &Window| window.query_by_role_and_label(Role::Button, "Query here").is_some();
+    key(&mut window, Modifiers::SHIFT, Key::F10);
+    assert!(entry(&window));
+    assert!(focused_button(&window).is_some());
+    while focused_button(&window).as_deref() != Some("Query here") {
+        key(&mut window, Modifiers::NONE, Key::Tab);
+    }
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!entry(&window));
+    let middle = super::in_world(&window, super::canvas(&window).center());
+    let queried = super::selected(&window).expect("a queried triangle");
+    assert_eq!(Some(queried), window.state().session().locate(middle).triangle());
+}

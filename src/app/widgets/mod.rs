@@ -9,6 +9,7 @@ mod controls;
 mod display;
 mod floating;
 pub mod format;
+pub mod key_menu;
 mod paint;
 mod reveal;
 pub mod shown_keys;

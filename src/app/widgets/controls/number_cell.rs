@@ -72,6 +72,9 @@ impl NumberCell<'_> {
             return (around, self.edit(ui));
         }
         self.take_up_editing(ui);
+        // As many automatic ids as with a text field: else the next button changes its id while Tab leads to
+        // it, and the focus is lost.
+        ui.skip_ahead_auto_ids(1);
         let typed = self.finish(ui, false);
         let pasted = pasted(ui, self.id).and_then(|text| self.read(ui, &text));
         let (response, moved) = self.rest(ui);

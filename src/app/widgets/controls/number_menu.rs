@@ -3,45 +3,56 @@
 use eframe::egui::{Button, Event, Id, Popup, Response, Ui, ViewportCommand};
 
 use super::number_input::NumberInput;
+use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_by_keys};
 
 /// How a number in a field is changed, for its tooltip.
-pub(super) const WAYS: &str =
-    "Type it, drag it, or hold Ctrl and turn the wheel. Right-click for its default, Copy and Paste.";
+pub(super) const WAYS: &str = "Type it, drag it, or hold Ctrl and turn the wheel. Right-click or Shift+F10 for its default, Copy and Paste.";
 /// Seconds that the window waits for the contents of the clipboard.
 const PATIENCE: f64 = 1.0;
 
-/// Shows the menu of a number after a secondary click on `response`. Returns the default if it was chosen.
-/// What is pasted goes into the cell `cell`; without one, nothing can be pasted.
+/// Shows the menu of a number after a secondary click on `response`, or after Shift+F10 while it has the focus.
+/// Returns the default if it was chosen. What is pasted goes into the cell `cell`; without one, nothing can be
+/// pasted.
 pub(super) fn number_menu(
     ui: &Ui,
     response: &Response,
     input: &NumberInput<'_>,
     cell: Option<Id>,
 ) -> Option<f64> {
-    let mut reset = None;
-    Popup::context_menu(response).show(|menu| {
-        menu.set_min_width(160.0);
-        if let Some(default) = input.default {
-            let text = format!("Reset to {}", (input.show)(default));
-            if menu.add_enabled(default != input.value, Button::new(text)).clicked() {
-                reset = Some(default);
-                menu.close();
-            }
-        }
-        if menu.button("Copy").clicked() {
-            menu.copy_text(input.exact());
-            menu.close();
-        }
-        if let Some(cell) = cell
-            && menu.button("Paste").clicked()
-        {
-            let now = ui.input(|input| input.time);
-            ui.data_mut(|data| data.insert_temp(awaiting(cell), now));
-            ui.ctx().send_viewport_cmd(ViewportCommand::RequestPaste);
-            menu.close();
-        }
+    let id = Popup::default_response_id(response);
+    open_menu_by_keys(id, response);
+    let popup = if is_key_menu(ui.ctx(), id) {
+        Popup::menu(response).open_memory(None)
+    } else {
+        Popup::context_menu(response)
+    };
+    popup.show(|menu| entries(ui, menu, id, input, cell)).and_then(|shown| shown.inner)
+}
+
+fn entries(ui: &Ui, menu: &mut Ui, id: Id, input: &NumberInput<'_>, cell: Option<Id>) -> Option<f64> {
+    menu.set_min_width(160.0);
+    let reset = input.default.map(|default| {
+        let text = format!("Reset to {}", (input.show)(default));
+        (menu.add_enabled(default != input.value, Button::new(text)), default)
     });
-    reset
+    let copy = menu.button("Copy");
+    let paste = cell.map(|cell| (menu.button("Paste"), cell));
+    if copy.clicked() {
+        menu.copy_text(input.exact());
+    }
+    if let Some((_, cell)) = paste.as_ref().filter(|(paste, _)| paste.clicked()) {
+        let now = ui.input(|input| input.time);
+        ui.data_mut(|data| data.insert_temp(awaiting(*cell), now));
+        ui.ctx().send_viewport_cmd(ViewportCommand::RequestPaste);
+    }
+    let chosen = reset.as_ref().filter(|(button, _)| button.clicked()).map(|(_, default)| *default);
+    let buttons: Vec<_> =
+        reset.map(|reset| reset.0).into_iter().chain([copy]).chain(paste.map(|paste| paste.0)).collect();
+    if buttons.iter().any(Response::clicked) {
+        menu.close();
+    }
+    enter_menu(menu.ctx(), id, &buttons);
+    chosen
 }
 
 /// Returns the text that arrived from the clipboard for the cell `cell`, after *Paste* was chosen.

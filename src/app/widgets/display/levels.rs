@@ -1,7 +1,8 @@
 //! The legend of the levels, which is the histogram as well.
 
 use eframe::egui::{
-    self, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    self, Color32, EventFilter, Id, Key, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::{format, paint};
@@ -45,7 +46,7 @@ pub struct LevelLegend<'a> {
 /// The actions of a person on the rows of a legend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LevelAnswer {
-    /// The level under the pointer.
+    /// The level under the pointer, or that with the focus.
     pub hovered: Option<u32>,
     /// The level that was clicked, to be hidden or shown.
     pub toggled: Option<u32>,
@@ -107,11 +108,13 @@ impl<'a> LevelLegend<'a> {
         };
         let responses: Vec<_> =
             self.rows.iter().enumerate().map(|(i, row)| self.sense(ui, place(i), row)).collect();
+        self.follow_keys(ui, &responses);
         let level_where = |is: fn(&Response) -> bool| {
             let found = responses.iter().zip(self.rows).find(|(response, _)| is(response));
             found.map(|(_, row)| row.level)
         };
-        let (hovered, clicked) = (level_where(Response::hovered), level_where(Response::clicked));
+        let hovered = level_where(Response::hovered).or_else(|| level_where(Response::has_focus));
+        let clicked = level_where(Response::clicked);
         let isolates = ui.input(|input| input.modifiers.alt);
         for (i, row) in self.rows.iter().enumerate() {
             let lit = hovered.or(self.lit) == Some(row.level);
@@ -121,6 +124,7 @@ impl<'a> LevelLegend<'a> {
                 (false, false) => 1.0,
             };
             layout.paint(ui, place(i), row, lit, opacity);
+            paint::focus_ring(ui, &responses[i], place(i), 4);
         }
         LevelAnswer {
             hovered,
@@ -129,14 +133,36 @@ impl<'a> LevelLegend<'a> {
         }
     }
 
+    /// Lets the keys Up and Down go from row to row.
+    fn follow_keys(&self, ui: &Ui, responses: &[Response]) {
+        let Some(place) = responses.iter().position(Response::has_focus) else { return };
+        let filter = EventFilter { vertical_arrows: true, ..Default::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(responses[place].id, filter));
+        let pressed = |key| ui.input(|input| input.key_pressed(key));
+        let next = match (pressed(Key::ArrowUp), pressed(Key::ArrowDown)) {
+            (true, false) => place.checked_sub(1),
+            (false, true) => Some(place + 1).filter(|next| *next < responses.len()),
+            _ => None,
+        };
+        if let Some(next) = next {
+            ui.data_mut(|data| data.insert_temp(stop_id(ui), self.rows[next].level));
+            ui.memory_mut(|memory| memory.request_focus(responses[next].id));
+            ui.scroll_to_rect(responses[next].rect, None);
+        }
+    }
+
     fn is_hidden(&self, level: u32) -> bool {
         self.hidden >> level.min(63) & 1 == 1
     }
 
-    /// Registers a row for the pointer, tests and screen readers. Rows take no focus: there may be more than
-    /// fifty.
+    /// Registers a row for pointer and keyboard, tests and screen readers. Tab stops once in the legend, at
+    /// the row that had the focus last: there may be more than fifty.
     fn sense(&self, ui: &Ui, rect: Rect, row: &LevelRow) -> Response {
-        let response = ui.interact(rect, ui.scope_id().with(("level", row.level)), Sense::CLICK);
+        let first = self.rows.first().map_or(0, |first| first.level);
+        let stop =
+            ui.data(|data| data.get_temp(stop_id(ui))).unwrap_or(first).min(self.rows.len() as u32 - 1);
+        let sense = if row.level == stop { Sense::click() } else { Sense::CLICK };
+        let response = ui.interact(rect, row_id(ui, row.level), sense);
         let triangles = if row.count == 1 { "triangle" } else { "triangles" };
         let name = format!("Level {}: {} {triangles}", row.level, format::count(row.count));
         let is_hidden = self.is_hidden(row.level);
@@ -145,10 +171,19 @@ impl<'a> LevelLegend<'a> {
             ..WidgetInfo::labeled(Role::ListItem, true, &name)
         });
         let diameter = self.unit.after(&format::digits(row.diameter, 4));
-        let click = if is_hidden { "A click shows it" } else { "A click hides it" };
-        let help = format!("{name}\nDiameter {diameter}\n{click}, Alt+click shows it alone.");
+        let click = if is_hidden { "A click or Space shows it" } else { "A click or Space hides it" };
+        let help = format!("{name}\nDiameter {diameter}\n{click}, with Alt it is shown alone.");
         response.on_hover_text_at_pointer(help)
     }
+}
+
+fn row_id(ui: &Ui, level: u32) -> Id {
+    ui.scope_id().with(("level", level))
+}
+
+/// Under it, egui's memory has the level at which Tab stops.
+fn stop_id(ui: &Ui) -> Id {
+    ui.scope_id().with("stop of Tab")
 }
 
 /// The widths of the legend's columns, which depend on all rows.
