@@ -14,9 +14,14 @@ use crate::app::widgets::{Icon, ToolButton};
 /// Space between options, in points.
 const GAP: f32 = 8.0;
 /// Room for the buttons at the end, in points.
-const BUTTONS: f32 = 2.0 * metrics::ROW + 2.0 * GAP;
+const BUTTONS: f32 = 3.0 * metrics::ROW + 3.0 * GAP;
 /// Width of a popup, in points.
 const POPUP: f32 = 288.0;
+
+/// For a popup that stays open while its controls are used.
+const KEEP_OPEN: PopupCloseBehavior = PopupCloseBehavior::CloseOnClickOutside;
+/// For a popup in which one thing is chosen.
+const CLOSE_AT_ONCE: PopupCloseBehavior = PopupCloseBehavior::CloseOnClick;
 
 /// Shows the strip.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -42,9 +47,12 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                     });
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    popup(ui, Icon::VISIBLE, "View options", |ui| view::rows(ui, state, commands));
+                    popup(ui, Icon::VISIBLE, "View options", KEEP_OPEN, |ui| view::rows(ui, state, commands));
+                    popup(ui, Icon::OVERLAY, "Overlays", CLOSE_AT_ONCE, |ui| {
+                        view::overlay_rows(ui, state, commands);
+                    });
                     if !others.is_empty() {
-                        popup(ui, Icon::TUNE, "More options", |ui| {
+                        popup(ui, Icon::TUNE, "More options", KEEP_OPEN, |ui| {
                             others.iter().for_each(|item| (item.show)(ui, state, commands));
                         });
                     }
@@ -69,8 +77,8 @@ fn divided(
     options.into_iter().partition(|item| item.rank.is_some() && item.rank <= last)
 }
 
-/// Shows a button that opens and closes a popup, which stays open while its controls are used.
-fn popup(ui: &mut Ui, icon: Icon, name: &str, contents: impl FnOnce(&mut Ui)) {
+/// Shows a button that opens and closes a popup.
+fn popup(ui: &mut Ui, icon: Icon, name: &str, close: PopupCloseBehavior, contents: impl FnOnce(&mut Ui)) {
     let id = ui.scope_id().with(("popup of the strip", name));
     let is_open = Popup::is_id_open(ui.ctx(), id);
     let button = ToolButton::small(icon, name).selected(is_open).show(ui);
@@ -78,7 +86,7 @@ fn popup(ui: &mut Ui, icon: Icon, name: &str, contents: impl FnOnce(&mut Ui)) {
         .id(id)
         .align(RectAlign::BOTTOM_END)
         .gap(8.0)
-        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .close_behavior(close)
         .show(|ui| {
             Frame::new().inner_margin(Margin::same(8)).show(ui, |ui| {
                 ui.set_width(POPUP);

@@ -8,7 +8,16 @@ use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::{choice_rows, segmented, toggle_row};
 use meshbrush_render::colormap::Colormap;
 
-/// Edges, aids, colours, overlay and theme.
+/// What is shown in place of the colours of levels.
+pub fn overlay_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut overlay = state.view.overlay;
+    let choices = FieldOverlay::ALL.map(|overlay| (overlay, overlay.name()));
+    if choice_rows(ui, "Overlay", &mut overlay, &choices).changed() {
+        commands.push(Command::View(ViewCommand::SetOverlay(overlay)));
+    }
+}
+
+/// Edges, aids, colours and theme.
 pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let view = state.view;
     let mut edges = view.edges;
@@ -28,13 +37,6 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut map = view.colormap;
     if choice_rows(ui, "Colours", &mut map, &Colormap::ALL.map(|map| (map, map.name()))).changed() {
         commands.push(Command::View(ViewCommand::Colormap(map)));
-    }
-    ui.add_space(4.0);
-    let mut overlay = view.overlay;
-    if choice_rows(ui, "Overlay", &mut overlay, &FieldOverlay::ALL.map(|overlay| (overlay, overlay.name())))
-        .changed()
-    {
-        commands.push(Command::View(ViewCommand::SetOverlay(overlay)));
     }
     ui.add_space(8.0);
     let mut theme = view.theme;

@@ -63,8 +63,8 @@ fn a_command_shows_an_overlay_and_its_key_hides_it_again() {
     assert_eq!(overlay(&window), FieldOverlay::None);
     key(&mut window, Modifiers::SHIFT, Key::O);
     assert_eq!(overlay(&window), FieldOverlay::Target);
-    open_popup(&mut window, "View options");
     for (name, expected) in [("No overlay", FieldOverlay::None), ("Target", FieldOverlay::Target)] {
+        open_popup(&mut window, "Overlays");
         window.get_by_role_and_label(Role::RadioButton, name).click();
         window.run();
         assert_eq!(overlay(&window), expected);

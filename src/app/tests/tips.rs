@@ -67,7 +67,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     }
     choose(&mut window, "Method", "Show the tab Method");
     assert_eq!(unexplained(&window), [""; 0]);
-    for popup in ["More options", "View options"] {
+    for popup in ["More options", "View options", "Overlays"] {
         open_popup(&mut window, popup);
         assert_eq!(unexplained(&window), [""; 0], "{popup}");
         key(&mut window, Modifiers::NONE, Key::Escape);

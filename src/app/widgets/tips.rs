@@ -9,7 +9,7 @@ const EDGE: f32 = 2.0;
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own. A key is written as the id of its entry in braces, and what to
 /// leave out where there is none, in brackets: `[; {undo}]`.
-static SENTENCES: [(&str, &str); 218] = [
+static SENTENCES: [(&str, &str); 219] = [
     (
         "Open background…",
         "Reads a picture that is shown behind the mesh; a world file beside it says where it lies.",
@@ -20,7 +20,8 @@ static SENTENCES: [(&str, &str); 218] = [
     ("Tab/Mesh", "Levels, statistics, fit to the outline, plots, and how the mesh is made."),
     ("Tab/Domain", "The outline, the unit, the bounds, the pieces of the boundary and the background."),
     ("Tab/Method", "The figures of the report, and the walk of point location."),
-    ("View options", "Edges, aids to orientation, colours, overlay and theme."),
+    ("View options", "Edges, aids to orientation, colours and theme."),
+    ("Overlays", "What the canvas shows in place of the colours of levels."),
     ("More options", "Options of the tool that are rarely needed, or that have no room on the strip."),
     ("Copy values", "Copies all values of the queried triangle[; {copy-the-values-of-the-triangle}]."),
     ("Overlay/No overlay", "Shows the levels of the mesh alone."),

@@ -5,7 +5,7 @@ use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::app::kit::Tab;
-use crate::app::tests::{Window, canvas, choose, open_popup, open_section, open_tab, section, type_into};
+use crate::app::tests::{Window, canvas, choose, open_section, open_tab, section, type_into};
 
 /// Does a job in a window.
 pub struct Hands {
@@ -81,13 +81,16 @@ impl Hands {
         self.clicks += 1;
     }
 
-    /// Shows an overlay: opens the view options, chooses, and closes them.
+    /// Shows an overlay. The list closes with the choice.
     pub fn overlay(&mut self, name: &str) {
-        self.clicks += 3;
-        open_popup(&mut self.window, "View options");
+        self.press(Role::Button, "Overlays");
         self.window.get_by_role_and_label(Role::RadioButton, name).click();
         self.window.run();
-        open_popup(&mut self.window, "View options");
+        self.clicks += 1;
+        assert!(
+            self.window.query_by_role_and_label(Role::RadioButton, "No overlay").is_none(),
+            "the list is closed"
+        );
     }
 
     /// Looks at a control or a value, which must be in sight.

@@ -92,7 +92,7 @@ fn a_depth_model_becomes_the_size_of_triangles() {
     hands.open("Statistics");
     wait_for_jobs(&mut hands.window);
     hands.read(Role::Button, "Shortest edge");
-    hands.took(12);
+    hands.took(11);
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn threats_are_placed_and_a_path_leads_between_them() {
     wait_for_jobs(&mut hands.window);
     hands.read(Role::Definition, "Proved");
     hands.overlay("Risk");
-    hands.took(17);
+    hands.took(16);
 }
 
 #[test]

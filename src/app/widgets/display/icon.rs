@@ -59,6 +59,8 @@ impl Icon {
     pub const DOWN: Self = Self(material::ICON_ARROW_DOWNWARD.codepoint);
     /// Shown.
     pub const VISIBLE: Self = Self(material::ICON_VISIBILITY.codepoint);
+    /// Something shown in place of the colours of levels.
+    pub const OVERLAY: Self = Self(material::ICON_LAYERS.codepoint);
     /// Hidden.
     pub const HIDDEN: Self = Self(material::ICON_VISIBILITY_OFF.codepoint);
     /// Cannot be edited.
