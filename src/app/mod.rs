@@ -28,6 +28,7 @@ mod help;
 mod home;
 mod jobs;
 mod journal;
+mod kept_keys;
 mod keys;
 mod kit;
 mod layer_edits;
@@ -85,8 +86,6 @@ const LAST_WAIT: Duration = Duration::from_secs(5);
 const APP_ID: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
-/// Key of the changed keys in the window's own storage.
-const KEYS_KEY: &str = "keys";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
@@ -109,6 +108,8 @@ pub struct App {
     features: Features,
     /// Keys that differ from those that entries have by themselves.
     keymap: Keymap,
+    /// The text of stored keys that could not be read.
+    unread_keys: Option<String>,
     threads: Threads,
     dialogs: Dialogs,
     /// The contents of the help window, while it is open.
@@ -173,6 +174,7 @@ impl App {
             canvas: Canvas::new(gpu, &jobs),
             features: Features::default(),
             keymap: Keymap::default(),
+            unread_keys: None,
             threads: Threads::default(),
             dialogs: Dialogs::default(),
             help: None,
@@ -196,8 +198,7 @@ impl App {
             let theme = eframe::get_value(storage, THEME_KEY).unwrap_or(self.view.theme);
             self.view.set_theme(theme, &cc.egui_ctx);
             presentation::end_last(storage, &cc.egui_ctx);
-            let keys = storage.get_string(KEYS_KEY).and_then(|text| Keymap::parse(&text).ok());
-            self.keymap = keys.unwrap_or_default();
+            self.load_keys(storage);
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
                 self.limit_threads(count);
             }
@@ -245,7 +246,7 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.project.store(storage);
         self.dialogs.store(storage);
-        storage.set_string(KEYS_KEY, self.keymap.to_text());
+        self.store_keys(storage);
         eframe::set_value(storage, THEME_KEY, &self.view.theme);
         self.view.dock.store(storage);
         presentation::store(self.view.presentation, storage);

@@ -342,6 +342,19 @@ fn a_refused_formula_keeps_its_text_and_is_marked() {
     assert_eq!(entries(&window), 0);
 }
 
+#[test]
+fn a_number_that_changed_elsewhere_while_its_field_was_open_stays() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    set(&mut window, Setting::Spacing(0.1));
+    window.get_by_role_and_label(Role::TextInput, "Spacing δ value").focus();
+    window.run();
+    set(&mut window, Setting::Spacing(0.2));
+    window.get_by_role_and_label(Role::Slider, "Spacing δ").focus();
+    window.run();
+    assert_eq!(settings(&window).spacing, 0.2, "nothing was typed");
+}
+
 /// Returns the name of the button with the focus.
 fn focused_button(window: &Window) -> Option<String> {
     let mut buttons = window.query_all_by_role(Role::Button);

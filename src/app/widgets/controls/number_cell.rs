@@ -221,6 +221,7 @@ impl NumberCell<'_> {
         let mut text = kept.unwrap_or_else(|| self.input.exact());
         if fresh {
             self.keep_remark(ui, None, 0.0);
+            ui.data_mut(|data| data.insert_temp(self.untouched_id(), text.clone()));
         }
         let stepped = self.step(ui, &mut text);
         self.paint_edited_ground(ui, typed::number(&text, self.input.unit).is_ok());
@@ -285,7 +286,9 @@ impl NumberCell<'_> {
     fn finish(&self, ui: &Ui, in_field: bool) -> Option<f64> {
         let text = ui.data_mut(|data| data.remove_temp::<String>(self.id))?;
         let pressed = |key| ui.input(|input| input.key_pressed(key));
-        if pressed(Key::Escape) || text == self.input.exact() {
+        // The number may have changed elsewhere meanwhile, as by an undo.
+        let untouched = ui.data_mut(|data| data.remove_temp::<String>(self.untouched_id()));
+        if pressed(Key::Escape) || text == self.input.exact() || untouched.as_ref() == Some(&text) {
             return None;
         }
         match self.input.read(&text) {
@@ -313,6 +316,11 @@ impl NumberCell<'_> {
                 None
             }
         }
+    }
+
+    /// Under it, egui's memory has the text with which an edit began.
+    fn untouched_id(&self) -> Id {
+        self.id.with("untouched text")
     }
 
     fn ground(&self) -> Rect {
