@@ -66,14 +66,12 @@ fn divided(
     options: Vec<&'static StripItem>,
     room: f32,
 ) -> (Vec<&'static StripItem>, Vec<&'static StripItem>) {
-    let mut by_rank: Vec<_> = options.iter().filter_map(|item| Some((item.rank?, item.width))).collect();
-    by_rank.sort_by_key(|(rank, _)| *rank);
-    let mut used = 0.0;
-    let fits = by_rank.into_iter().take_while(|(_, width)| {
-        used += width + GAP;
-        used <= room
-    });
-    let last = fits.last().map(|(rank, _)| rank);
+    let width_of = |ranks: Option<u8>| {
+        let shown = options.iter().filter(|item| item.rank.is_some() && item.rank <= ranks);
+        shown.map(|item| item.width + GAP).sum::<f32>()
+    };
+    // Options of one rank, such as the two halves of a triangle, are shown together or not at all.
+    let last = options.iter().filter_map(|item| item.rank).filter(|rank| width_of(Some(*rank)) <= room).max();
     options.into_iter().partition(|item| item.rank.is_some() && item.rank <= last)
 }
 
@@ -106,9 +104,14 @@ mod tests {
         StripItem::rare(|_, _, _| {}),
     ];
 
+    static PAIR: [StripItem; 2] =
+        [StripItem::new(100.0, 1, |_, _, _| {}), StripItem::new(100.0, 1, |_, _, _| {})];
+
     #[test]
     fn the_most_important_options_stay_on_a_narrow_strip_in_their_order() {
         let ranks = |items: Vec<&StripItem>| items.iter().map(|item| item.rank).collect::<Vec<_>>();
+        let with_pair = ITEMS[2..3].iter().chain(&PAIR).collect();
+        assert_eq!(ranks(divided(with_pair, 230.0).0), [Some(0)], "a pair is not divided");
         for (room, on_strip) in
             [(400.0, vec![1, 2, 0]), (230.0, vec![1, 0]), (120.0, vec![0]), (50.0, vec![])]
         {

@@ -266,3 +266,37 @@ fn look_at(window: &mut OffscreenWindow, world: DVec2, factor: f64) {
 fn on_screen(window: &OffscreenWindow, world: DVec2) -> Pos2 {
     window.screen_from_world(world).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sizes of windows in points, with pixels for a point: small and large screens, and 2160 and 1080 pixels at
+    /// 200 %.
+    const SCREENS: [([f32; 2], f32); 5] = [
+        ([1280.0, 720.0], 1.0),
+        ([1440.0, 900.0], 1.0),
+        ([2560.0, 1440.0], 1.0),
+        ([1280.0, 720.0], 2.0),
+        ([960.0, 540.0], 2.0),
+    ];
+
+    /// Writes pictures at all sizes into a folder, for a look:
+    /// `MESHBRUSH_SCREENS=/tmp/screens cargo test --lib scenes_at_the_sizes_of_screens -- --ignored`.
+    #[test]
+    #[ignore = "writes pictures for a look"]
+    fn scenes_at_the_sizes_of_screens() {
+        let folder = std::env::var_os("MESHBRUSH_SCREENS").expect("a folder in MESHBRUSH_SCREENS");
+        let folder = PathBuf::from(folder);
+        make_folder(&folder).unwrap();
+        let shown = ["window", "query", "steps", "aegean", "layers", "path", "light"];
+        for scene in SCENES.iter().filter(|scene| shown.contains(&scene.name)) {
+            for (size, px_per_point) in SCREENS {
+                let mut window = OffscreenWindow::open(Vec2::from(size), px_per_point).unwrap();
+                (scene.act)(&mut window);
+                let name = format!("{}-{}x{}@{px_per_point}", scene.name, size[0], size[1]);
+                write_picture(&folder, &name, &window.picture().unwrap()).unwrap();
+            }
+        }
+    }
+}
