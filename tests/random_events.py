@@ -2,10 +2,11 @@
 """Random pointer and key events for the real window on a virtual display.
 
     cargo build --release
-    python3 tests/random_events.py [PROGRAM [MINUTES [SEED]]]
+    python3 tests/random_events.py [PROGRAM [MINUTES [SEED [DOCUMENT]]]]
 
 PROGRAM is target/release/meshbrush if none is named. MINUTES (60) are shared among four documents: a painted one, a
-sea with islands, one with every kind of layer, and threats with a path. Needs Xvfb and xdotool.
+sea with islands, one with every kind of layer, and threats with a path. DOCUMENT, a name among those below, takes
+all of them. Needs Xvfb and xdotool.
 Fails if the program ends, panics, does not come to rest within a minute after a burst of events, or shows a failure
 that Escape does not dismiss; the window's picture is then in target/tmp/random_events.png. Prints for each document the events, the longest wait, and the memory at the start, the
 most and at the end.
@@ -27,6 +28,7 @@ DOCUMENTS = ["Radar threats", "Aegean Sea", "Layers on a terrain", "Threats and 
 BURST = 12  # events
 PATIENCE_S = 60
 MOST_MEMORY_BYTES = 12 * 2**30
+NOTED_GROWTH_BYTES = 300 * 2**20
 
 PLAIN_KEYS = list("abcdefghijklmnopqrstuvwxyz0123456789") + [
     "bracketleft", "bracketright", "comma", "period", "slash", "plus", "minus", "space", "Tab", "Return", "Escape",
@@ -207,7 +209,11 @@ def torment(window, rng, document, seconds):
             window.xdotool(*event)
             events += 1
         longest = max(longest, window.settle())
-        most_memory = max(most_memory, window.memory_bytes())
+        memory = window.memory_bytes()
+        if memory > most_memory + NOTED_GROWTH_BYTES and most_memory > 0:
+            print(f"  memory {megabytes(most_memory)} to {megabytes(memory)} at {window.triangles} triangles, after "
+                  f"{burst}", flush=True)
+        most_memory = max(most_memory, memory)
         if most_memory > MOST_MEMORY_BYTES:
             window.fail(f"the program uses {megabytes(most_memory)}")
     for _ in range(12):
@@ -229,12 +235,13 @@ def main():
     minutes = float(sys.argv[2]) if len(sys.argv) > 2 else 60.0
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else random.randrange(10**6)
     print(f"seed {seed}", flush=True)
-    for number, document in enumerate(DOCUMENTS):
+    documents = [document for document in DOCUMENTS if document in (sys.argv[4:] or DOCUMENTS)]
+    for number, document in enumerate(documents):
         with tempfile.TemporaryDirectory() as scratch:
             window = Window(program, scratch)
             try:
                 window.wait_until_shown()
-                torment(window, random.Random(seed + number), document, 60 * minutes / len(DOCUMENTS))
+                torment(window, random.Random(seed + number), document, 60 * minutes / len(documents))
             finally:
                 window.close()
 

@@ -15,6 +15,8 @@ use crate::app::widgets::{Icon, ToolButton};
 const GAP: f32 = 8.0;
 /// Room for the buttons at the end, in points.
 const BUTTONS: f32 = 3.0 * metrics::ROW + 3.0 * GAP;
+/// By how much an option can be wider than its least width, in points.
+const MOST_STRETCH: f32 = 48.0;
 /// Width of a popup, in points.
 const POPUP: f32 = 288.0;
 
@@ -34,15 +36,18 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             ui.horizontal_centered(|ui| {
                 ui.spacing_mut().item_spacing.x = GAP;
                 let options = state.tools.tool.options.iter().filter(|item| (item.is_shown)(state)).collect();
-                let (fitting, others) = divided(options, ui.available_width() - BUTTONS);
+                let room = ui.available_width() - BUTTONS;
+                let (fitting, others) = divided(options, room);
+                let more = stretch(&fitting, room);
                 if fitting.is_empty() {
                     let name = RichText::new(state.tools.tool.name).font(font::strong());
                     ui.label(name.color(tokens(ui).label));
                 }
                 for item in fitting {
                     let layout = Layout::left_to_right(Align::Center);
-                    ui.allocate_ui_with_layout(vec2(item.width, metrics::STRIP), layout, |ui| {
-                        ui.set_min_width(item.width);
+                    let width = item.width + if item.stretches { more } else { 0.0 };
+                    ui.allocate_ui_with_layout(vec2(width, metrics::STRIP), layout, |ui| {
+                        ui.set_min_width(width);
                         (item.show)(ui, state, commands);
                     });
                 }
@@ -73,6 +78,13 @@ fn divided(
     // Options of one rank, such as the two halves of a triangle, are shown together or not at all.
     let last = options.iter().filter_map(|item| item.rank).filter(|rank| width_of(Some(*rank)) <= room).max();
     options.into_iter().partition(|item| item.rank.is_some() && item.rank <= last)
+}
+
+/// Returns by how much each option that stretches is wider than its least width.
+fn stretch(fitting: &[&StripItem], room: f32) -> f32 {
+    let used: f32 = fitting.iter().map(|item| item.width + GAP).sum();
+    let count = fitting.iter().filter(|item| item.stretches).count().max(1);
+    ((room - used) / count as f32).clamp(0.0, MOST_STRETCH).floor()
 }
 
 /// Shows a button that opens and closes a popup.
@@ -106,6 +118,14 @@ mod tests {
 
     static PAIR: [StripItem; 2] =
         [StripItem::new(100.0, 1, |_, _, _| {}), StripItem::new(100.0, 1, |_, _, _| {})];
+
+    #[test]
+    fn options_with_numbers_use_the_room_that_is_left() {
+        let items =
+            [StripItem::new(100.0, 0, |_, _, _| {}).stretching(), StripItem::new(100.0, 1, |_, _, _| {})];
+        let stretched = |room| stretch(&items.iter().collect::<Vec<_>>(), room);
+        assert_eq!([216.0, 226.0, 900.0].map(stretched), [0.0, 10.0, MOST_STRETCH]);
+    }
 
     #[test]
     fn the_most_important_options_stay_on_a_narrow_strip_in_their_order() {

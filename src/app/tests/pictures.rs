@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use eframe::egui::{Context, Key, Modifiers, Pos2, ThemePreference, vec2};
+use eframe::egui::{Context, Key, Modifiers, Pos2, ThemePreference, Vec2, vec2};
 use egui_kittest::Harness;
 use glam::dvec2;
 
@@ -24,12 +24,17 @@ pub fn drawn_window() -> Window {
 
 /// Returns the window of [`drawn_window`], with an app that `ready` prepared.
 pub fn window_drawn_by(ready: fn(&mut App, &Context)) -> Window {
+    drawn_window_of(vec2(1100.0, 700.0), ready)
+}
+
+/// Returns a window of `size` points that is drawn, with an app that `ready` prepared.
+pub fn drawn_window_of(size: Vec2, ready: fn(&mut App, &Context)) -> Window {
     let mut setup = egui_kittest::wgpu::default_wgpu_setup();
     if let eframe::egui_wgpu::WgpuSetup::CreateNew(create) = &mut setup {
         create.device_descriptor = Arc::new(meshbrush_render::render::gpu::device_descriptor);
     }
     let mut window = Harness::builder()
-        .with_size(vec2(1100.0, 700.0))
+        .with_size(size)
         .with_max_steps(4000)
         .with_render_cursor(false)
         .wgpu_setup(setup)
@@ -51,6 +56,18 @@ pub struct Picture {
 pub fn picture(window: &mut Window) -> Picture {
     let image = window.render().unwrap();
     Picture { width: image.width() as usize, rgba: image.into_raw() }
+}
+
+/// Writes the window into the folder that `MESHBRUSH_SCREENS` names, for a look.
+pub fn write_for_a_look(window: &mut Window, name: &str) {
+    let Some(folder) = std::env::var_os("MESHBRUSH_SCREENS") else { return };
+    let file = std::path::PathBuf::from(folder).join(name).with_extension("png");
+    let image = window.render().unwrap();
+    let size = [image.width(), image.height()];
+    let written = meshbrush_io::io::write_file(&file, |mut out| {
+        meshbrush_io::io::png::write_small(&mut out, size, &image.into_raw())
+    });
+    written.unwrap();
 }
 
 pub fn pixel(picture: &Picture, at: Pos2) -> [u8; 3] {

@@ -11,7 +11,9 @@ use crate::app::widgets::segmented;
 pub static DOMAIN_OPTIONS: [StripItem; 3] = [
     StripItem::new(304.0, 0, mode_row),
     StripItem::new(136.0, 1, adds_row).only(|state| state.tools.domain.mode != DomainToolMode::Frame),
-    StripItem::new(136.0, 2, radius_row).only(|state| state.tools.domain.mode == DomainToolMode::Brush),
+    StripItem::new(136.0, 2, radius_row)
+        .stretching()
+        .only(|state| state.tools.domain.mode == DomainToolMode::Brush),
 ];
 
 fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

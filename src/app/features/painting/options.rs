@@ -15,10 +15,10 @@ use meshbrush_core::field::{RiskToDiameter, Transfer};
 pub static BRUSH_OPTIONS: [StripItem; 9] = [
     StripItem::new(136.0, 0, kind_row),
     StripItem::new(184.0, 3, mode_row),
-    StripItem::new(136.0, 1, radius_row),
-    StripItem::new(136.0, 2, amount_row),
-    StripItem::new(128.0, 4, hardness_row),
-    StripItem::new(144.0, 5, painted_row),
+    StripItem::new(136.0, 1, radius_row).stretching(),
+    StripItem::new(136.0, 2, amount_row).stretching(),
+    StripItem::new(128.0, 4, hardness_row).stretching(),
+    StripItem::new(144.0, 5, painted_row).stretching(),
     StripItem::rare(smoothing_row),
     StripItem::rare(mirror_rows),
     StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),
@@ -26,9 +26,9 @@ pub static BRUSH_OPTIONS: [StripItem; 9] = [
 
 /// The same of the eraser.
 pub static ERASER_OPTIONS: [StripItem; 6] = [
-    StripItem::new(136.0, 0, radius_row),
-    StripItem::new(136.0, 1, amount_row),
-    StripItem::new(128.0, 2, hardness_row),
+    StripItem::new(136.0, 0, radius_row).stretching(),
+    StripItem::new(136.0, 1, amount_row).stretching(),
+    StripItem::new(128.0, 2, hardness_row).stretching(),
     StripItem::rare(smoothing_row),
     StripItem::rare(mirror_rows),
     StripItem::rare(pen_row).only(|state| state.tools.pen.is_known()),

@@ -10,8 +10,8 @@ use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
 
 /// The range, the peak and the law of the selected threat.
 pub static THREAT_OPTIONS: [StripItem; 3] = [
-    StripItem::new(144.0, 0, range_row).only(|state| selected(state).is_some()),
-    StripItem::new(120.0, 1, peak_row).only(|state| selected(state).is_some()),
+    StripItem::new(144.0, 0, range_row).stretching().only(|state| selected(state).is_some()),
+    StripItem::new(120.0, 1, peak_row).stretching().only(|state| selected(state).is_some()),
     StripItem::new(216.0, 2, law_row).only(|state| selected(state).is_some()),
 ];
 

@@ -1,11 +1,14 @@
 //! A hand with the pointer: it reaches controls as a person does, and counts its clicks.
 
-use eframe::egui::Rect;
 use eframe::egui::accesskit::Role;
+use eframe::egui::{Rect, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::app::kit::Tab;
-use crate::app::tests::{Window, canvas, choose, open_section, open_tab, section, type_into};
+use crate::app::tests::pictures::{drawn_window_of, write_for_a_look};
+use crate::app::tests::{
+    Window, canvas, choose, open_section, open_tab, section, type_into, wait_for_jobs, window,
+};
 
 /// Does a job in a window.
 pub struct Hands {
@@ -14,8 +17,10 @@ pub struct Hands {
 }
 
 impl Hands {
-    pub fn new(window: Window) -> Self {
-        Self { window, clicks: 0 }
+    pub fn new() -> Self {
+        let is_drawn = std::env::var_os("MESHBRUSH_SCREENS").is_some();
+        let drawn = || drawn_window_of(vec2(1440.0, 900.0), |_, _| {});
+        Self { window: if is_drawn { drawn() } else { window() }, clicks: 0 }
     }
 
     /// A click or a drag on the canvas.
@@ -120,8 +125,11 @@ impl Hands {
         assert!(areas.iter().any(|area| area.contains_rect(place)), "{what} must be scrolled to: {place:?}");
     }
 
-    /// Checks how many clicks the job took.
-    pub fn took(self, clicks: usize) {
+    /// Checks how many clicks the job took. `MESHBRUSH_SCREENS` gets a picture of the window after it.
+    pub fn took(mut self, clicks: usize) {
+        let job = std::thread::current().name().and_then(|name| name.rsplit("::").next().map(str::to_owned));
+        wait_for_jobs(&mut self.window);
+        write_for_a_look(&mut self.window, &job.unwrap_or_default());
         assert_eq!(self.clicks, clicks, "clicks");
     }
 }
