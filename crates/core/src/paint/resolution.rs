@@ -13,9 +13,10 @@ const LEAST_RADIUS_PX: f64 = 32.0;
 /// A segment is painted at most this many levels deeper than its widest point or the whole brush needs.
 const MOST_EXTRA_DEPTH: u8 = 3;
 
-/// Upper limit of the number of tiles of a segment, unless depth 0 has more. It keeps a thin line across a
-/// large domain at a few megabytes.
-const MOST_TILES: f64 = 16_384.0;
+/// Upper limit of the number of tiles of a segment, unless depth 0 has more. A tile is 4 KB, and less than 8
+/// with what is kept beside it, so a thin line across a large domain takes at most 32 MB. A line that is four
+/// thousand times as long as its radius still has 16 pixels for the radius.
+const MOST_TILES: f64 = 4096.0;
 
 /// Largest distance from any point to the nearest centre of a pixel, in pixels.
 const HALF_DIAGONAL_PX: f64 = 0.71;

@@ -376,7 +376,7 @@ fn a_hair_across_everything_and_a_pen_that_touches_down_take_few_tiles() {
         (segment.places.len(), depth.unwrap())
     };
     let (tiles, depth) = count(1e-7, [end(0.0, 1.0), end(1.0, 1.0)]);
-    assert!((1000..40_000).contains(&tiles) && depth > 4, "{tiles} tiles of depth {depth}");
+    assert!((1000..8000).contains(&tiles) && depth > 4, "{tiles} tiles of depth {depth}");
     let (tiles, depth) = count(0.01, [end(0.5, 0.0), end(0.5, 0.0)]);
     assert!((1..5).contains(&tiles) && depth == 4, "{tiles} tiles of depth {depth}");
     let (tiles, _) = count(0.01, [end(0.5, 0.01), end(0.6, 1.0)]);
