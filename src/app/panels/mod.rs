@@ -96,8 +96,10 @@ fn step_panel(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         Frame::new().inner_margin(margin).show(ui, |ui| {
             stepping::title(ui, commands);
+            // Text and code stay in sight, also in a low window.
+            stepping::text_and_code(ui, state, commands);
             report::section(ui, state, commands);
-            stepping::contents(ui, state, commands);
+            stepping::details(ui, state, commands);
             ui.add_space(metrics::PANEL_MARGIN);
         });
     });

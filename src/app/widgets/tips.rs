@@ -144,7 +144,10 @@ static SENTENCES: [(&str, &str); 219] = [
     ("Fine at low", "Makes the curve fine at the least values, and coarse at the greatest."),
     ("Fine near 0", "Makes the curve fine at the values nearest to 0, as in shallow water or at a shore."),
     ("Fine at high", "Makes the curve fine at the greatest values, and coarse at the least."),
-    ("Only bisections", "The next and the previous step, and playing, go from bisection to bisection."),
+    (
+        "Only bisections",
+        "The next and the previous step, and playing, go from bisection to bisection, then from one stage on the outline to another.",
+    ),
     ("Add knot", "Adds a knot halfway between the two that are furthest apart; it changes no diameter."),
     (
         "Open shapes…",
@@ -241,14 +244,14 @@ static SENTENCES: [(&str, &str); 219] = [
         "Deepest level",
         "The finest mesh that is measured: the report goes to level 13 with 2,113,944 triangles.",
     ),
-    ("Runs", "How often each mesh is made; the mean time counts."),
+    ("Runs", "How often each mesh is made, in turn with the others; the least time counts."),
     (
         "Measure",
         "Makes the meshes of Section 5.4 of the report, and plots the time that they take on this machine.",
     ),
     ("Export plot…", "Writes the plot as a drawing (.svg) or as a table (.csv)."),
     ("Copy numbers", "Copies the numbers of the plot as a table."),
-    ("Measuring", "Which of the meshes is being made."),
+    ("Measuring", "Which run is made, and which of its meshes."),
     ("Cancel measuring", "Ends the measuring; what was measured so far stays."),
     ("Close the figure", "Closes the figure of the report; its document stays open."),
     ("Copy the comparison", "Copies what the report shows, and its numbers beside those here."),

@@ -2,12 +2,13 @@
 
 use super::angles::Angles;
 use super::band::{Band, signs};
-use super::corners::pins;
+use super::corners::{Pin, pins};
 use super::flat::{drop_flat, pinched};
 use super::guard::Guard;
 use super::patchwork::Patchwork;
 use super::smooth::Smoother;
 use super::snap::{Crossings, Side, snapped};
+use super::stages::{DerivationAction, Watch, without_outside};
 use super::stencil::Placement;
 use super::triangulation::NONE;
 use crate::domain::RegionOnLattice;
@@ -42,23 +43,47 @@ pub(super) struct OutlineChanges {
 }
 
 impl OutlineChanges {
-    /// Finds the changes that put the nodes of the boundary on the outline of a region.
-    pub fn new(mesh: &Mesh, region: &RegionOnLattice) -> Self {
+    /// Finds the changes that put the nodes of the boundary on the outline of a region, and tells `watch` of
+    /// each stage.
+    pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
         let angles = Angles::new(mesh.lattice().step());
         let signs = signs(mesh, region);
         let band = Band::new(mesh, &signs);
+        let as_patch = |patchwork: &Patchwork| patch(mesh, &signs, &band, patchwork, &angles);
+        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, &angles));
+        watch(DerivationAction::RemoveByCorners, &|| without_outside(mesh, &signs, Vec::new()));
         let mut placement = placed(&band, region, mesh.lattice(), &angles);
-        let corner_limit = retreat(mesh, &band, &mut placement, region, &angles);
+        watch(DerivationAction::MoveToOutline, &|| {
+            without_outside(mesh, &signs, moved(&band, placement.goals.iter()))
+        });
+        watch(DerivationAction::CutEdges, &|| with_cuts(&placement));
+        let pins = pins(mesh, &band, &placement, region, &angles);
+        pins.iter().for_each(|pin| pin.apply(&mut placement));
+        watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
+        let corner_limit = retreat(&band, &mut placement, pins, &angles);
+        watch(DerivationAction::Retreat, &|| with_cuts(&placement));
         let mut patchwork = Patchwork::new(&band, &placement, &angles);
         let smoother = Smoother { region, angles: &angles, extent: mesh.lattice().extent() };
         for _ in 0..ROUNDS {
             patchwork.flip_edges(&angles);
+            watch(DerivationAction::FlipEdges, &|| as_patch(&patchwork));
             smoother.smooth(&mut patchwork);
+            watch(DerivationAction::ShiftNodes, &|| as_patch(&patchwork));
         }
         smoother.pull(&mut patchwork);
+        watch(DerivationAction::PullToOutline, &|| as_patch(&patchwork));
         let fit = fit(&patchwork, region, mesh.lattice().extent(), &angles);
-        Self { patch: patch(mesh, &signs, &band, &patchwork, &angles), fit, corner_limit }
+        Self { patch: as_patch(&patchwork), fit, corner_limit }
     }
+}
+
+/// Returns the nodes of the band that are not at home, in ascending order, with their positions.
+fn moved<'a>(band: &Band, positions: impl Iterator<Item = &'a LatticePoint>) -> Vec<(NodeId, LatticePoint)> {
+    let nodes = band.node_ids.iter().zip(&band.points).zip(positions);
+    let mut moved: Vec<_> =
+        nodes.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
+    moved.sort_unstable_by_key(|(id, _)| *id);
+    moved
 }
 
 /// Moves nodes onto the outline, all at once. Nodes at which the domain would touch itself stay.
@@ -79,18 +104,9 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
     }
 }
 
-/// Moves nodes to sharp corners, and lets nodes retreat where angles are too small. Corners where retreats do
-/// not help are given up. Returns the cotangent of the smallest angle that is accepted beside the other
-/// corners.
-fn retreat(
-    mesh: &Mesh,
-    band: &Band,
-    placement: &mut Placement,
-    region: &RegionOnLattice,
-    angles: &Angles,
-) -> f64 {
-    let mut pins = pins(mesh, band, placement, region, angles);
-    pins.iter().for_each(|pin| pin.apply(placement));
+/// Lets nodes retreat where angles are too small. Corners with their nodes, the `pins`, where retreats do not
+/// help are given up. Returns the cotangent of the smallest angle that is accepted beside the other corners.
+fn retreat(band: &Band, placement: &mut Placement, mut pins: Vec<Pin>, angles: &Angles) -> f64 {
     loop {
         let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
         let stuck = Guard { band, angles, limit: angles.limit(), pin_limits }.run(placement);
@@ -142,12 +158,9 @@ fn distance(point: LatticePoint, region: &RegionOnLattice, extent: LatticePoint,
 
 /// Collects the differences from the mesh.
 fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
-    let mut patch =
-        MeshPatch { added: patchwork.points[band.points.len()..].to_vec(), ..MeshPatch::default() };
-    let points = band.node_ids.iter().zip(&band.points).zip(&patchwork.points);
-    patch.moved =
-        points.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
-    patch.moved.sort_unstable_by_key(|(id, _)| *id);
+    let added = patchwork.points[band.points.len()..].to_vec();
+    let moved = moved(band, patchwork.points.iter());
+    let mut patch = MeshPatch { added, moved, ..MeshPatch::default() };
     let pieces = PiecesByTriangle::new(mesh, band, patchwork);
     for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
         let id = TriangleId::from_index(index);

@@ -1,5 +1,6 @@
 use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
+use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Extract, Mesh, MeshPatch, Removed};
 
@@ -20,12 +21,27 @@ pub struct DerivedMesh {
 impl DerivedMesh {
     /// Derives the mesh. Time and memory grow with the mesh, and most with the triangles along the outline.
     pub fn new(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Self {
-        let changes = domain.region_on_outline().map(|region| OutlineChanges::new(mesh, region));
+        Self::watched(mesh, domain, cleaning, &mut |_, _| {})
+    }
+
+    /// [`Self::new`], which tells `watch` of each stage.
+    pub(super) fn watched(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        cleaning: &Cleaning,
+        watch: Watch<'_>,
+    ) -> Self {
+        let region = domain.region_on_outline();
+        let changes = region.map(|region| OutlineChanges::new(mesh, region, watch));
         let (mut patch, fit, corner_limit) = match changes {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
-            None => (MeshPatch::default(), None, 0.0),
+            None => {
+                watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
+                (MeshPatch::default(), None, 0.0)
+            }
         };
         let removed = patch.clean(mesh, cleaning);
+        watch(DerivationAction::Clean, &|| patch.clone());
         let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
         Self { patch, fit, removed, allows_pinches, corner_limit }
     }

@@ -14,6 +14,8 @@
 //! Nodes end on lattice points, like all nodes of a mesh: at most half a lattice step beside the outline,
 //! whose own corners are lattice points, too ([`RegionOnLattice`](crate::domain::RegionOnLattice)).
 //!
+//! Each of these is a *stage* ([`stages`]), which the teaching mode of the window shows.
+//!
 //! Bounds. The domain never touches itself in a node. In square cells every angle is at least 18.4° and at
 //! most 143.2°, except beside sharp corners of the outline: there it is at least 12°, or 0.8 times the
 //! angle of the corner. That nodes lie *on* the outline is not guaranteed: those that retreated may be off
@@ -30,6 +32,7 @@ mod corners;
 mod guard;
 mod patchwork;
 mod smooth;
+mod stages;
 mod changes;
 mod derived;
 mod check;
@@ -37,3 +40,4 @@ mod check;
 pub use changes::OutlineFit;
 pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
+pub use stages::{DerivationAction, DerivationStage};

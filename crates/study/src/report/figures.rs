@@ -11,7 +11,7 @@ use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{Layer, LayerKind};
 use crate::mesh::Mesh;
-use crate::steps::{NeighbourCase, ReportRow, Step, StepAction, StepPlayer};
+use crate::steps::{NamedPlace, Names, NeighbourCase, ReportRow, Step, StepAction, StepPlayer};
 use crate::text::{Grouped, fixed, significant};
 
 /// A figure of the report, or its experiment.
@@ -101,7 +101,8 @@ impl ReportFigure {
             }
             Self::Times => {
                 "The report shows the running time over the number of triangles, both in proportion to the mesh of 9,560 \
-                 triangles, and a line of best fit. Measure repeats this on this machine."
+                 triangles, and a line of best fit on logarithmic axes: its gradient is the exponent of a power law. Measure \
+                 repeats this on this machine: on one thread, several runs in turn, the error bars from the least to the greatest."
             }
             Self::Orientation => {
                 "The report shows the test whether a point d lies to the right of an edge (a, b): whether (d − b) × (a − b) is above \
@@ -169,6 +170,29 @@ impl ReportFigure {
             }
             Self::Orientation => queried.map_or_else(Vec::new, |point| walk(mesh, point)),
             _ => Vec::new(),
+        }
+    }
+
+    /// Adds the letters by which the text of the figure names nodes and triangles of the step that is shown.
+    pub fn add_letters(self, player: &StepPlayer, names: &mut Names) {
+        let Some(step) = player.step().filter(|step| self.shows(step)) else { return };
+        let before = |number: u32| {
+            player.changes().iter().find(|change| change.number == number).and_then(|change| change.before)
+        };
+        match (self, before(step.triangle), step.across.and_then(before)) {
+            (Self::Descendants, Some([a, b, c, ..]), _) => {
+                for (node, letter) in [(a, "a"), (b, "b"), (c, "c")] {
+                    names.add(NamedPlace::Node(node as u32), letter);
+                }
+                step.new_node.into_iter().for_each(|node| names.add(NamedPlace::Node(node), "d"));
+            }
+            (Self::Neighbours, Some(of_i), Some(of_b)) => {
+                for (triangle, letter) in [(of_i[4], "a"), (of_i[5], "b"), (of_b[4], "c"), (of_b[5], "d")] {
+                    let number = u32::try_from(triangle);
+                    number.into_iter().for_each(|number| names.add(NamedPlace::Triangle(number), letter));
+                }
+            }
+            _ => {}
         }
     }
 

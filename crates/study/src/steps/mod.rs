@@ -1,4 +1,5 @@
-//! Algorithms 10 to 12 one step at a time, forwards and backwards, on a small mesh.
+//! Algorithms 10 to 12 one step at a time, forwards and backwards, on a small mesh; and then how the mesh is
+//! fitted to the outline of its domain.
 //!
 //! ```text
 //! coarse grid, rule ──▶ StepRecorder ──▶ Recording ──▶ StepPlayer
@@ -8,15 +9,21 @@
 //!
 //! Everything is numbered as in the report: triangles and nodes from 1, and −1 stands for the boundary.
 
+mod labels;
+mod names;
 mod parts;
 mod player;
 mod pseudo_code;
 mod recorder;
 mod recording;
+mod stages;
 pub mod svg;
 
-pub use parts::StepPart;
+pub use labels::{LabelSize, placed};
+pub use names::{NamedPlace, Names};
+pub use parts::{Marked, StepPart};
 pub use player::StepPlayer;
 pub use pseudo_code::{Algorithm, NeighbourCase};
 pub use recorder::StepRecorder;
 pub use recording::{BOUNDARY, Recording, ReportRow, RowChange, Step, StepAction};
+pub use stages::{StageChange, StepStage, StepTriangle};

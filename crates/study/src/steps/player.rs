@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
+use super::names::NamedPlace;
 use super::recording::{Recording, ReportRow, RowChange, Step, StepAction};
+use super::stages::{StepStage, StepTriangle};
 use crate::geometry::LatticePoint;
 
 /// 𝒯, 𝒩 and S_b at a step of a recording. Going back restores the very same arrays.
@@ -58,9 +60,26 @@ impl StepPlayer {
         &self.rows
     }
 
-    /// 𝒩 in lattice coordinates; the first node has number 1.
+    /// The nodes in lattice coordinates; the first one has number 1. Those of 𝒩, until stages follow.
     pub fn nodes(&self) -> &[LatticePoint] {
-        &self.recording.nodes[..self.node_count]
+        self.stage().map_or(&self.recording.nodes[..self.node_count], |stage| &stage.nodes)
+    }
+
+    /// Returns the stage that was done last; `None` during the refinement.
+    pub fn stage(&self) -> Option<&StepStage> {
+        let stages = &self.recording.stages;
+        let done = (self.position + stages.len()).checked_sub(self.len())?;
+        done.checked_sub(1).map(|last| &stages[last])
+    }
+
+    /// Returns the triangles as they are drawn: those of 𝒯, until stages follow.
+    pub fn triangles(&self) -> impl Iterator<Item = StepTriangle> + '_ {
+        let (rows, derived) = match self.stage() {
+            None => (self.rows(), &[][..]),
+            Some(stage) => (&[][..], &stage.triangles[..]),
+        };
+        let of_rows = rows.iter().zip(1..).map(|(row, number)| StepTriangle::of_row(number, row));
+        of_rows.chain(derived.iter().copied())
     }
 
     /// S_b, the top last.
@@ -81,6 +100,16 @@ impl StepPlayer {
     pub fn corners(&self, number: u32) -> [LatticePoint; 3] {
         let [a, b, c, ..] = self.rows[number as usize - 1];
         [a, b, c].map(|node| self.recording.nodes[node as usize - 1])
+    }
+
+    /// Returns the corners of what has a name: three of a triangle, one of a node, two of an edge.
+    pub fn points_of(&self, place: NamedPlace) -> Vec<LatticePoint> {
+        let node = |node: u32| self.nodes()[node as usize - 1];
+        match place {
+            NamedPlace::Triangle(number) => self.corners(number).to_vec(),
+            NamedPlace::Node(number) => vec![node(number)],
+            NamedPlace::Boundary(ends) => ends.map(node).to_vec(),
+        }
     }
 
     /// Goes to where `position` steps are done, at most to the end.

@@ -62,11 +62,14 @@ pub enum Algorithm {
     UpdateNeighbours4,
     UpdateBoundaryNeighbours1,
     UpdateBoundaryNeighbours2,
+    KeepByCentroid,
+    FitToOutline,
+    Clean,
 }
 
 impl Algorithm {
-    /// All of them, in the order of their numbers.
-    pub const ALL: [Self; 11] = [
+    /// All of them, in the order of their numbers, and then those that are not in the report.
+    pub const ALL: [Self; 14] = [
         Self::BisectTriangles,
         Self::UpdateNeighbours1,
         Self::RefineTriangle,
@@ -78,11 +81,14 @@ impl Algorithm {
         Self::UpdateNeighbours4,
         Self::UpdateBoundaryNeighbours1,
         Self::UpdateBoundaryNeighbours2,
+        Self::KeepByCentroid,
+        Self::FitToOutline,
+        Self::Clean,
     ];
 
-    /// Returns the number in the report.
-    pub fn number(self) -> u32 {
-        match self {
+    /// Returns the number in the report; `None` of one that is not in it.
+    pub fn number(self) -> Option<u32> {
+        Some(match self {
             Self::BisectTriangles => 8,
             Self::UpdateNeighbours1 => 9,
             Self::RefineTriangle => 10,
@@ -94,10 +100,16 @@ impl Algorithm {
             Self::UpdateNeighbours4 => 23,
             Self::UpdateBoundaryNeighbours1 => 24,
             Self::UpdateBoundaryNeighbours2 => 25,
-        }
+            Self::KeepByCentroid | Self::FitToOutline | Self::Clean => return None,
+        })
     }
 
-    /// Returns the name in the report.
+    /// Returns what it is in the report.
+    pub fn title(self) -> String {
+        self.number().map_or_else(|| "Not in the report".into(), |number| format!("Algorithm {number}"))
+    }
+
+    /// Returns the name, which is that in the report if it is there.
     pub fn name(self) -> &'static str {
         match self {
             Self::BisectTriangles => "BisectTriangles",
@@ -111,6 +123,9 @@ impl Algorithm {
             Self::UpdateNeighbours4 => "UpdateNeighbours4",
             Self::UpdateBoundaryNeighbours1 => "UpdateBoundaryNeighbours1",
             Self::UpdateBoundaryNeighbours2 => "UpdateBoundaryNeighbours2",
+            Self::KeepByCentroid => "KeepByCentroid",
+            Self::FitToOutline => "FitToOutline",
+            Self::Clean => "Clean",
         }
     }
 
@@ -128,9 +143,37 @@ impl Algorithm {
             Self::UpdateNeighbours4 => &UPDATE_NEIGHBOURS_4,
             Self::UpdateBoundaryNeighbours1 => &UPDATE_BOUNDARY_NEIGHBOURS_1,
             Self::UpdateBoundaryNeighbours2 => &UPDATE_BOUNDARY_NEIGHBOURS_2,
+            Self::KeepByCentroid => &KEEP_BY_CENTROID,
+            Self::FitToOutline => &FIT_TO_OUTLINE,
+            Self::Clean => &CLEAN,
         }
     }
 }
+
+const KEEP_BY_CENTROID: [&str; 2] = ["for each triangle t do", "    remove t unless its centroid is in Ω"];
+
+const FIT_TO_OUTLINE: [&str; 14] = [
+    "for each triangle t do",
+    "    remove t unless a corner of t is in Ω",
+    "for each node x at an edge that ∂Ω crosses near x do",
+    "    move x to the nearest of these crossings",
+    "for each edge that ∂Ω still crosses do",
+    "    cut it there; remove what is outside Ω",
+    "move the node next to each sharp corner of ∂Ω there",
+    "while an angle is too small do",
+    "    move its nodes back, half of the way each time",
+    "repeat 8 times",
+    "    flip edges while that makes small angles larger",
+    "    shift nodes while that makes small angles larger",
+    "move nodes of the boundary beside ∂Ω onto it",
+    "Clean()",
+];
+
+const CLEAN: [&str; 3] = [
+    "repeat until nothing changes",
+    "    remove parts that are not kept",
+    "    remove triangles until no node joins two fans",
+];
 
 const REFINE_TRIANGLE: [&str; 10] = [
     "i_b ← T[i, 4]",

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use super::pseudo_code::NeighbourCase;
 use super::recording::{Recording, ReportRow, RowChange, Step, StepAction, report_row};
-use crate::mesh::{Answer, Element, Limits, Mesh, Orientation, Progress, RefineError, TriangleId};
+use super::stages::StepStage;
+use crate::domain::DomainOnLattice;
+use crate::mesh::{Answer, Cleaning, Element, Limits, Mesh, Orientation, Progress, RefineError, TriangleId};
+use crate::outline::DerivedMesh;
 
 /// A triangle and its row; `None` while it is not in the array.
 type KnownRow = (TriangleId, Option<ReportRow>);
@@ -112,7 +115,23 @@ impl StepRecorder {
             is_cut_short: self.is_cut_short,
             steps: self.steps,
             changes: self.changes,
+            stages: Vec::new(),
         }
+    }
+
+    /// Returns the recording with what follows the refinement on a domain, if that came to its end: triangles
+    /// outside are removed, and nodes move onto the outline. The end is the mesh that is shown and exported.
+    pub fn finish_on(mut self, domain: &DomainOnLattice, cleaning: &Cleaning) -> Recording {
+        if self.is_cut_short {
+            return self.finish();
+        }
+        if domain.is_fitted() {
+            let all = 0..self.mesh.raw_triangle_count();
+            self.mesh.classify(all, |element| domain.excludes(element));
+        }
+        let (_, stages) = DerivedMesh::in_stages(&self.mesh, domain, cleaning);
+        let stages = StepStage::all(&self.mesh, stages);
+        self.finish().with_stages(stages)
     }
 
     fn next_in_array(&mut self) -> Option<TriangleId> {
@@ -126,19 +145,7 @@ impl StepRecorder {
     fn end(&mut self, is_cut_short: bool) -> Progress {
         let is_first_end = self.steps.last().is_none_or(|step| step.action != StepAction::Finish);
         if !is_cut_short && is_first_end {
-            let nowhere = Step {
-                action: StepAction::Finish,
-                triangle: 0,
-                visited: 0,
-                across: None,
-                level: 0,
-                k: 0,
-                orientation: 0,
-                orientation_across: None,
-                new_node: None,
-                first_change: self.changes.len() as u32,
-            };
-            self.steps.push(nowhere);
+            self.steps.push(Step::of_all(StepAction::Finish, self.changes.len()));
         }
         self.is_cut_short = is_cut_short;
         Progress::Done

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::pseudo_code::{Algorithm, NeighbourCase};
+use super::stages::{StageChange, StepStage};
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Orientation, Triangle};
 
@@ -51,8 +52,10 @@ pub enum StepAction {
     Bisect,
     /// Updates the neighbours of the halves, and of the triangles around them.
     UpdateNeighbours(NeighbourCase),
-    /// The end: no triangle exceeds its target.
+    /// The end of the refinement: no triangle exceeds its target.
     Finish,
+    /// A stage that follows: triangles outside the domain are removed, or nodes move onto its outline.
+    Derive(StageChange),
 }
 
 /// A step.
@@ -81,6 +84,27 @@ pub struct Step {
 }
 
 impl Step {
+    /// Returns a step that is about no triangle of its own.
+    pub(super) fn of_all(action: StepAction, first_change: usize) -> Self {
+        Self {
+            action,
+            triangle: 0,
+            visited: 0,
+            across: None,
+            level: 0,
+            k: 0,
+            orientation: 0,
+            orientation_across: None,
+            new_node: None,
+            first_change: first_change as u32,
+        }
+    }
+
+    /// Returns whether the mesh is another one after the step.
+    pub fn changes_mesh(&self) -> bool {
+        matches!(self.action, StepAction::Bisect | StepAction::Derive(_))
+    }
+
     /// Returns the algorithm that the step belongs to, and which of its lines it runs, counted from 1.
     pub fn lines(&self) -> (Algorithm, Range<usize>) {
         use Algorithm::{
@@ -102,6 +126,7 @@ impl Step {
                 (algorithm, 1..algorithm.lines().len() + 1)
             }
             (StepAction::Finish, ..) => (RefineMesh, 8..10),
+            (StepAction::Derive(change), ..) => change.lines(),
         }
     }
 
@@ -138,6 +163,7 @@ impl Step {
                 format!("The neighbours of the halves are updated: {}.", case.algorithm().name())
             }
             (StepAction::Finish, _) => "No triangle exceeds its target.".into(),
+            (StepAction::Derive(change), _) => change.sentence(),
         }
     }
 }
@@ -153,7 +179,7 @@ pub struct RowChange {
     pub after: ReportRow,
 }
 
-/// All steps of a run of Algorithm 12.
+/// All steps of a run of Algorithm 12, and of what follows it.
 #[derive(Clone, Debug)]
 pub struct Recording {
     /// The grid and lattice of the mesh.
@@ -168,12 +194,27 @@ pub struct Recording {
     pub is_cut_short: bool,
     pub(super) steps: Vec<Step>,
     pub(super) changes: Vec<RowChange>,
+    /// What follows the refinement; the last steps, one for each.
+    pub(super) stages: Vec<StepStage>,
 }
 
 impl Recording {
     /// Returns the steps, in order.
     pub fn steps(&self) -> &[Step] {
         &self.steps
+    }
+
+    /// Returns the stages that follow the refinement.
+    pub fn stages(&self) -> &[StepStage] {
+        &self.stages
+    }
+
+    /// Adds what follows the refinement.
+    pub(super) fn with_stages(mut self, stages: Vec<StepStage>) -> Self {
+        let step = |stage: &StepStage| Step::of_all(StepAction::Derive(stage.change), self.changes.len());
+        self.steps.extend(stages.iter().map(step));
+        self.stages = stages;
+        self
     }
 
     /// Returns the rows that step `index` changes, counted from 0, in the order in which they are written.

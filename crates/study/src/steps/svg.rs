@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::{StepPart, StepPlayer};
+use super::{LabelSize, Marked, NamedPlace, StepPart, StepPlayer, placed};
 use crate::geometry::LatticePoint;
 
 /// Width of the drawing, and its margin, in pixels.
@@ -15,6 +15,9 @@ const LINE: f64 = 30.0;
 /// Size of the letters of a caption, and the least and most of a number.
 const LETTERS: f64 = 20.0;
 const NUMBERS: [f64; 2] = [6.0, 20.0];
+/// Size of the letters of a name, and the mean width of one.
+const NAME: f64 = 16.0;
+const NAME_LETTER: f64 = 9.0;
 
 /// Colours of the drawing.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +28,7 @@ pub struct StepColors<'a> {
     pub background: [u8; 3],
     /// Letters of the caption.
     pub text: [u8; 3],
-    /// Triangles on the stack, those with new neighbours, and the bisection neighbour.
+    /// Triangles on the stack, those with new neighbours or removed, and the bisection neighbour.
     pub parts: [[u8; 3]; 3],
 }
 
@@ -54,12 +57,14 @@ pub fn write(out: &mut impl Write, player: &StepPlayer, colors: &StepColors<'_>)
     let background = Hex(colors.background);
     writeln!(out, "<rect width=\"{WIDTH}\" height=\"{height:.0}\" fill=\"{background}\"/>")?;
     write_triangles(out, player, &page, colors)?;
-    let parts = player.parts();
-    for (number, part) in &parts {
-        write_part(out, &page.corners(player, *number), part_color(*part, colors))?;
+    let marked = player.marked();
+    for Marked { corners, part, .. } in &marked {
+        write_part(out, &page.corners(*corners), part_color(*part, colors))?;
     }
+    write_moves(out, player, &page)?;
     write_nodes(out, player, &page)?;
-    write_numbers(out, player, &page, &parts, colors)?;
+    write_numbers(out, player, &page, &marked, colors)?;
+    write_names(out, player, &page, &marked, colors)?;
     writeln!(out, "<g text-anchor=\"start\" font-size=\"{LETTERS}\" fill=\"{}\">", Hex(colors.text))?;
     for (row, text) in caption.iter().enumerate() {
         let y = page.height + MARGIN + LINE * row as f64;
@@ -83,7 +88,7 @@ fn caption(player: &StepPlayer) -> Vec<String> {
     };
     let mut text = vec![
         format!("{place}: {}", step.sentence()),
-        format!("Algorithm {}, {}, {lines}", algorithm.number(), algorithm.name()),
+        format!("{}: {}, {lines}", algorithm.title(), algorithm.name()),
     ];
     if step.triangle > 0 {
         let (i, level, k, o) = (step.triangle, step.level, step.k, step.orientation);
@@ -99,9 +104,9 @@ fn write_triangles(
     colors: &StepColors<'_>,
 ) -> io::Result<()> {
     writeln!(out, "<g id=\"triangles\" stroke=\"#000\" stroke-opacity=\"0.5\" stroke-width=\"1\">")?;
-    for (index, row) in player.rows().iter().enumerate() {
-        let [r, g, b, _] = colors.levels[(row[7] as usize).min(63)];
-        let points = Points(page.corners(player, index as u32 + 1));
+    for triangle in player.triangles() {
+        let [r, g, b, _] = colors.levels[usize::from(triangle.level).min(63)];
+        let points = Points(page.corners(triangle.corners(player.nodes())));
         writeln!(out, "<polygon points=\"{points}\" fill=\"{}\"/>", Hex([r, g, b]))?;
     }
     writeln!(out, "</g>")
@@ -109,20 +114,42 @@ fn write_triangles(
 
 fn write_part(out: &mut impl Write, corners: &[[f64; 2]; 3], color: [u8; 3]) -> io::Result<()> {
     let (points, color) = (Points(*corners), Hex(color));
+    // Lines that cover small triangles would hide what they show.
+    let width = (0.06 * shortest_edge(corners)).clamp(0.4, 2.5);
+    let rim = 2.0 * width;
     writeln!(
         out,
-        "<polygon points=\"{points}\" fill=\"{color}\" fill-opacity=\"0.25\" stroke=\"#000\" stroke-width=\"5\"/>\n\
-         <polygon points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"2.5\"/>"
+        "<polygon points=\"{points}\" fill=\"{color}\" fill-opacity=\"0.25\" stroke=\"#000\" stroke-width=\"{rim:.1}\"/>\n\
+         <polygon points=\"{points}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width:.1}\"/>"
     )
+}
+
+/// A line from the former place of each node that moved to the present one.
+fn write_moves(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Result<()> {
+    writeln!(out, "<g id=\"moves\" stroke=\"#fff\" stroke-width=\"1.5\" fill=\"#fff\">")?;
+    for [from, to] in player.moves() {
+        let ([ax, ay], [bx, by]) = (page.place(from), page.place(to));
+        writeln!(
+            out,
+            "<path d=\"M{ax:.1} {ay:.1}L{bx:.1} {by:.1}\"/><circle cx=\"{bx:.1}\" cy=\"{by:.1}\" r=\"2\" stroke=\"#000\" stroke-width=\"0.8\"/>"
+        )?;
+    }
+    writeln!(out, "</g>")
 }
 
 fn write_nodes(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Result<()> {
     let mut rooms = vec![f64::INFINITY; player.nodes().len()];
-    for (index, row) in player.rows().iter().enumerate() {
-        let room = shortest_edge(&page.corners(player, index as u32 + 1));
-        for node in &row[..3] {
-            let known = &mut rooms[*node as usize - 1];
+    for triangle in player.triangles() {
+        let room = shortest_edge(&page.corners(triangle.corners(player.nodes())));
+        for node in triangle.nodes {
+            let known = &mut rooms[node as usize - 1];
             *known = known.min(room);
+        }
+    }
+    // Their names have their numbers.
+    for (place, _) in player.names().labels() {
+        if let NamedPlace::Node(node) = place {
+            rooms[node as usize - 1] = 0.0;
         }
     }
     writeln!(
@@ -131,7 +158,7 @@ fn write_nodes(out: &mut impl Write, player: &StepPlayer, page: &Page) -> io::Re
     )?;
     for (index, (node, room)) in player.nodes().iter().zip(rooms).enumerate() {
         let size = (0.16 * room).min(NUMBERS[1]);
-        if size < NUMBERS[0] {
+        if size < NUMBERS[0] || room.is_infinite() {
             continue;
         }
         let [x, y] = page.place(*node);
@@ -152,23 +179,25 @@ fn write_numbers(
     out: &mut impl Write,
     player: &StepPlayer,
     page: &Page,
-    parts: &[(u32, StepPart)],
+    marked: &[Marked],
     colors: &StepColors<'_>,
 ) -> io::Result<()> {
+    let named: Vec<NamedPlace> = player.names().labels().map(|(place, _)| place).collect();
     writeln!(
         out,
         "<g id=\"numbers\" stroke=\"#000\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\" \
          dominant-baseline=\"central\">"
     )?;
-    for number in 1..=player.rows().len() as u32 {
-        let corners = page.corners(player, number);
+    for triangle in player.triangles() {
+        let number = triangle.number;
+        let corners = page.corners(triangle.corners(player.nodes()));
         let size = (0.22 * shortest_edge(&corners)).min(NUMBERS[1]);
-        if size < NUMBERS[0] {
+        if size < NUMBERS[0] || named.contains(&NamedPlace::Triangle(number)) {
             continue;
         }
-        let part = parts.iter().find(|(of_step, _)| *of_step == number);
-        let color = Hex(part.map_or([0xdd; 3], |(_, part)| part_color(*part, colors)));
-        let [x, y] = [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 3.0);
+        let part = marked.iter().find(|one| one.number == number).map(|one| one.part);
+        let color = Hex(part.map_or([0xdd; 3], |part| part_color(part, colors)));
+        let [x, y] = middle(&corners);
         writeln!(
             out,
             "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size:.1}\" fill=\"{color}\">{number}</text>"
@@ -177,10 +206,54 @@ fn write_numbers(
     writeln!(out, "</g>")
 }
 
+/// The letters of the step with the numbers of what they stand for, beside it where it is too small.
+fn write_names(
+    out: &mut impl Write,
+    player: &StepPlayer,
+    page: &Page,
+    marked: &[Marked],
+    colors: &StepColors<'_>,
+) -> io::Result<()> {
+    let names: Vec<(NamedPlace, String)> = player.names().labels().collect();
+    let corners: Vec<Vec<[f64; 2]>> = names
+        .iter()
+        .map(|(place, _)| player.points_of(*place).into_iter().map(|point| page.place(point)).collect())
+        .collect();
+    let label = |((_, text), corners): (&(NamedPlace, String), &Vec<[f64; 2]>)| {
+        LabelSize::of(corners, [NAME_LETTER * text.chars().count() as f64, NAME])
+    };
+    let labels: Vec<LabelSize> = names.iter().zip(&corners).map(label).collect();
+    let area = [[0.0; 2], [WIDTH, page.height]];
+    writeln!(
+        out,
+        "<g id=\"names\" stroke=\"#000\" stroke-width=\"3\" paint-order=\"stroke\" font-weight=\"bold\" \
+         font-size=\"{NAME}\" dominant-baseline=\"central\">"
+    )?;
+    for (((place, text), label), [x, y]) in names.iter().zip(&labels).zip(placed(&labels, area)) {
+        let part = marked.iter().find(|one| NamedPlace::Triangle(one.number) == *place);
+        let color = Hex(part.map_or([0xff; 3], |one| part_color(one.part, colors)));
+        let [from_x, from_y] = label.at;
+        if (x - from_x).hypot(y - from_y) > 0.5 * NAME {
+            writeln!(
+                out,
+                "<path d=\"M{from_x:.1} {from_y:.1}L{x:.1} {y:.1}\" stroke=\"{color}\" stroke-width=\"1\"/>\
+                 <circle cx=\"{from_x:.1}\" cy=\"{from_y:.1}\" r=\"3\" fill=\"{color}\" stroke-width=\"1\"/>"
+            )?;
+        }
+        writeln!(out, "<text x=\"{x:.1}\" y=\"{y:.1}\" fill=\"{color}\">{text}</text>")?;
+    }
+    writeln!(out, "</g>")
+}
+
+/// Returns the mean of some points.
+fn middle(points: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / points.len() as f64)
+}
+
 fn part_color(part: StepPart, colors: &StepColors<'_>) -> [u8; 3] {
     match part {
         StepPart::Waiting => colors.parts[0],
-        StepPart::Relinked => colors.parts[1],
+        StepPart::Relinked | StepPart::Removed => colors.parts[1],
         StepPart::Across => colors.parts[2],
         StepPart::Current => [0xff; 3],
     }
@@ -215,8 +288,8 @@ impl Page {
         [MARGIN + self.scale[0] * f64::from(node.x), self.height - MARGIN - self.scale[1] * f64::from(node.y)]
     }
 
-    fn corners(&self, player: &StepPlayer, number: u32) -> [[f64; 2]; 3] {
-        player.corners(number).map(|corner| self.place(corner))
+    fn corners(&self, corners: [LatticePoint; 3]) -> [[f64; 2]; 3] {
+        corners.map(|corner| self.place(corner))
     }
 }
 
@@ -290,7 +363,9 @@ mod tests {
                 triangles.lines().filter_map(|line| line.split("points=\"").nth(1)).map(area_of).sum();
             assert!((area / (1140.0 * 570.0) - 1.0).abs() < 0.01, "{area}");
             let numbers = group(&drawing, "numbers");
-            assert!(numbers.contains(">1</text>"));
+            assert!(numbers.contains(">1</text>") || group(&drawing, "names").contains("= 1</text>"));
+            let named = group(&drawing, "names").matches("</text>").count();
+            assert_eq!(named, player.names().labels().count());
             assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
             assert!(drawing.contains(&format!("Step {position} of {}", player.len())));
             if let Some(step) = player.step() {

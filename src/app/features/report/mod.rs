@@ -22,6 +22,11 @@ pub struct Report {
 }
 
 impl Report {
+    /// Returns the figure that is shown.
+    pub fn figure(&self) -> Option<ReportFigure> {
+        self.shown
+    }
+
     /// Returns whether a figure is shown.
     pub fn is_shown(&self) -> bool {
         self.shown.is_some()

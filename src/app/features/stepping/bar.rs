@@ -1,6 +1,6 @@
 //! The bar under the canvas: to go from step to step.
 
-use eframe::egui::{Align, Layout, RichText, Slider, Ui, WidgetInfo, vec2};
+use eframe::egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::steps::SPEEDS;
 use super::{StepCommand, Steps};
@@ -38,13 +38,7 @@ pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
                 send(command);
             }
         }
-        let counter = format!("Step {} of {}", format::count(position as u64), format::count(count as u64));
-        let counter = RichText::new(counter).font(font::strong()).color(tokens(ui).value);
-        ui.allocate_ui_with_layout(vec2(COUNTER, HEIGHT), Layout::left_to_right(Align::Center), |ui| {
-            ui.set_min_width(COUNTER);
-            ui.add_space(8.0);
-            ui.label(counter);
-        });
+        let (counter, _) = ui.allocate_exact_size(vec2(COUNTER, HEIGHT), Sense::hover());
         let mut step = position;
         ui.spacing_mut().slider_width = (ui.available_width() - SPEED - 100.0).max(60.0);
         let slider = ui.add_enabled(count > 0, Slider::new(&mut step, 0..=count.max(1)).show_value(false));
@@ -53,6 +47,8 @@ pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
         if slider.changed() {
             send(StepCommand::GoTo(step));
         }
+        // After the slider: the number is that of its thumb, in the same frame.
+        show_counter(ui, counter, step, count);
         ui.add_space(8.0);
         ui.label(RichText::new("Steps per second").font(font::caption()).color(tokens(ui).label));
         let mut speed = steps.speed();
@@ -61,5 +57,16 @@ pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
                 send(StepCommand::Speed(speed));
             }
         });
+    });
+}
+
+/// Which step of how many.
+fn show_counter(ui: &mut Ui, room: Rect, step: usize, count: usize) {
+    let text = format!("Step {} of {}", format::count(step as u64), format::count(count as u64));
+    let text = RichText::new(text).font(font::strong()).color(tokens(ui).value);
+    let left = UiBuilder::new().max_rect(room).layout(Layout::left_to_right(Align::Center));
+    ui.scope_builder(left, |ui| {
+        ui.add_space(8.0);
+        ui.label(text);
     });
 }

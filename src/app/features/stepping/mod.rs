@@ -1,5 +1,5 @@
 //! The mode that steps through the refinement of the document's mesh: Algorithms 10 to 12, forwards and
-//! backwards.
+//! backwards, and then how triangles outside are removed and nodes move onto the outline.
 //!
 //! The document and its mesh stay as they are. The steps are recorded on another thread; the canvas then
 //! shows the arrays at one step in place of the mesh. An edit of the document ends the mode.
@@ -11,6 +11,7 @@ mod entries;
 mod execute;
 mod export;
 mod files;
+mod letters;
 mod panel;
 mod panel_export;
 mod picture;
@@ -21,7 +22,7 @@ mod tests;
 
 pub use bar::{HEIGHT as BAR_HEIGHT, step_bar};
 pub use command::StepCommand;
-pub use panel::{WIDTH, contents, title};
+pub use panel::{WIDTH, details, text_and_code, title};
 pub use picture::paint;
 pub use steps::Steps;
 

@@ -1,5 +1,7 @@
 //! The panel of a step: its data, the rows that it changes and the lines that it runs.
 
+use std::collections::HashSet;
+
 use eframe::egui::{Align, Layout, RichText, Ui};
 
 use super::steps::MOST_TRIANGLES;
@@ -8,24 +10,47 @@ use crate::app::command::Command;
 use crate::app::kit::{FrameState, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
-use meshbrush_core::domain::BoundaryTreatment;
 use meshbrush_mesh::mesh::bisection_edge_length;
-use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer};
+use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer, StepStage};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
 pub const WIDTH: f32 = 488.0;
 
-/// Draws what is known of the step that is shown: its data, the rows that it changes and the lines that it
-/// runs.
-pub fn contents(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+/// Draws what the step does, and the lines that it runs.
+pub fn text_and_code(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(steps) = state.features.stepping.steps() else { return };
-    match steps.player() {
-        Some(player) => {
-            step(ui, player, state, steps.only_bisections, commands);
-            panel_export::section(ui, steps, player.len(), commands);
-        }
-        None => drop(ui.label("The steps are being recorded…")),
+    let Some(player) = steps.player() else {
+        ui.label("The steps are being recorded…");
+        return;
+    };
+    ui.label(RichText::new(sentence(player)).size(15.0).color(tokens(ui).value));
+    if let Some(text) = about_outline(player) {
+        ui.add_space(4.0);
+        remark(ui, &text);
     }
+    let mut only = steps.only_bisections;
+    if toggle_row(ui, "Only bisections", &mut only).changed() {
+        commands.push(Command::Steps(StepCommand::OnlyBisections(only)));
+    }
+    if let Some(step) = player.step() {
+        let (algorithm, lines) = step.lines();
+        let title = algorithm.title();
+        let section = Section::new(&title).note(algorithm.name()).id("algorithm of the step");
+        section.show(ui, |ui| code::lines(ui, algorithm, lines));
+    }
+}
+
+/// Draws the data of the step, the rows that it changes, and which steps to export.
+pub fn details(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let Some(steps) = state.features.stepping.steps() else { return };
+    let Some(player) = steps.player() else { return };
+    if let Some(stage) = player.stage() {
+        Section::new("Mesh").id("mesh of the stage").show(ui, |ui| stage_rows(ui, player, stage));
+    } else {
+        Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
+        Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
+    }
+    panel_export::section(ui, steps, player.len(), commands);
 }
 
 /// Draws the title with the button that leaves the mode.
@@ -42,32 +67,6 @@ pub fn title(ui: &mut Ui, commands: &mut Vec<Command>) {
         });
     });
     ui.add_space(6.0);
-}
-
-fn step(
-    ui: &mut Ui,
-    player: &StepPlayer,
-    state: &FrameState<'_>,
-    only_bisections: bool,
-    commands: &mut Vec<Command>,
-) {
-    ui.label(RichText::new(sentence(player)).size(15.0).color(tokens(ui).value));
-    if let Some(text) = about_outline(player, state) {
-        ui.add_space(4.0);
-        remark(ui, &text);
-    }
-    let mut only = only_bisections;
-    if toggle_row(ui, "Only bisections", &mut only).changed() {
-        commands.push(Command::Steps(StepCommand::OnlyBisections(only)));
-    }
-    if let Some(step) = player.step() {
-        let (algorithm, lines) = step.lines();
-        let title = format!("Algorithm {}", algorithm.number());
-        let section = Section::new(&title).note(algorithm.name()).id("algorithm of the step");
-        section.show(ui, |ui| code::lines(ui, algorithm, lines));
-    }
-    Section::new("Triangle").id("triangle of the step").show(ui, |ui| triangle_rows(ui, player, state));
-    Section::new("Changed rows").show(ui, |ui| rows::changed_rows(ui, player, state));
 }
 
 /// Describes the step in a sentence.
@@ -87,33 +86,60 @@ fn sentence(player: &StepPlayer) -> String {
     }
 }
 
-/// Returns what becomes of the refined grid along the outline of the domain: at the first and the last step.
-fn about_outline(player: &StepPlayer, state: &FrameState<'_>) -> Option<String> {
-    let settings = state.session.follower().settings();
-    settings.domain.region()?;
-    if settings.boundary == BoundaryTreatment::Report {
-        // The coarse grid has the triangles of the domain alone, and no node is moved.
-        return None;
-    }
-    if player.position() == 0 {
-        return Some("The steps refine the grid; the outline of the domain is drawn over it.".into());
-    }
-    let is_done = player.position() == player.len() && !player.recording().is_cut_short;
-    let derived = state.session.derived().filter(|_| is_done)?;
-    let triangles = format::count(state.session.triangle_count() as u64);
-    let moved = derived.outline_fit.map_or(String::new(), |fit| {
-        format!(" {} nodes are then moved onto it.", format::count(fit.on_outline as u64))
-    });
-    Some(format!(
-        "Triangles outside the outline are removed: the mesh of the document has {triangles}.{moved}"
-    ))
+/// Returns what the steps show of the outline of the domain: at the first step, and where stages follow.
+fn about_outline(player: &StepPlayer) -> Option<String> {
+    let stages = player.recording().stages().len();
+    let is_shown = player.position() == 0 || player.position() + stages == player.len();
+    (stages > 0 && is_shown).then(|| {
+        let steps = if stages == 1 { "step".into() } else { format!("{stages} steps") };
+        format!(
+            "The steps refine the grid; the outline of the domain is drawn over it. The last {steps} remove triangles outside \
+             and fit the others to the outline."
+        )
+    })
+}
+
+/// How much a stage changed, and the mesh after it.
+fn stage_rows(ui: &mut Ui, player: &StepPlayer, stage: &StepStage) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let count = |count: usize| format::count(count as u64);
+    let used: HashSet<u32> = stage.triangles.iter().flat_map(|triangle| triangle.nodes).collect();
+    row(
+        ui,
+        "Removed",
+        &count(stage.removed.len()),
+        "Triangles of which nothing is left. Pink on the canvas.",
+    );
+    row(
+        ui,
+        "Changed",
+        &count(stage.changed.len()),
+        "Triangles, or pieces of them, with other nodes. White on the canvas.",
+    );
+    row(
+        ui,
+        "Moved",
+        &count(stage.moved.len()),
+        "Nodes that are elsewhere. A line on the canvas leads from the former place.",
+    );
+    row(ui, "Added", &count(stage.change.added as usize), "Nodes in edges that the outline cuts.");
+    let (triangles, nodes) = (stage.triangles.len(), used.len());
+    let counts = format!("{}, {}", count(triangles), count(nodes));
+    row(
+        ui,
+        "Triangles, nodes",
+        &counts,
+        "How many the mesh has after the step. Pieces have the number of their triangle.",
+    );
+    let left = format!("{} of {}", count(player.position()), count(player.len()));
+    row(ui, "Step", &left, "The mesh after the last step is that of the document.");
 }
 
 fn triangle_rows(ui: &mut Ui, player: &StepPlayer, state: &FrameState<'_>) {
     // Everything about a step is in sight in a window of the usual height.
     ui.spacing_mut().item_spacing.y = 0.0;
     let stack = player.stack_in_words();
-    if let Some(step) = player.step().filter(|step| step.action != StepAction::Finish) {
+    if let Some(step) = player.step().filter(|step| step.triangle > 0) {
         let spacing = player.recording().lattice.spacing();
         let length = format::length(bisection_edge_length(spacing, step.level.into()), state.unit());
         let number = match step.visited == step.triangle {

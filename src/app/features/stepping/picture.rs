@@ -1,16 +1,21 @@
 //! The mesh at a step, on the canvas.
 
-use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
+use std::collections::HashMap;
+
+use eframe::egui::{Color32, Mesh, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
 use glam::DVec2;
 
 use super::Steps;
+use super::letters::{Letter, PlacedLetters};
 use crate::app::kit::marks::{NUMBER_DISC, point_from_px};
 use crate::app::kit::{FrameState, marks};
 use crate::app::theme::{font, tokens};
+use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
-use meshbrush_study::steps::{StepPart, StepPlayer};
+
+use meshbrush_study::steps::{Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};
 
 /// Shortest leg of a triangle, in points, at which its number is drawn.
 const NUMBERED_LEG: f32 = 44.0;
@@ -24,6 +29,10 @@ const MOST_NUMBERS: usize = 600;
 const EDGE: Color32 = Color32::from_rgba_premultiplied(0x58, 0x5d, 0x66, 0xa0);
 /// Shortest leg of a triangle of the step at which its nodes are numbered.
 const NUMBERED_NODE_OF_STEP: f32 = 40.0;
+/// Room that a number of a triangle takes, in points.
+const NUMBER_ROOM: Vec2 = vec2(26.0, 14.0);
+/// Width of the outline of a triangle of the step over its shortest edge.
+const LINE_SHARE: f32 = 0.06;
 /// Width of the outline of the domain, in points.
 const OUTLINE: f32 = 1.0;
 /// A line over the colours of levels: a bright one on a dark one.
@@ -34,7 +43,7 @@ fn color_of(part: StepPart) -> Color32 {
     let [across, waiting, relinked] = Ground::ON_LEVELS.map(|[r, g, b]| Color32::from_rgb(r, g, b));
     match part {
         StepPart::Waiting => waiting,
-        StepPart::Relinked => relinked,
+        StepPart::Relinked | StepPart::Removed => relinked,
         StepPart::Across => across,
         StepPart::Current => Color32::WHITE,
     }
@@ -45,16 +54,17 @@ pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>) {
     let player = state.features.stepping.steps().and_then(Steps::player);
     let (Some(player), Some(camera)) = (player, state.view.camera) else { return };
     let colors = state.view.level_colors(state.session.follower().settings());
-    let places = Places::new(ui, response.rect, &camera, player);
+    let marked = player.marked();
+    let mut places = Places::new(ui, response.rect, &camera, player, &marked);
     let painter = &ui.painter_at(response.rect);
-    places.paint_triangles(painter, player, &colors);
+    places.paint_triangles(painter, &colors);
     paint_outline(ui, painter, response.rect, &camera, state);
-    let parts = player.parts();
-    for (number, part) in &parts {
-        paint_part(painter, &places.corners(player, *number), *part);
-    }
-    places.paint_node_numbers(painter, player, &parts);
-    places.paint_triangle_numbers(painter, player, &parts);
+    marked.iter().for_each(|one| places.paint_marked(painter, one));
+    places.paint_moves(painter, player);
+    let letters = places.letters(painter, player, state);
+    places.paint_node_numbers(painter, &letters);
+    places.paint_triangle_numbers(painter, &letters);
+    letters.paint(painter);
     if response.contains_pointer() {
         ui.ctx().set_cursor_icon(state.tools.tool.cursor);
     }
@@ -71,36 +81,50 @@ fn paint_outline(ui: &Ui, painter: &Painter, rect: Rect, camera: &Camera, state:
     }
 }
 
-/// The positions of the nodes on the screen, in points.
-struct Places {
+/// The triangles, and the positions of lattice points on the screen, in points.
+struct Places<'a> {
     rect: Rect,
+    camera: &'a Camera,
+    px_per_point: f32,
     nodes: Vec<Pos2>,
+    triangles: Vec<StepTriangle>,
+    /// The triangles that the step is about, by number.
+    parts: HashMap<u32, StepPart>,
+    /// The nodes and triangles that have names, in place of mere numbers.
+    named: Vec<NamedPlace>,
 }
 
-impl Places {
-    fn new(ui: &Ui, rect: Rect, camera: &Camera, player: &StepPlayer) -> Self {
-        let place = |&node: &_| point_from_px(rect, camera.screen_from_lattice(node), ui.pixels_per_point());
-        Self { rect, nodes: player.nodes().iter().map(place).collect() }
+impl<'a> Places<'a> {
+    fn new(ui: &Ui, rect: Rect, camera: &'a Camera, player: &StepPlayer, marked: &[Marked]) -> Self {
+        let (triangles, named) = (player.triangles().collect(), Vec::new());
+        let px_per_point = ui.pixels_per_point();
+        let parts = marked.iter().map(|one| (one.number, one.part)).collect();
+        let mut places = Self { rect, camera, px_per_point, nodes: Vec::new(), triangles, parts, named };
+        places.nodes = player.nodes().iter().map(|&node| places.on_screen(node)).collect();
+        places
     }
 
-    fn corners(&self, player: &StepPlayer, number: u32) -> [Pos2; 3] {
-        let [a, b, c, ..] = player.rows()[number as usize - 1];
-        [a, b, c].map(|node| self.nodes[node as usize - 1])
+    fn on_screen(&self, point: LatticePoint) -> Pos2 {
+        point_from_px(self.rect, self.camera.screen_from_lattice(point), self.px_per_point)
+    }
+
+    fn corners(&self, triangle: &StepTriangle) -> [Pos2; 3] {
+        triangle.nodes.map(|node| self.nodes[node as usize - 1])
     }
 
     fn is_visible(&self, corners: &[Pos2; 3]) -> bool {
         Rect::from_points(corners).intersects(self.rect)
     }
 
-    fn paint_triangles(&self, painter: &Painter, player: &StepPlayer, colors: &LevelColors) {
+    fn paint_triangles(&self, painter: &Painter, colors: &LevelColors) {
         let (mut fills, mut edges) = (Mesh::default(), Vec::new());
         let line = Stroke::new(1.0, EDGE);
-        for (index, row) in player.rows().iter().enumerate() {
-            let corners = self.corners(player, index as u32 + 1);
+        for triangle in &self.triangles {
+            let corners = self.corners(triangle);
             if !self.is_visible(&corners) {
                 continue;
             }
-            let [r, g, b, _] = colors.of(row[7] as u8);
+            let [r, g, b, _] = colors.of(triangle.level);
             let first = fills.vertices.len() as u32;
             corners.iter().for_each(|&corner| fills.colored_vertex(corner, Color32::from_rgb(r, g, b)));
             fills.add_triangle(first, first + 1, first + 2);
@@ -110,57 +134,105 @@ impl Places {
         painter.extend(edges);
     }
 
-    /// Numbers the nodes between large triangles, and those of the triangles of the step, which the panel
-    /// names: a dot with the number above it.
-    fn paint_node_numbers(&self, painter: &Painter, player: &StepPlayer, parts: &[(u32, StepPart)]) {
-        let mut has_room = vec![true; self.nodes.len()];
-        for (index, row) in player.rows().iter().enumerate() {
-            if shortest_edge(&self.corners(player, index as u32 + 1)) < NUMBERED_NODE {
-                row[..3].iter().for_each(|&node| has_room[node as usize - 1] = false);
+    /// Draws the colour of a part of the step over its triangle.
+    fn paint_marked(&self, painter: &Painter, marked: &Marked) {
+        let corners = marked.corners.map(|corner| self.on_screen(corner));
+        if !self.is_visible(&corners) {
+            return;
+        }
+        let color = color_of(marked.part);
+        let widest = if marked.part == StepPart::Current { 2.5 } else { 2.0 };
+        // Lines that cover small triangles would hide what they show.
+        let width = (LINE_SHARE * shortest_edge(&corners)).clamp(0.5, widest);
+        let rim = Stroke::new(width * (1.0 + 3.0 / widest), HALO);
+        painter.add(Shape::convex_polygon(corners.to_vec(), color.gamma_multiply(0.25), rim));
+        painter.add(Shape::closed_line(corners.to_vec(), Stroke::new(width, color)));
+    }
+
+    /// Draws a line from the former place of each node that the step moved, with a dot where it is now.
+    fn paint_moves(&self, painter: &Painter, player: &StepPlayer) {
+        for ends in player.moves() {
+            let [from, to] = ends.map(|end| self.on_screen(end));
+            if self.rect.contains(to) {
+                painter.line_segment([from, to], Stroke::new(3.5, HALO));
+                painter.line_segment([from, to], Stroke::new(1.5, Color32::WHITE));
+                painter.circle(to, 2.5, Color32::WHITE, Stroke::new(1.0, HALO));
             }
         }
-        for (number, _) in parts {
-            if shortest_edge(&self.corners(player, *number)) >= NUMBERED_NODE_OF_STEP {
-                let [a, b, c, ..] = player.rows()[*number as usize - 1];
-                [a, b, c].into_iter().for_each(|node| has_room[node as usize - 1] = true);
+    }
+
+    /// Finds room for the names that text, data and code of the step use, and those of the figure.
+    fn letters(&mut self, painter: &Painter, player: &StepPlayer, state: &FrameState<'_>) -> PlacedLetters {
+        let mut names = player.names();
+        if let Some(figure) = state.features.report.figure() {
+            figure.add_letters(player, &mut names);
+        }
+        let letter = |(place, text): (NamedPlace, String)| {
+            let corners: Vec<Pos2> =
+                player.points_of(place).into_iter().map(|point| self.on_screen(point)).collect();
+            let part = match place {
+                NamedPlace::Triangle(number) => self.parts.get(&number),
+                _ => None,
+            };
+            Letter { corners, text, color: part.map_or(Color32::WHITE, |part| color_of(*part)) }
+        };
+        let letters = names.labels().map(letter).collect();
+        self.named = names.labels().map(|(place, _)| place).collect();
+        PlacedLetters::new(painter, self.rect, letters)
+    }
+
+    /// Numbers the nodes between large triangles, and those of the triangles of the step, which the panel
+    /// names: a dot with the number above it.
+    fn paint_node_numbers(&self, painter: &Painter, letters: &PlacedLetters) {
+        let mut has_room = vec![false; self.nodes.len()];
+        let set = |has_room: &mut Vec<bool>, triangle: &StepTriangle, to: bool| {
+            triangle.nodes.into_iter().for_each(|node| has_room[node as usize - 1] = to);
+        };
+        self.triangles.iter().for_each(|triangle| set(&mut has_room, triangle, true));
+        for triangle in &self.triangles {
+            if shortest_edge(&self.corners(triangle)) < NUMBERED_NODE {
+                set(&mut has_room, triangle, false);
+            }
+        }
+        for triangle in self.triangles.iter().filter(|one| self.parts.contains_key(&one.number)) {
+            if shortest_edge(&self.corners(triangle)) >= NUMBERED_NODE_OF_STEP {
+                set(&mut has_room, triangle, true);
             }
         }
         let nodes = self.nodes.iter().enumerate();
-        let shown = nodes.filter(|(node, at)| has_room[*node] && self.rect.contains(**at));
+        let shown = nodes.filter(|(node, at)| {
+            has_room[*node]
+                && self.rect.contains(**at)
+                && !self.named.contains(&NamedPlace::Node(*node as u32 + 1))
+        });
         for (node, &at) in shown.take(MOST_NUMBERS) {
             painter.circle(at, 3.0, Color32::WHITE, Stroke::new(1.5, HALO));
             let galley = painter.layout_no_wrap((node + 1).to_string(), font::caption(), Color32::WHITE);
             let corner = pos2(at.x + 6.0, at.y - galley.size().y - 4.0);
             let ground = Rect::from_min_size(corner, galley.size()).expand2(vec2(3.0, 1.0));
-            painter.rect_filled(ground, 3.0, Color32::from_black_alpha(190));
-            painter.galley(corner, galley, Color32::WHITE);
-        }
-    }
-
-    fn paint_triangle_numbers(&self, painter: &Painter, player: &StepPlayer, parts: &[(u32, StepPart)]) {
-        let mut left = MOST_NUMBERS;
-        for number in 1..=player.rows().len() as u32 {
-            let corners = self.corners(player, number);
-            let part = parts.iter().find(|(of_step, _)| *of_step == number).map(|(_, part)| *part);
-            let needed = if part.is_some() { NUMBERED_LEG_OF_STEP } else { NUMBERED_LEG };
-            let is_shown = shortest_edge(&corners) >= needed && self.is_visible(&corners);
-            if is_shown && (left > 0 || part.is_some()) {
-                left = left.saturating_sub(1);
-                paint_number(painter, middle(&corners), number, part);
+            if !letters.are_covered_by(ground) {
+                painter.rect_filled(ground, 3.0, Color32::from_black_alpha(190));
+                painter.galley(corner, galley, Color32::WHITE);
             }
         }
     }
-}
 
-fn paint_part(painter: &Painter, corners: &[Pos2; 3], part: StepPart) {
-    let color = color_of(part);
-    let width = if part == StepPart::Current { 2.5 } else { 2.0 };
-    painter.add(Shape::convex_polygon(
-        corners.to_vec(),
-        color.gamma_multiply(0.25),
-        Stroke::new(width + 3.0, HALO),
-    ));
-    painter.add(Shape::closed_line(corners.to_vec(), Stroke::new(width, color)));
+    fn paint_triangle_numbers(&self, painter: &Painter, letters: &PlacedLetters) {
+        let mut left = MOST_NUMBERS;
+        for triangle in &self.triangles {
+            let corners = self.corners(triangle);
+            let part = self.parts.get(&triangle.number).copied();
+            let needed = if part.is_some() { NUMBERED_LEG_OF_STEP } else { NUMBERED_LEG };
+            let is_shown = shortest_edge(&corners) >= needed && self.is_visible(&corners);
+            let at = middle(&corners);
+            let is_named = self.named.contains(&NamedPlace::Triangle(triangle.number))
+                || letters.are_covered_by(Rect::from_center_size(at, NUMBER_ROOM));
+            if is_shown && !is_named && left > 0 {
+                left -= 1;
+                paint_number(painter, at, triangle.number, part);
+            }
+        }
+    }
 }
 
 /// The number of a triangle: on a dark ground, in the colour of its part of the step.

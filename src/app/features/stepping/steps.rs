@@ -35,7 +35,7 @@ pub struct Steps {
     /// The time up to which steps were played, in seconds, while it goes forwards by itself.
     played_until: Option<f64>,
     speed: f64,
-    /// Whether the next and the previous step are bisections.
+    /// Whether the next and the previous step are bisections, and stages after them.
     pub only_bisections: bool,
     /// The first and the last step to be exported.
     pub(super) export_range: [usize; 2],
@@ -190,7 +190,7 @@ impl Steps {
     }
 }
 
-/// Goes so many steps forwards or backwards, or so many bisections: where no more follow, to the end.
+/// Goes so many steps forwards or backwards, or so many that change the mesh: where no more follow, to the end.
 fn go(player: &mut StepPlayer, steps: isize, only_bisections: bool) {
     if !only_bisections {
         return player.go_to(player.position().saturating_add_signed(steps));
@@ -199,8 +199,7 @@ fn go(player: &mut StepPlayer, steps: isize, only_bisections: bool) {
     let recorded = player.recording().steps();
     while left > 0 && if steps > 0 { position < recorded.len() } else { position > 0 } {
         position = position.saturating_add_signed(steps.signum());
-        let is_bisection = position > 0 && recorded[position - 1].action == StepAction::Bisect;
-        left -= usize::from(is_bisection);
+        left -= usize::from(position > 0 && recorded[position - 1].changes_mesh());
     }
     player.go_to(position);
 }
@@ -232,7 +231,7 @@ fn record(
     let follower = session.follower();
     let spec = follower.settings().mesh_spec().map_err(|error| error.to_string())?;
     let (domain, field) = (follower.domain().clone(), follower.shared_field());
-    let (rule, paint) = (spec.rule, session.document().paint().clone());
+    let (rule, cleaning, paint) = (spec.rule, spec.cleaning, session.document().paint().clone());
     let coarse = Mesh::coarse_grid(&spec.lattice, |node| domain.admits(node), &spec.limits)
         .map_err(|error| error.to_string())?;
     if coarse.raw_triangle_count() > MOST_TRIANGLES {
@@ -249,7 +248,7 @@ fn record(
             .map_err(|error| error.to_string())?
             == Progress::More
         {}
-        let recording = Arc::new(recorder.finish());
+        let recording = Arc::new(recorder.finish_on(&domain, &cleaning));
         let made_queried = queried.and_then(|point| bisection_around(&recording, point));
         Ok(Recorded { recording, made_queried })
     })

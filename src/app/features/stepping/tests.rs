@@ -2,24 +2,26 @@
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, vec2};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
-use crate::app::command::{Command, FileCommand, InspectCommand};
+use crate::app::command::{Command, FigureCommand, FileCommand, InspectCommand};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::pictures::drawn_window;
 use crate::app::tests::{
-    CTRL_SHIFT, FREE, Window, click, entries, fingerprint, key, notice, on_screen, send, set, settings,
-    triangles, wait_until, window,
+    CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, send, set,
+    settings, triangles, wait_until, window, window_of,
 };
 use crate::app::tools::PAN;
 use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::outline::DerivationAction;
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::fingerprint_of;
-use meshbrush_study::steps::{StepAction, StepPlayer};
+use meshbrush_mesh::mesh::{NodeId, fingerprint_of};
+use meshbrush_study::report::ReportFigure;
+use meshbrush_study::steps::{Algorithm, StepAction, StepPlayer};
 
 fn player(window: &Window) -> &StepPlayer {
     window.state().stepping().expect("the mode is on").player().expect("the steps are recorded")
@@ -162,22 +164,161 @@ fn only_bisections_are_stepped_through_on_request() {
     assert_eq!(player(&window).position(), 0);
 }
 
+/// A coast of which all steps are recorded.
+fn coast(window: &mut Window) {
+    send(window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    let coarser = settings(window).boundary.with_diameter(0.4);
+    set(window, Setting::Boundary(coarser));
+    set(window, Setting::SmallestDiameter(0.5));
+    wait_until(window, |window| window.state().session().derived().is_some());
+}
+
+/// Returns triangles by the positions of their corners, in ascending order.
+fn in_order(triangles: impl Iterator<Item = [LatticePoint; 3]>) -> Vec<[[u32; 2]; 3]> {
+    let sorted = |corners: [LatticePoint; 3]| {
+        let mut corners = corners.map(|corner| [corner.x, corner.y]);
+        corners.sort_unstable();
+        corners
+    };
+    let mut all: Vec<_> = triangles.map(sorted).collect();
+    all.sort_unstable();
+    all
+}
+
 #[test]
-fn a_coast_says_what_becomes_of_the_grid_along_its_outline() {
+fn the_last_steps_on_a_coast_remove_triangles_and_move_nodes_until_the_mesh_is_that_of_the_document() {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
-    // So that all of it is recorded.
-    let coarser = settings(&window).boundary.with_diameter(0.4);
-    set(&mut window, Setting::Boundary(coarser));
-    set(&mut window, Setting::SmallestDiameter(0.5));
-    wait_until(&mut window, |window| window.state().session().derived().is_some());
+    coast(&mut window);
+    let extract = window.state().session().derived().unwrap().shared_extract();
     begin(&mut window);
-    assert!(window.query_by_label_contains("the outline of the domain is drawn over it").is_some());
+    let stages = player(&window).recording().stages().len();
+    assert!(stages > 4, "{stages}");
+    let announced = format!("The last {stages} steps remove triangles outside");
+    assert!(window.query_by_label_contains(&announced).is_some());
     press_button(&mut window, "Last step");
-    let count = crate::app::widgets::format::count(window.state().session().triangle_count() as u64);
-    let text = format!("outside the outline are removed: the mesh of the document has {count}");
-    assert!(window.query_by_label_contains(&text).is_some(), "{}", player(&window).rows().len());
-    assert!(window.query_by_label_contains("nodes are then moved onto it").is_some());
+    let shown = player(&window);
+    assert!(!shown.recording().is_cut_short);
+    let node = |node: usize| extract.node(NodeId::from_index(node));
+    let of_document = in_order(extract.cells().map(|cell| cell.corners.map(node)));
+    assert!(in_order(shown.triangles().map(|one| one.corners(shown.nodes()))) == of_document);
+    let mut actions = Vec::new();
+    for _ in 0..stages {
+        let step = *player(&window).step().unwrap();
+        let StepAction::Derive(change) = step.action else { panic!("{step:?}") };
+        assert!(window.query_by_label(&step.sentence()).is_some(), "{}", step.sentence());
+        let (algorithm, lines) = step.lines();
+        let current = format!("Current line {}: {}", lines.start, algorithm.lines()[lines.start - 1]);
+        assert!(window.query_by_label(&current).is_some(), "{current}");
+        actions.push(change.action);
+        key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    }
+    assert!(actions.contains(&DerivationAction::RemoveByCorners));
+    assert!(actions.contains(&DerivationAction::MoveToOutline));
+    assert_eq!(player(&window).step().unwrap().action, StepAction::Finish);
+    assert_eq!(player(&window).triangles().count(), player(&window).rows().len());
+    // Stages change the mesh, as bisections do.
+    send(&mut window, Command::Steps(StepCommand::OnlyBisections(true)));
+    key(&mut window, Modifiers::NONE, Key::ArrowRight);
+    assert_eq!(player(&window).position() + stages, player(&window).len() + 1);
+    key(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert_eq!(player(&window).step().unwrap().action, StepAction::Bisect);
+}
+
+#[test]
+fn steps_on_a_coast_are_exported_like_the_others() {
+    let mut window = window();
+    coast(&mut window);
+    begin(&mut window);
+    let last = player(&window).len();
+    let folder = crate::app::tests::folder("app-steps", "coast");
+    send(&mut window, Command::Steps(StepCommand::ExportRange(last, last)));
+    send(&mut window, Command::Steps(StepCommand::Export(folder.join("coast.svg"))));
+    wait_until(&mut window, |window| notice(window).contains("1 steps written"));
+    let file = std::fs::read_dir(&folder).unwrap().next().unwrap().unwrap().path();
+    let drawing = std::fs::read_to_string(file).unwrap();
+    let count = window.state().session().triangle_count();
+    let drawn = drawing.split("<g id=\"triangles\"").nth(1).unwrap().split("</g>").next().unwrap();
+    assert_eq!(drawn.matches("<polygon").count(), count, "the mesh of the document");
+    assert!(drawing.contains("Not in the report: "));
+}
+
+/// Several events of the pointer in one frame, as where frames are slow.
+#[test]
+fn after_a_fast_drag_the_number_is_that_of_the_slider_in_the_same_frame_and_steps_follow_by_themselves() {
+    let mut window = window();
+    coarse(&mut window);
+    begin(&mut window);
+    let slider = window.get_by_role_and_label(Role::Slider, "Step").rect();
+    window.drag_at(slider.left_center() + vec2(8.0, 0.0));
+    window.run();
+    let count = player(&window).len();
+    let shown = |window: &Window| -> usize {
+        let counter = window.query_all_by_label_contains("Step ").find_map(|node| {
+            let label = node.accesskit_node().label().or_else(|| node.accesskit_node().value())?;
+            label.strip_prefix("Step ")?.split(" of ").next()?.replace(',', "").parse().ok()
+        });
+        counter.expect("the number of the step")
+    };
+    for share in [0.7, 0.3, 0.9] {
+        let to = slider.left_center() + vec2(share * slider.width(), 0.0);
+        for way in [0.2, 0.5] {
+            window.input_mut().events.push(Event::PointerMoved(slider.left_center().lerp(to, way)));
+        }
+        window.event(Event::PointerMoved(to));
+        window.step();
+        let at_once = shown(&window);
+        assert!(at_once.abs_diff((share * count as f32) as usize) < count / 20, "{at_once} of {count}");
+        // No further event: the window draws the step by itself.
+        window.run();
+        assert_eq!((player(&window).position(), shown(&window)), (at_once, at_once));
+        if let Some(step) = player(&window).step() {
+            assert!(window.query_by_label(&step.sentence()).is_some());
+        }
+    }
+    // The last move and the release in one frame.
+    let to = slider.left_center() + vec2(0.5 * slider.width(), 0.0);
+    window.input_mut().events.push(Event::PointerMoved(to));
+    window.drop_at(to);
+    window.run();
+    let position = player(&window).position();
+    assert!(position.abs_diff(count / 2) < count / 20, "{position} of {count}");
+    assert_eq!(shown(&window), position);
+}
+
+#[test]
+fn text_and_code_need_no_scrolling_in_a_low_window() {
+    let mut window = window_of(vec2(1280.0, 720.0));
+    send(&mut window, Command::Figure(FigureCommand::Open(ReportFigure::Neighbours)));
+    wait_until(&mut window, |window| window.state().stepping().is_some_and(|steps| steps.player().is_some()));
+    let mut seen = algorithms_in_sight(&mut window);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    coast(&mut window);
+    begin(&mut window);
+    seen.extend(algorithms_in_sight(&mut window));
+    seen.sort();
+    seen.dedup();
+    assert!(seen.len() >= 8 && seen.contains(&Algorithm::FitToOutline), "{seen:?}");
+}
+
+/// Checks that sentence and code of a step of each algorithm are in sight, and returns the algorithms.
+fn algorithms_in_sight(window: &mut Window) -> Vec<Algorithm> {
+    let below = window.get_by_role_and_label(Role::Slider, "Step").rect().top();
+    let mut seen = Vec::new();
+    // Most lines run in the last steps.
+    for position in (1..=player(window).len()).rev() {
+        let (algorithm, lines) = player(window).recording().steps()[position - 1].lines();
+        if seen.contains(&algorithm) {
+            continue;
+        }
+        seen.push(algorithm);
+        send(window, Command::Steps(StepCommand::GoTo(position)));
+        let last = format!("Current line {}: {}", lines.end - 1, algorithm.lines()[lines.end - 2]);
+        let rect = window.get_by_label(&last).rect();
+        assert!(rect.bottom() < below, "{algorithm:?}: {rect:?} and {below}");
+        assert!(window.get_by_label(&player(window).step().unwrap().sentence()).rect().top() > 0.0);
+        assert!(canvas(window).width() > 600.0);
+    }
+    seen
 }
 
 #[test]
