@@ -87,7 +87,8 @@ pub enum Command {
     Replay(ReplayArguments),
     /// Repeat the experiment of Section 5.4 of the report, and print its numbers beside those of this machine
     ///
-    /// Thirteen meshes of the report's diamond, with 1,088 to 2,113,944 triangles. Needs 250 MB of memory.
+    /// Thirteen meshes of the report's diamond, with 1,088 to 2,113,944 triangles, each made on one thread as
+    /// in the report, whatever --threads says. Needs 250 MB of memory.
     Report(ReportArguments),
     /// Print a script that lets a shell complete the program's options
     ///

@@ -29,7 +29,7 @@ pub struct ReplayArguments {
 /// `meshbrush report`.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    /// How often each mesh is made; the mean time is printed
+    /// How often each mesh is made, in turn with the others; the least and the greatest time are printed
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub runs: u32,
 

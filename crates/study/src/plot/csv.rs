@@ -2,7 +2,8 @@
 //!
 //! The first column is x, and there is a column for each series, which is empty where the series has no
 //! point. If the points of some series do not run from left to right, there is a row for each point instead,
-//! with the columns `series`, x and y.
+//! with the columns `series`, x and y. In the first form, a series with error bars has two more columns: the
+//! least and the greatest value.
 
 use std::io::{self, Write};
 
@@ -31,19 +32,32 @@ pub fn write(out: &mut impl Write, plot: &Plot) -> io::Result<()> {
     write!(out, "{x}")?;
     for series in &plot.series {
         write!(out, ",{}", field(&series.name))?;
+        if !series.spans.is_empty() {
+            let ends = ["least", "greatest"].map(|end| field(&format!("{}, {end}", series.name)));
+            write!(out, ",{}", ends.join(","))?;
+        }
     }
     writeln!(out)?;
     for x in places {
         write!(out, "{}", Number(x))?;
         for series in &plot.series {
-            match series.points.iter().find(|point| point[0] == x) {
-                Some(point) => write!(out, ",{}", Number(point[1]))?,
-                None => write!(out, ",")?,
+            let place = series.points.iter().position(|point| point[0] == x);
+            write_value(out, place.map(|place| series.points[place][1]))?;
+            for end in (0..2).filter(|_| !series.spans.is_empty()) {
+                write_value(out, place.and_then(|place| series.spans.get(place)).map(|span| span[end]))?;
             }
         }
         writeln!(out)?;
     }
     Ok(())
+}
+
+/// Writes a field with a number, or an empty one.
+fn write_value(out: &mut impl Write, value: Option<f64>) -> io::Result<()> {
+    match value {
+        Some(value) => write!(out, ",{}", Number(value)),
+        None => write!(out, ","),
+    }
 }
 
 fn runs_to_the_right(series: &Series) -> bool {
@@ -79,6 +93,17 @@ mod tests {
         assert_eq!(
             table(vec![smallest, bound]),
             "level,\"smallest, h\",bound\n0,0.5,1\n1,,0.7\n2,0.25,0.5\n"
+        );
+    }
+
+    #[test]
+    fn error_bars_have_columns_of_their_own() {
+        let measured = Series::new("time", Mark::Points, vec![[0.0, 2.0], [1.0, 3.0]])
+            .spans(vec![[2.0, 2.5], [3.0, 9.0]]);
+        let fit = Series::new("fit", Mark::Line, vec![[0.0, 2.0], [0.5, 2.5]]);
+        assert_eq!(
+            table(vec![measured, fit]),
+            "level,time,\"time, least\",\"time, greatest\",fit\n0,2,2,2.5,2\n0.5,,,,2.5\n1,3,3,9,\n"
         );
     }
 

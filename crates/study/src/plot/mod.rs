@@ -54,6 +54,8 @@ pub struct Series {
     pub mark: Mark,
     /// `[x, y]` of each point, in the order in which a line joins them.
     pub points: Vec<[f64; 2]>,
+    /// The least and the greatest y that each point stands for, drawn as an error bar; empty without any.
+    pub spans: Vec<[f64; 2]>,
 }
 
 /// How a series is drawn.
@@ -70,18 +72,30 @@ pub enum Mark {
 impl Series {
     /// Creates a series of points.
     pub fn new(name: impl Into<String>, mark: Mark, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.into(), mark, points }
+        Self { name: name.into(), mark, points, spans: Vec::new() }
+    }
+
+    /// Adds the error bar of each point: from the least to the greatest y.
+    pub fn spans(mut self, spans: Vec<[f64; 2]>) -> Self {
+        self.spans = spans;
+        self
+    }
+
+    /// Returns the ends of all error bars, the lower one first.
+    pub fn error_bars(&self) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+        self.points.iter().zip(&self.spans).map(|([x, _], span)| span.map(|y| [*x, y]))
     }
 }
 
 impl Plot {
-    /// Returns the range of each axis, x first: it contains all points with their bars, and the origin if
-    /// there are bars.
+    /// Returns the range of each axis, x first: it contains all points with their bars and error bars, and the
+    /// origin if there are bars.
     pub fn ranges(&self) -> [AxisRange; 2] {
         let has_bars = self.series.iter().any(|series| series.mark == Mark::Bars);
         let [x, y] = [0, 1].map(|axis| {
-            let points = self.series.iter().flat_map(|series| &series.points);
-            points.map(move |point| point[axis]).collect::<Vec<f64>>()
+            let points = self.series.iter().flat_map(|series| series.points.iter().copied());
+            let ends = self.series.iter().flat_map(|series| series.error_bars().flatten());
+            points.chain(ends).map(move |point| point[axis]).collect::<Vec<f64>>()
         });
         let mut x = AxisRange::around(&self.x, x, false);
         if self.x.scale == Scale::Whole || (has_bars && self.x.scale == Scale::Linear) {
@@ -153,6 +167,16 @@ mod tests {
         assert_eq!([x.low(), x.high()], [-0.5, 1.5]);
         assert!(first >= -0.5 && second + width <= 0.5);
         assert!(y.low() == 0.0 && y.high() >= 1234.0);
+    }
+
+    #[test]
+    fn the_range_contains_the_error_bars() {
+        let mut plot = plot();
+        plot.series[0] = plot.series[0].clone().spans(vec![[200.0, 210.0], [1234.0, 5000.0]]);
+        assert!(plot.ranges()[1].high() >= 5000.0);
+        let bars: Vec<_> = plot.series[0].error_bars().collect();
+        assert_eq!(bars, [[[0.0, 200.0], [0.0, 210.0]], [[1.0, 1234.0], [1.0, 5000.0]]]);
+        assert_eq!(plot.series[1].error_bars().count(), 0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use std::io::{self, Write};
 
-use super::{Axis, AxisRange, Mark, Plot, Tick};
+use super::{Axis, AxisRange, Mark, Plot, Series, Tick};
 use crate::text::xml_text;
 
 /// Size of the drawing, in pixels.
@@ -187,6 +187,7 @@ fn write_series(out: &mut impl Write, plot: &Plot, page: &Page, number: usize) -
             for place in points.filter_map(|point| page.place(plot, point)) {
                 writeln!(out, "<path d=\"{}\"/>", dot(number_among(plot, number), place))?;
             }
+            write_error_bars(out, plot, page, series)?;
         }
         Mark::Line => {
             let places = points.filter_map(|point| page.place(plot, point));
@@ -195,6 +196,19 @@ fn write_series(out: &mut impl Write, plot: &Plot, page: &Page, number: usize) -
         }
     }
     writeln!(out, "</g>")
+}
+
+/// A line from the least to the greatest value of each point, with a short stroke at both ends.
+fn write_error_bars(out: &mut impl Write, plot: &Plot, page: &Page, series: &Series) -> io::Result<()> {
+    for ends in series.error_bars() {
+        let [Some([x, low]), Some([_, high])] = ends.map(|end| page.place(plot, end)) else { continue };
+        let (left, width) = (x - TICK, 2.0 * TICK);
+        writeln!(
+            out,
+            "<path class=\"error\" d=\"M{left:.1} {low:.1}h{width}M{x:.1} {low:.1}V{high:.1}M{left:.1} {high:.1}h{width}\"/>"
+        )?;
+    }
+    Ok(())
 }
 
 /// Returns the number of a series among those with its mark.
@@ -230,7 +244,7 @@ fn dot(number: usize, [x, y]: [f64; 2]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::{Scale, Series};
+    use crate::plot::Scale;
 
     fn drawn(y: Scale) -> String {
         let points =
@@ -243,7 +257,7 @@ mod tests {
                 Series::new("required", Mark::Bars, points(10.0)),
                 Series::new("forced", Mark::Bars, points(3.0)),
                 Series::new("bound <", Mark::Line, points(12.0)),
-                Series::new("measured", Mark::Points, points(11.0)),
+                Series::new("measured", Mark::Points, points(11.0)).spans(vec![[1.0, 100.0]; 5]),
             ],
             note: "A note".into(),
         };
@@ -282,6 +296,22 @@ mod tests {
         let heights = values(required.split("</g>").next().unwrap(), "height");
         assert_eq!(heights.len(), 5);
         assert!(heights[0] == 0.0 && (heights[4] / heights[2] - 4.0).abs() < 0.01, "{heights:?}");
+    }
+
+    #[test]
+    fn error_bars_go_from_the_least_to_the_greatest_value() {
+        let drawing = drawn(Scale::Linear);
+        let measured = drawing.split("<title>measured</title>").nth(1).unwrap();
+        assert_eq!(measured.split("</g>").next().unwrap().matches("class=\"error\"").count(), 5);
+        let tick = |label: &str| {
+            let before = drawing.split(&format!("text-anchor=\"end\">{label}<")).next().unwrap();
+            *values(before, "y").last().unwrap()
+        };
+        let bar = measured.split("class=\"error\" d=\"").nth(1).unwrap().split('M').nth(2).unwrap();
+        let (low, high) = bar.split_once(' ').unwrap().1.split_once('V').unwrap();
+        let [low, high]: [f64; 2] = [low, high].map(|y| y.parse().unwrap());
+        let share = (low - high) / (tick("0") - tick("100"));
+        assert!((share - 0.99).abs() < 0.01, "{low} {high}");
     }
 
     #[test]

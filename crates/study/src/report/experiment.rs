@@ -1,20 +1,23 @@
 //! The experiment of Section 5.4 of the report: the mesh of Figure 1 with targets of several sizes, and how
 //! the time to make it grows with the number of triangles (Figure 5).
+//!
+//! Every mesh is made several times, on one thread as in the report, and in rounds: each round makes all
+//! sizes, so that a load on the machine hits all of them alike.
 
 use serde::Serialize;
 
+use super::power_law::PowerLaw;
+use super::times::{RunTime, is_spread, span};
 use crate::build::{BuildError, MeshBuilder};
 use crate::document::{Example, Settings};
 use crate::field::{Formula, Transfer};
 use crate::layers::{Layer, LayerKind};
 use crate::mesh::{Mesh, Progress, bisection_edge_length};
-use crate::plot::{Axis, Mark, Plot, Scale, Series};
-use crate::text::Grouped;
 
 /// The level of the smallest mesh of the report: all its times are in proportion to that.
-const FIRST_LEVEL: u32 = 5;
+pub(super) const FIRST_LEVEL: u32 = 5;
 /// The numbers of triangles that the report states, by level: its smallest and its largest mesh.
-const STATED_TRIANGLES: [(u32, usize); 2] = [(FIRST_LEVEL, 9_560), (13, 2_113_944)];
+pub(super) const STATED_TRIANGLES: [(u32, usize); 2] = [(FIRST_LEVEL, 9_560), (13, 2_113_944)];
 /// Triangles between two looks at whether to go on.
 const SLICE: usize = 1 << 16;
 
@@ -26,7 +29,7 @@ pub struct Experiment {
 }
 
 /// One mesh of the experiment.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExperimentMesh {
     /// The deepest level.
     pub level: u32,
@@ -35,39 +38,70 @@ pub struct ExperimentMesh {
     /// The number that the report states, if it does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub triangles_in_report: Option<usize>,
-    /// Mean time of all runs.
-    pub seconds: f64,
+    /// The time of each run, in the order in which they were made.
+    pub runs: Vec<RunTime>,
 }
 
-impl ExperimentMesh {
-    /// Makes the mesh of a level `runs` times, which must not be 0. `seconds` is a clock. `None` if `goes_on`
-    /// said no, which is asked now and then.
+/// One run: a mesh that was made once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExperimentRun {
+    /// The deepest level.
+    pub level: u32,
+    /// Number of triangles.
+    pub triangles: usize,
+    /// The time that it took.
+    pub time: RunTime,
+}
+
+impl ExperimentRun {
+    /// Makes the mesh of a level on one thread, on which it reads `clock`. `None` if `goes_on` said no, which
+    /// is asked now and then.
     ///
     /// # Errors
     /// Fails when there is not enough memory.
     pub fn measure(
         level: u32,
-        runs: u32,
-        seconds: impl Fn() -> f64,
-        goes_on: impl Fn() -> bool,
+        clock: impl Fn() -> RunTime + Send,
+        goes_on: impl Fn() -> bool + Send,
     ) -> Result<Option<Self>, BuildError> {
-        let settings = settings(level);
-        let (mut triangles, mut time) = (0, 0.0);
-        for _ in 0..runs {
-            let spec = settings.mesh_spec().expect("the settings of the experiment are valid");
-            let start = seconds();
+        let spec = settings(level).mesh_spec().expect("the settings of the experiment are valid");
+        let make = move || {
+            let start = clock();
             let mut builder = MeshBuilder::new(spec);
             while builder.advance(None, SLICE)? == Progress::More {
                 if !goes_on() {
                     return Ok(None);
                 }
             }
-            time += seconds() - start;
-            triangles = Mesh::triangle_count(&builder.finish().mesh);
+            let time = clock().since(start);
+            let triangles = Mesh::triangle_count(&builder.finish().mesh);
+            Ok(Some(Self { level, triangles, time }))
+        };
+        let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        match one_thread {
+            Ok(thread) => thread.install(make),
+            // Without another thread, on all those that the program has.
+            Err(_) => make(),
         }
-        let stated = STATED_TRIANGLES.iter().find(|(other, _)| *other == level);
-        let triangles_in_report = stated.map(|(_, triangles)| *triangles);
-        Ok(Some(Self { level, triangles, triangles_in_report, seconds: time / f64::from(runs) }))
+    }
+}
+
+impl ExperimentMesh {
+    /// Returns the least time of all runs, in seconds: whatever disturbs a run only adds to it.
+    pub fn seconds(&self) -> f64 {
+        self.span()[0]
+    }
+
+    /// Returns the least and the greatest time of all runs, in seconds.
+    pub fn span(&self) -> [f64; 2] {
+        span(&self.runs)
+    }
+
+    /// Returns whether other work disturbed most of the runs: it had the processor meanwhile, or their times
+    /// are far apart.
+    pub fn is_disturbed(&self) -> bool {
+        let interrupted = self.runs.iter().filter(|run| run.is_interrupted()).count();
+        2 * interrupted > self.runs.len() || is_spread(&self.runs)
     }
 }
 
@@ -89,164 +123,103 @@ impl Experiment {
     /// The gradient of the line of best fit in Figure 5.
     pub const STATED_GRADIENT: f64 = 1.01;
 
-    /// Returns the gradient of the line of best fit from the smallest mesh of the report on: of times over
-    /// triangles, both in proportion to that mesh, and of their logarithms. `None` with fewer than two
-    /// meshes.
-    pub fn gradients(&self) -> Option<[f64; 2]> {
-        let points = self.scaled();
-        let logarithms: Vec<_> = points.iter().map(|point| point.map(libm::log)).collect();
-        Some([fitted_line(&points)?[1], fitted_line(&logarithms)?[1]])
+    /// Returns the round and the level of each run, in the order in which they are made: round by round. The
+    /// mesh of level 1 comes first of all in round 0, which does not count: it brings code and memory to where
+    /// later runs find them.
+    pub fn order(last_level: u32, runs: u32) -> impl Iterator<Item = (u32, u32)> + Clone {
+        let rounds = (1..=runs).flat_map(move |round| (1..=last_level).map(move |level| (round, level)));
+        std::iter::once((0, 1)).chain(rounds)
     }
 
-    /// Returns the triangles and time in proportion to the smallest mesh of the report, from that mesh on.
-    fn scaled(&self) -> Vec<[f64; 2]> {
-        let rows = &self.meshes[self.meshes.partition_point(|mesh| mesh.level < FIRST_LEVEL)..];
+    /// Adds a run of some round to those of its mesh.
+    pub fn add(&mut self, round: u32, run: ExperimentRun) {
+        if round == 0 {
+            return;
+        }
+        let place = self.meshes.partition_point(|mesh| mesh.level < run.level);
+        if self.meshes.get(place).is_none_or(|mesh| mesh.level != run.level) {
+            let stated = STATED_TRIANGLES.iter().find(|(level, _)| *level == run.level);
+            let triangles_in_report = stated.map(|(_, triangles)| *triangles);
+            let ExperimentRun { level, triangles, .. } = run;
+            self.meshes
+                .insert(place, ExperimentMesh { level, triangles, triangles_in_report, runs: Vec::new() });
+        }
+        self.meshes[place].runs.push(run.time);
+    }
+
+    /// Returns the power law of time over triangles, both in proportion to the smallest mesh of the report,
+    /// from that mesh on: its exponent is the gradient of the line of best fit in Figure 5. `None` with fewer
+    /// than two meshes.
+    pub fn power_law(&self) -> Option<PowerLaw> {
+        PowerLaw::fitted(&self.scaled(ExperimentMesh::seconds))
+    }
+
+    /// Returns whether the runs of some mesh that the power law is fitted to were disturbed.
+    pub fn is_disturbed(&self) -> bool {
+        self.fitted_meshes().iter().any(ExperimentMesh::is_disturbed)
+    }
+
+    /// Returns the meshes from the smallest one of the report on.
+    fn fitted_meshes(&self) -> &[ExperimentMesh] {
+        &self.meshes[self.meshes.partition_point(|mesh| mesh.level < FIRST_LEVEL)..]
+    }
+
+    /// Returns the triangles and some time of each mesh from the smallest one of the report on, in proportion
+    /// to the triangles and the least time of that one.
+    pub(super) fn scaled(&self, seconds: impl Fn(&ExperimentMesh) -> f64) -> Vec<[f64; 2]> {
+        let meshes = self.fitted_meshes();
         let scaled = |mesh: &ExperimentMesh| {
-            [mesh.triangles as f64 / rows[0].triangles as f64, mesh.seconds / rows[0].seconds]
+            [mesh.triangles as f64 / meshes[0].triangles as f64, seconds(mesh) / meshes[0].seconds()]
         };
-        rows.iter().map(scaled).collect()
+        meshes.iter().map(scaled).collect()
     }
-
-    /// Figure 5: time over triangles with the line of best fit, on logarithmic axes.
-    pub fn figure_5(&self) -> Plot {
-        let points = self.scaled();
-        let mut series = vec![Series::new("Measured", Mark::Points, points.clone())];
-        let mut note = String::new();
-        let [first, last] = [points.first(), points.last()].map(|point| point.map_or(1.0, |point| point[0]));
-        if let (Some([at_zero, gradient]), Some([_, logarithmic])) = (fitted_line(&points), self.gradients())
-        {
-            // A straight line is curved on logarithmic axes.
-            let places = (0..=40).map(|i| first * libm::pow(last / first, f64::from(i) / 40.0));
-            let fit = places.map(|x| [x, at_zero + gradient * x]).collect();
-            series.insert(0, Series::new("Line of best fit", Mark::Line, fit));
-            note = format!(
-                "Gradient {gradient:.3}, of the logarithms {logarithmic:.3}; report: {}",
-                Self::STATED_GRADIENT
-            );
-        }
-        Plot {
-            title: "Figure 5: running time over triangles".into(),
-            x: Axis::new("triangles / 9,560", Scale::Logarithmic),
-            y: Axis::new("time / time of 9,560", Scale::Logarithmic),
-            series,
-            note,
-        }
-    }
-
-    /// Returns the time for one triangle over the number of triangles.
-    pub fn time_per_triangle(&self) -> Plot {
-        let each =
-            |mesh: &ExperimentMesh| [mesh.triangles as f64, 1e9 * mesh.seconds / mesh.triangles as f64];
-        let points = self.meshes.iter().map(each).collect();
-        let gradient = self.gradients().map_or_else(String::new, |[gradient, _]| {
-            format!("Gradient of Figure 5: {gradient:.3}; report: {}", Self::STATED_GRADIENT)
-        });
-        Plot {
-            title: "Time per triangle".into(),
-            x: Axis::new("triangles", Scale::Logarithmic),
-            y: Axis::new("time per triangle", Scale::Linear).unit("ns"),
-            series: vec![Series::new("Measured", Mark::Points, points)],
-            note: gradient,
-        }
-    }
-
-    /// Returns the meshes as a table in plain text. `runs` is how often each was made.
-    pub fn table(&self, runs: u32) -> String {
-        let runs = if runs == 1 { "one run".into() } else { format!("mean of {runs} runs") };
-        let mut lines = vec![
-            format!("Section 5.4: the mesh of Figure 1, {runs}."),
-            format!(
-                "{:>5} {:>12} {:>12} {:>12} {:>14}",
-                "level", "triangles", "report", "seconds", "ns/triangle"
-            ),
-        ];
-        for mesh in &self.meshes {
-            let stated = mesh.triangles_in_report;
-            let stated = stated.map_or_else(|| "–".into(), |count| Grouped(count).to_string());
-            let each = 1e9 * mesh.seconds / mesh.triangles as f64;
-            let triangles = Grouped(mesh.triangles).to_string();
-            lines.push(format!(
-                "{:>5} {triangles:>12} {stated:>12} {:>12.6} {each:>14.1}",
-                mesh.level, mesh.seconds
-            ));
-        }
-        if let Some([gradient, logarithmic]) = self.gradients() {
-            lines.push(format!(
-                "Gradient of the line of best fit from {} triangles on (Figure 5): {gradient:.3}, and {logarithmic:.3} on logarithmic axes; report: {}.",
-                Grouped(STATED_TRIANGLES[0].1),
-                Self::STATED_GRADIENT,
-            ));
-        }
-        lines.join("\n")
-    }
-}
-
-/// Returns the least-squares line through points: its value at 0, and its gradient. `None` where x does not
-/// differ.
-fn fitted_line(points: &[[f64; 2]]) -> Option<[f64; 2]> {
-    let count = points.len() as f64;
-    let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / count;
-    let [x, y] = [mean(0), mean(1)];
-    let product = |f: fn([f64; 2]) -> f64| points.iter().map(|&[px, py]| f([px - x, py - y])).sum::<f64>();
-    let gradient = product(|[dx, dy]| dx * dy) / product(|[dx, _]| dx * dx);
-    gradient.is_finite().then_some([y - gradient * x, gradient])
 }
 
 #[cfg(test)]
 mod tests {
-    use std::cell::Cell;
+    use std::sync::atomic::{AtomicU32, Ordering};
 
     use super::*;
 
     #[test]
-    fn the_gradient_of_points_on_a_line_is_that_of_the_line() {
-        let on_line = [[1.0, 5.0], [2.0, 7.0], [4.0, 11.0]];
-        assert_eq!(fitted_line(&on_line), Some([3.0, 2.0]));
-        // By the normal equations: (3 · 21 − 6 · 9) / (3 · 14 − 36).
-        let [_, gradient] = fitted_line(&[[1.0, 2.0], [2.0, 2.0], [3.0, 5.0]]).unwrap();
-        assert_eq!(gradient, 1.5);
-        assert_eq!(fitted_line(&[[1.0, 2.0]]), None);
-        assert_eq!(fitted_line(&[]), None);
-    }
-
-    /// Returns a clock that goes one second further each time it is read.
-    fn measured(level: u32) -> ExperimentMesh {
-        let time = Cell::new(0.0);
+    fn a_run_has_the_triangles_of_the_report_and_the_time_of_the_clock() {
+        let readings = AtomicU32::new(0);
         let clock = || {
-            time.set(time.get() + 1.0);
-            time.get()
+            let wall = f64::from(readings.fetch_add(1, Ordering::Relaxed));
+            RunTime { wall, processor: Some(0.5 * wall) }
         };
-        ExperimentMesh::measure(level, 2, clock, || true).unwrap().unwrap()
+        let run = ExperimentRun::measure(5, clock, || true).unwrap().unwrap();
+        assert_eq!((run.triangles, run.time), (9_560, RunTime { wall: 1.0, processor: Some(0.5) }));
     }
 
     #[test]
-    fn meshes_have_the_triangles_of_the_report_and_plots_their_times() {
-        let experiment = Experiment { meshes: [4, 5, 6, 7].map(measured).to_vec() };
-        let smallest = experiment.meshes[1];
-        assert_eq!((smallest.triangles, smallest.triangles_in_report), (9_560, Some(9_560)));
-        assert_eq!(smallest.seconds, 1.0);
-        assert_eq!(experiment.gradients(), Some([0.0, 0.0]));
-        let figure = experiment.figure_5();
-        let measured = &figure.series[1].points;
-        assert_eq!(measured.len(), 3, "from the smallest mesh of the report on");
-        assert_eq!(measured[0], [1.0, 1.0]);
-        assert!(figure.note.contains("report: 1.01"), "{}", figure.note);
-        let each = &experiment.time_per_triangle().series[0].points;
-        assert_eq!(each[1], [9_560.0, 1e9 / 9_560.0]);
-        let table = experiment.table(2);
-        assert!(table.contains("mean of 2 runs") && table.contains("9,560        9,560"), "{table}");
+    fn a_run_is_made_on_one_thread() {
+        let threads = std::sync::Mutex::new(Vec::new());
+        let clock = || {
+            threads.lock().unwrap().push((std::thread::current().id(), rayon::current_num_threads()));
+            RunTime { wall: 0.0, processor: None }
+        };
+        ExperimentRun::measure(4, clock, || true).unwrap();
+        let threads = threads.into_inner().unwrap();
+        assert!(threads[0] == threads[1] && threads[0].1 == 1, "{threads:?}");
+    }
+
+    #[test]
+    fn every_round_makes_all_sizes_after_one_that_does_not_count() {
+        let order: Vec<_> = Experiment::order(3, 2).collect();
+        assert_eq!(order, [(0, 1), (1, 1), (1, 2), (1, 3), (2, 1), (2, 2), (2, 3)]);
+        let mut experiment = Experiment::default();
+        for (number, (round, level)) in order.into_iter().enumerate() {
+            let time = RunTime { wall: number as f64, processor: None };
+            experiment.add(round, ExperimentRun { level, triangles: 10, time });
+        }
+        let spans: Vec<_> = experiment.meshes.iter().map(ExperimentMesh::span).collect();
+        assert_eq!(spans, [[1.0, 4.0], [2.0, 5.0], [3.0, 6.0]]);
     }
 
     #[test]
     fn measuring_ends_when_it_is_cancelled() {
-        assert_eq!(ExperimentMesh::measure(9, 1, || 0.0, || false).unwrap(), None);
-    }
-
-    #[test]
-    fn an_experiment_without_meshes_has_plots_without_points() {
-        let experiment = Experiment::default();
-        assert_eq!(experiment.gradients(), None);
-        assert!(experiment.figure_5().series[0].points.is_empty());
-        assert!(experiment.time_per_triangle().ranges()[0].low().is_finite());
+        let clock = || RunTime { wall: 0.0, processor: None };
+        assert_eq!(ExperimentRun::measure(9, clock, || false).unwrap(), None);
     }
 }

@@ -10,7 +10,6 @@ mod tests;
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 pub use command::PlotsCommand;
 pub use entries::entries;
@@ -24,7 +23,7 @@ use meshbrush_core::build::RefinementCriterion;
 use meshbrush_io::io;
 use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_study::plot::{self, Plot};
-use meshbrush_study::report::{Experiment, ExperimentMesh};
+use meshbrush_study::report::{Experiment, ExperimentRun, RunClock};
 
 /// The plots that can be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,7 +36,7 @@ pub enum PlotKind {
     Diameters,
     /// The time for one triangle over the number of triangles.
     Time,
-    /// The cost of compatibility in the form of Figure 5 of the report.
+    /// The time over the number of triangles, as in Figure 5 of the report.
     Figure5,
 }
 
@@ -74,8 +73,10 @@ pub struct Plots {
     kind: PlotKind,
     levels: Slot<Key, Vec<LevelFigures>>,
     experiment: Experiment,
-    /// The meshes of an experiment in progress.
-    measuring: Option<Job<Result<ExperimentMesh, String>>>,
+    /// The runs of an experiment in progress, each with its round.
+    measuring: Option<Job<Result<(u32, ExperimentRun), String>>>,
+    /// How many runs were made so far.
+    runs_done: usize,
     /// The deepest level of the experiment that is measured next, or is being measured.
     pub last_level: u32,
     /// How often each of its meshes is made.
@@ -89,8 +90,9 @@ impl Default for Plots {
             levels: Slot::default(),
             experiment: Experiment::default(),
             measuring: None,
+            runs_done: 0,
             last_level: Experiment::LAST_LEVEL,
-            runs: 3,
+            runs: 5,
         }
     }
 }
@@ -168,7 +170,10 @@ impl Plots {
     pub fn take(&mut self, session: &Session, jobs: &Jobs) -> Result<bool, String> {
         while let Some(measuring) = &self.measuring {
             match measuring.take_ready() {
-                Taken::Value(Ok(mesh)) => self.experiment.meshes.push(mesh),
+                Taken::Value(Ok((round, run))) => {
+                    self.runs_done += 1;
+                    self.experiment.add(round, run);
+                }
                 Taken::Value(Err(problem)) => {
                     self.measuring = None;
                     return Err(problem);
@@ -193,21 +198,29 @@ impl Plots {
         self.measuring.is_some()
     }
 
+    /// Returns the run that is being made, as its round and level; `None` between two experiments.
+    pub fn run_in_progress(&self) -> Option<(u32, u32)> {
+        self.order().nth(self.runs_done).filter(|_| self.is_measuring())
+    }
+
+    fn order(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        Experiment::order(self.last_level, self.runs)
+    }
+
     /// Measures the experiment on another thread. Nothing happens while it is being measured.
     pub fn measure(&mut self, jobs: &Jobs) {
         if self.is_measuring() {
             return;
         }
-        self.experiment = Experiment::default();
-        let (last_level, runs) = (self.last_level, self.runs);
+        (self.experiment, self.runs_done) = (Experiment::default(), 0);
+        let order = self.order();
         let measure = move |output: &Output<_>| {
-            let start = Instant::now();
-            for level in 1..=last_level {
-                let clock = || start.elapsed().as_secs_f64();
-                let mesh = ExperimentMesh::measure(level, runs, clock, || output.is_wanted());
-                let Some(mesh) = mesh.map_err(|error| error.to_string()).transpose() else { break };
-                let failed = mesh.is_err();
-                if !output.is_wanted() || !output.send(mesh) || failed {
+            for (round, level) in order {
+                let clock = RunClock::start();
+                let run = ExperimentRun::measure(level, || clock.now(), || output.is_wanted());
+                let Some(run) = run.map_err(|error| error.to_string()).transpose() else { break };
+                let failed = run.is_err();
+                if !output.is_wanted() || !output.send(run.map(|run| (round, run))) || failed {
                     break;
                 }
             }
@@ -223,7 +236,7 @@ impl Plots {
     /// Returns the numbers of the chosen plot as text: a table of the experiment, or else the series.
     pub fn text(&self, session: &Session) -> Option<String> {
         if self.kind.is_of_experiment() {
-            return (!self.experiment.meshes.is_empty()).then(|| self.experiment.table(self.runs));
+            return (!self.experiment.meshes.is_empty()).then(|| self.experiment.table());
         }
         let mut text = Vec::new();
         plot::write_csv(&mut text, &self.plot(session)?.0).ok()?;

@@ -16,8 +16,8 @@ pub static PLOTS: Panel = Panel { name: "plots", tab: Tab::Mesh, place: 3, show 
 pub const HEIGHT: f32 = 210.0;
 /// Height of legend and note, in points.
 const ROOM_AROUND: f32 = 56.0;
-const HOW_TO_MEASURE: &str = "Measure makes the meshes of Section 5.4 of the report on this machine. The deepest has \
-                              2,113,944 triangles.";
+const HOW_TO_MEASURE: &str = "Measure makes the meshes of Section 5.4 of the report on this machine, on one thread. The \
+                              deepest has 2,113,944 triangles. Each run makes all meshes in turn.";
 /// The least deepest level that gives a line of best fit, and most runs.
 const LEAST_LEVEL: u32 = 6;
 const MOST_RUNS: u32 = 100;
@@ -66,8 +66,9 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// How the experiment is measured, and the button that begins it; or its progress.
 pub fn measuring(ui: &mut Ui, plots: &Plots, commands: &mut Vec<Command>) {
     if plots.is_measuring() {
-        let level = plots.experiment().meshes.len() + 1;
-        value_row(ui, "Measuring", &format!("level {level} of {}", plots.last_level));
+        let (round, level) = plots.run_in_progress().unwrap_or((plots.runs, plots.last_level));
+        let (runs, levels) = (plots.runs, plots.last_level);
+        value_row(ui, "Measuring", &format!("run {} of {runs}, level {level} of {levels}", round.max(1)));
         if ui.add(ActionButton::new("Cancel measuring").vanishing()).clicked() {
             commands.push(Command::Plots(PlotsCommand::CancelMeasuring));
         }

@@ -17,19 +17,19 @@ pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparis
     figure.compare_mesh(state.session.mesh(), state.session.queried())
 }
 
-/// Returns the triangles of each mesh, and the gradient of the line of best fit.
+/// Returns the triangles of each mesh, and the gradient of the line of best fit: the exponent of the power law.
 fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Comparison> {
     let count = |count: usize| format::count(count as u64);
     let row = |mesh: &meshbrush_study::report::ExperimentMesh| {
         let stated = mesh.triangles_in_report.map_or_else(|| "–".into(), count);
-        let ours = format!("{} in {}", count(mesh.triangles), format::time(mesh.seconds));
+        let ours = format!("{} in {}", count(mesh.triangles), format::time(mesh.seconds()));
         Comparison::new(format!("Level {}", mesh.level), stated, ours)
     };
     let meshes = experiment.meshes.iter().filter(|_| figure == ReportFigure::Experiment);
     let mut rows: Vec<Comparison> = meshes.map(row).collect();
-    if let Some([gradient, _]) = experiment.gradients() {
+    if let Some(law) = experiment.power_law() {
         let stated = format::fixed(Experiment::STATED_GRADIENT, 2);
-        rows.push(Comparison::new("Gradient", stated, format::fixed(gradient, 3)));
+        rows.push(Comparison::new("Gradient", stated, law.exponent_in_words()));
     }
     rows
 }

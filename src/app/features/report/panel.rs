@@ -8,7 +8,7 @@ use crate::app::features::plots::{self, PlotKind};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{ActionButton, plot_view, tips};
-use meshbrush_study::report::{Comparison, ReportFigure};
+use meshbrush_study::report::{ABOUT_EXPONENT, Comparison, ReportFigure};
 
 /// The figure that is shown.
 pub static FIGURE: Panel = Panel { name: "figure", tab: Tab::Method, place: 0, show: section };
@@ -25,6 +25,9 @@ pub fn section(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         let experiment = state.features.plots.experiment();
         if figure == ReportFigure::Times && !experiment.meshes.is_empty() {
             plot_view(ui, PlotKind::Figure5.name(), &experiment.figure_5(), plots::HEIGHT);
+        }
+        if !experiment.meshes.is_empty() {
+            remark(ui, ABOUT_EXPONENT);
         }
     }
     let rows = comparisons(figure, state);

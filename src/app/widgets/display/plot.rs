@@ -155,7 +155,8 @@ fn color(number: usize, t: &Tokens) -> Color32 {
 }
 
 fn draw_series(chart: &mut PlotUi<'_>, plot: &Plot, number: usize, y: &AxisRange, t: &Tokens) {
-    let Series { name, mark, points } = &plot.series[number];
+    let series = &plot.series[number];
+    let Series { name, mark, points, .. } = series;
     let color = color(number, t);
     let place = |&[x, y]: &[f64; 2]| Some([plot.x.position(x)?, plot.y.position(y)?]);
     let places: Vec<[f64; 2]> = points.iter().filter_map(place).collect();
@@ -172,6 +173,11 @@ fn draw_series(chart: &mut PlotUi<'_>, plot: &Plot, number: usize, y: &AxisRange
         Mark::Points => {
             let points = Points::new(name, PlotPoints::from(places)).radius(3.0);
             chart.points(points.color(color).allow_hover(false));
+            for ends in series.error_bars() {
+                let [Some(low), Some(high)] = ends.each_ref().map(place) else { continue };
+                let bar = Line::new(name, PlotPoints::from(vec![low, high])).color(color).width(1.5);
+                chart.line(bar.allow_hover(false));
+            }
         }
         Mark::Line => {
             let style = if number == 0 { LineStyle::Solid } else { LineStyle::dashed_loose() };

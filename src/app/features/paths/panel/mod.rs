@@ -158,7 +158,7 @@ fn profile(state: &FrameState<'_>, found: &FoundPath) -> Plot {
         title: "Risk along the path".into(),
         x: Axis::new("Distance", Scale::Linear).unit(state.unit().symbol()),
         y: Axis::new("Risk", Scale::Linear),
-        series: vec![Series { name: "Risk".into(), mark: Mark::Line, points }],
+        series: vec![Series::new("Risk", Mark::Line, points)],
         note: String::new(),
     }
 }
