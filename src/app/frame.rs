@@ -231,7 +231,7 @@ impl App {
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);
         if shows_step {
-            stepping::paint(ui, &response, &state);
+            stepping::paint(ui, &response, &state, self.features.report.figure());
         } else {
             self.canvas.draw_marks(ui, &response, &state);
         }

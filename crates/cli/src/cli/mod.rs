@@ -23,6 +23,7 @@ mod recipe;
 mod replay;
 mod report;
 mod requested_files;
+mod run_clock;
 mod summary;
 mod terminal;
 mod why;
@@ -34,6 +35,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::CommandFactory;
+
+pub use run_clock::RunClock;
 
 use args::{Arguments, Command};
 use command_line::command_line;

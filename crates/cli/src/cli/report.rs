@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::more_args::ReportArguments;
+use super::run_clock::RunClock;
 use super::terminal::Terminal;
-use meshbrush_study::report::{Experiment, ExperimentMesh, ExperimentRun, RunClock};
+use meshbrush_study::report::{Experiment, ExperimentMesh, ExperimentRun};
 
 /// The numbers of the experiment; its JSON is the answer of `--json`.
 #[derive(Serialize)]

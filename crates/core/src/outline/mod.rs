@@ -40,4 +40,4 @@ mod check;
 pub use changes::OutlineFit;
 pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
-pub use stages::{DerivationAction, DerivationStage};
+pub use stages::{DerivationAction, DerivationStage, derivation_stages};

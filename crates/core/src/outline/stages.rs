@@ -42,27 +42,21 @@ pub struct DerivationStage {
 /// Is told of each stage, with a function that returns the differences from the mesh after it.
 pub(super) type Watch<'a> = &'a mut dyn FnMut(DerivationAction, &dyn Fn() -> MeshPatch);
 
-impl DerivedMesh {
-    /// Derives the mesh as [`Self::new`] does, and returns the stages that change anything. The last one is
-    /// the derived mesh.
-    pub fn in_stages(
-        mesh: &Mesh,
-        domain: &DomainOnLattice,
-        cleaning: &Cleaning,
-    ) -> (Self, Vec<DerivationStage>) {
-        let mut stages: Vec<DerivationStage> = Vec::new();
-        let derived = Self::watched(mesh, domain, cleaning, &mut |action, patch| {
-            let patch = patch();
-            let has_changed = match stages.last() {
-                Some(former) => former.patch != patch,
-                None => !patch.is_empty() || mesh.outside_count() > 0,
-            };
-            if has_changed {
-                stages.push(DerivationStage { action, patch });
-            }
-        });
-        (derived, stages)
-    }
+/// Returns the stages of [`DerivedMesh::new`] that change anything. After the last one, the mesh is the
+/// derived one.
+pub fn derivation_stages(mesh: &Mesh, domain: &DomainOnLattice, cleaning: &Cleaning) -> Vec<DerivationStage> {
+    let mut stages: Vec<DerivationStage> = Vec::new();
+    DerivedMesh::watched(mesh, domain, cleaning, &mut |action, patch| {
+        let patch = patch();
+        let has_changed = match stages.last() {
+            Some(former) => former.patch != patch,
+            None => !patch.is_empty() || mesh.outside_count() > 0,
+        };
+        if has_changed {
+            stages.push(DerivationStage { action, patch });
+        }
+    });
+    stages
 }
 
 /// Returns the mesh without the triangles that have no corner in the domain. `signs` says of each node

@@ -88,8 +88,8 @@ impl Series {
 }
 
 impl Plot {
-    /// Returns the range of each axis, x first: it contains all points with their bars and error bars, and the
-    /// origin if there are bars.
+    /// Returns the range of each axis, x first: it contains all points with their bars and error bars, and
+    /// the origin if there are bars.
     pub fn ranges(&self) -> [AxisRange; 2] {
         let has_bars = self.series.iter().any(|series| series.mark == Mark::Bars);
         let [x, y] = [0, 1].map(|axis| {

@@ -124,8 +124,8 @@ impl Experiment {
     pub const STATED_GRADIENT: f64 = 1.01;
 
     /// Returns the round and the level of each run, in the order in which they are made: round by round. The
-    /// mesh of level 1 comes first of all in round 0, which does not count: it brings code and memory to where
-    /// later runs find them.
+    /// mesh of level 1 comes first of all in round 0, which does not count: it brings code and memory to
+    /// where later runs find them.
     pub fn order(last_level: u32, runs: u32) -> impl Iterator<Item = (u32, u32)> + Clone {
         let rounds = (1..=runs).flat_map(move |round| (1..=last_level).map(move |level| (round, level)));
         std::iter::once((0, 1)).chain(rounds)

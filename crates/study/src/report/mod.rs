@@ -10,4 +10,4 @@ pub use experiment::{Experiment, ExperimentMesh, ExperimentRun};
 pub use figures::{Comparison, ReportFigure};
 pub use power_law::PowerLaw;
 pub use running_times::{ABOUT_EXPONENT, DISTURBED};
-pub use times::{RunClock, RunTime};
+pub use times::RunTime;

@@ -7,8 +7,8 @@ pub struct PowerLaw {
     pub factor: f64,
     /// The gradient on logarithmic axes.
     pub exponent: f64,
-    /// The exponent lies within this distance in 95 % of all samples whose logarithms scatter evenly; infinite
-    /// with two points.
+    /// The exponent lies within this distance in 95 % of all samples whose logarithms scatter evenly;
+    /// infinite with two points.
     pub uncertainty: f64,
 }
 

@@ -1,7 +1,5 @@
 //! How long runs take on one thread, and whether anything disturbed them.
 
-use std::time::Instant;
-
 use serde::Serialize;
 
 /// A run whose thread had the processor for less than this share of the time was interrupted.
@@ -35,34 +33,6 @@ impl RunTime {
     pub fn is_interrupted(self) -> bool {
         self.processor.is_some_and(|processor| processor < LEAST_SHARE * self.wall)
     }
-}
-
-/// A clock of the thread that reads it.
-#[derive(Clone, Copy, Debug)]
-pub struct RunClock(Instant);
-
-impl RunClock {
-    /// Returns a clock whose wall time begins now.
-    pub fn start() -> Self {
-        Self(Instant::now())
-    }
-
-    /// Reads the clock. Two readings can be compared if the same thread takes them.
-    pub fn now(&self) -> RunTime {
-        RunTime { wall: self.0.elapsed().as_secs_f64(), processor: processor_time() }
-    }
-}
-
-/// Returns how long the present thread has had a processor, in seconds.
-#[cfg(unix)]
-fn processor_time() -> Option<f64> {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
-}
-
-#[cfg(not(unix))]
-fn processor_time() -> Option<f64> {
-    None
 }
 
 /// Returns the least and the greatest time of some runs. A load only adds to a time, so that the least is the
@@ -103,16 +73,5 @@ mod tests {
         assert!(!run(2.0, Some(1.95)).is_interrupted() && !run(2.0, None).is_interrupted());
         assert_eq!(run(3.0, Some(2.5)).since(run(1.0, Some(1.0))), run(2.0, Some(1.5)));
         assert_eq!([run(2.0, Some(1.0)).seconds(), run(2.0, None).seconds()], [1.0, 2.0]);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_thread_that_sleeps_takes_no_processor_time() {
-        let clock = RunClock::start();
-        let before = clock.now();
-        std::thread::sleep(std::time::Duration::from_millis(30));
-        let slept = clock.now().since(before);
-        assert!(slept.wall >= 0.03 && slept.processor.unwrap() < 0.01, "{slept:?}");
-        assert!(slept.is_interrupted());
     }
 }

@@ -19,8 +19,8 @@ const BESIDE_NODE: f64 = 5.0;
 const BESIDE_TRIANGLE: f64 = 7.0;
 
 impl LabelSize {
-    /// Returns a label of a node, an edge or a triangle with these corners: in the middle of a large triangle,
-    /// and beside everything else.
+    /// Returns a label of a node, an edge or a triangle with these corners: in the middle of a large
+    /// triangle, and beside everything else.
     pub fn of(corners: &[[f64; 2]], size: [f64; 2]) -> Self {
         let at =
             [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).sum::<f64>() / corners.len() as f64);

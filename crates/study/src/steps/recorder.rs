@@ -7,7 +7,7 @@ use super::recording::{Recording, ReportRow, RowChange, Step, StepAction, report
 use super::stages::StepStage;
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Answer, Cleaning, Element, Limits, Mesh, Orientation, Progress, RefineError, TriangleId};
-use crate::outline::DerivedMesh;
+use crate::outline::derivation_stages;
 
 /// A triangle and its row; `None` while it is not in the array.
 type KnownRow = (TriangleId, Option<ReportRow>);
@@ -129,8 +129,7 @@ impl StepRecorder {
             let all = 0..self.mesh.raw_triangle_count();
             self.mesh.classify(all, |element| domain.excludes(element));
         }
-        let (_, stages) = DerivedMesh::in_stages(&self.mesh, domain, cleaning);
-        let stages = StepStage::all(&self.mesh, stages);
+        let stages = StepStage::all(&self.mesh, derivation_stages(&self.mesh, domain, cleaning));
         self.finish().with_stages(stages)
     }
 

@@ -233,7 +233,7 @@ fn write_names(
         let part = marked.iter().find(|one| NamedPlace::Triangle(one.number) == *place);
         let color = Hex(part.map_or([0xff; 3], |one| part_color(one.part, colors)));
         let [from_x, from_y] = label.at;
-        if (x - from_x).hypot(y - from_y) > 0.5 * NAME {
+        if libm::hypot(x - from_x, y - from_y) > 0.5 * NAME {
             writeln!(
                 out,
                 "<path d=\"M{from_x:.1} {from_y:.1}L{x:.1} {y:.1}\" stroke=\"{color}\" stroke-width=\"1\"/>\

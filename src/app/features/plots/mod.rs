@@ -19,11 +19,12 @@ use crate::app::background::{Aim, Background, exported};
 use crate::app::derivation::MeasuredMesh;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Slot, Taken, Wanted};
 use crate::app::session::Session;
+use meshbrush_cli::cli::RunClock;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_io::io;
 use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_study::plot::{self, Plot};
-use meshbrush_study::report::{Experiment, ExperimentRun, RunClock};
+use meshbrush_study::report::{Experiment, ExperimentRun};
 
 /// The plots that can be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

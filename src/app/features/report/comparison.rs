@@ -17,7 +17,8 @@ pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparis
     figure.compare_mesh(state.session.mesh(), state.session.queried())
 }
 
-/// Returns the triangles of each mesh, and the gradient of the line of best fit: the exponent of the power law.
+/// Returns the triangles of each mesh, and the gradient of the line of best fit, which is the exponent of the
+/// power law.
 fn of_experiment(figure: ReportFigure, experiment: &Experiment) -> Vec<Comparison> {
     let count = |count: usize| format::count(count as u64);
     let row = |mesh: &meshbrush_study::report::ExperimentMesh| {

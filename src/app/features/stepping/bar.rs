@@ -64,9 +64,9 @@ pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
 fn show_counter(ui: &mut Ui, room: Rect, step: usize, count: usize) {
     let text = format!("Step {} of {}", format::count(step as u64), format::count(count as u64));
     let text = RichText::new(text).font(font::strong()).color(tokens(ui).value);
+    // A child of its own, which does not move what follows.
     let left = UiBuilder::new().max_rect(room).layout(Layout::left_to_right(Align::Center));
-    ui.scope_builder(left, |ui| {
-        ui.add_space(8.0);
-        ui.label(text);
-    });
+    let mut ui = ui.new_child(left);
+    ui.add_space(8.0);
+    ui.label(text);
 }

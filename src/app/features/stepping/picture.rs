@@ -15,6 +15,7 @@ use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
 
+use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};
 
 /// Shortest leg of a triangle, in points, at which its number is drawn.
@@ -49,8 +50,9 @@ fn color_of(part: StepPart) -> Color32 {
     }
 }
 
-/// Draws the mesh at the step that is shown, on the canvas.
-pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>) {
+/// Draws the mesh at the step that is shown, on the canvas, with the letters of the figure of the report that
+/// is shown beside it.
+pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>, figure: Option<ReportFigure>) {
     let player = state.features.stepping.steps().and_then(Steps::player);
     let (Some(player), Some(camera)) = (player, state.view.camera) else { return };
     let colors = state.view.level_colors(state.session.follower().settings());
@@ -61,7 +63,7 @@ pub fn paint(ui: &Ui, response: &Response, state: &FrameState<'_>) {
     paint_outline(ui, painter, response.rect, &camera, state);
     marked.iter().for_each(|one| places.paint_marked(painter, one));
     places.paint_moves(painter, player);
-    let letters = places.letters(painter, player, state);
+    let letters = places.letters(painter, player, figure);
     places.paint_node_numbers(painter, &letters);
     places.paint_triangle_numbers(painter, &letters);
     letters.paint(painter);
@@ -162,9 +164,14 @@ impl<'a> Places<'a> {
     }
 
     /// Finds room for the names that text, data and code of the step use, and those of the figure.
-    fn letters(&mut self, painter: &Painter, player: &StepPlayer, state: &FrameState<'_>) -> PlacedLetters {
+    fn letters(
+        &mut self,
+        painter: &Painter,
+        player: &StepPlayer,
+        figure: Option<ReportFigure>,
+    ) -> PlacedLetters {
         let mut names = player.names();
-        if let Some(figure) = state.features.report.figure() {
+        if let Some(figure) = figure {
             figure.add_letters(player, &mut names);
         }
         let letter = |(place, text): (NamedPlace, String)| {

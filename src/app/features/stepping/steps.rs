@@ -190,7 +190,8 @@ impl Steps {
     }
 }
 
-/// Goes so many steps forwards or backwards, or so many that change the mesh: where no more follow, to the end.
+/// Goes so many steps forwards or backwards, or so many that change the mesh: where no more follow, to the
+/// end.
 fn go(player: &mut StepPlayer, steps: isize, only_bisections: bool) {
     if !only_bisections {
         return player.go_to(player.position().saturating_add_signed(steps));

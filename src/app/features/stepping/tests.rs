@@ -327,6 +327,8 @@ fn the_slider_goes_to_any_step() {
     coarse(&mut window);
     begin(&mut window);
     let slider = window.get_by_role_and_label(Role::Slider, "Step").rect();
+    let is_beside = |speed: egui_kittest::Node<'_>| speed.rect().left() >= slider.right();
+    assert!(window.query_all_by_label("Steps per second").all(is_beside), "nothing covers the slider");
     window.drag_at(slider.left_center() + vec2(8.0, 0.0));
     window.run();
     window.drop_at(slider.center());
