@@ -8,7 +8,8 @@ PROGRAM is target/release/meshbrush if none is named. MINUTES (60) are shared am
 sea with islands, one with every kind of layer, and threats with a path. DOCUMENT, a name among those below, takes
 all of them. Needs Xvfb and xdotool.
 Fails if the program ends, panics, does not come to rest within a minute after a burst of events, or shows a failure
-that Escape does not dismiss; the window's picture is then in target/tmp/random_events.png. Prints for each document the events, the longest wait, and the memory at the start, the
+that Escape does not dismiss; the window's picture is then in target/tmp/random_events.png, and
+its journal, from which the document can be opened again, in target/tmp/random_events. Prints for each document the events, the longest wait, and the memory at the start, the
 most and at the end.
 """
 
@@ -54,6 +55,7 @@ class Window:
         self.environment |= {"DISPLAY": display, "MESHBRUSH_FRAMES": "1", "WINIT_X11_SCALE_FACTOR": "1"}
         for variable in ("DATA_HOME", "CONFIG_HOME", "CACHE_HOME", "RUNTIME_DIR"):
             self.environment["XDG_" + variable] = scratch
+        self.scratch = scratch
         self.screen = os.path.join(scratch, "Xvfb_screen0")
         self.last_frame, self.rests, self.message, self.said = 0.0, False, "none", []
         self.triangles, self.most_triangles = 0, 0
@@ -114,6 +116,7 @@ class Window:
         print("".join(self.said), file=sys.stderr)
         os.makedirs("target/tmp", exist_ok=True)
         write_picture(self.screen, "target/tmp/random_events.png")
+        shutil.copytree(self.scratch, "target/tmp/random_events", dirs_exist_ok=True)
         print(f"FAILED: {why}; message: {self.message}; the last events: {self.last_events}", file=sys.stderr)
         sys.exit(1)
 
