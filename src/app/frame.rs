@@ -27,7 +27,9 @@ use super::keys::Receiver;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
-use crate::app::widgets::shown_keys;
+use crate::app::widgets::{degrees, shown_keys};
+use meshbrush_core::document::Settings;
+use meshbrush_mesh::text::LengthUnit;
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
@@ -199,6 +201,9 @@ impl App {
         let entries = catalog(&self.state(None));
         let keys = entries.iter().filter_map(|item| Some((item.id.clone(), item.shown_keys()?)));
         shown_keys::publish(ui.ctx(), keys.collect());
+        let Settings { unit, domain, .. } = self.session.document().settings();
+        let latitude = (*unit == LengthUnit::Degree).then(|| domain.bounds.center().y);
+        degrees::publish_latitude(ui.ctx(), latitude);
         if let Some(panel) = self.view.revealed_panel.and_then(panels::named) {
             self.view.dock.choose(panel.tab);
         }

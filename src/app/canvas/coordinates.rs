@@ -3,6 +3,7 @@
 use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use crate::app::theme::{font, tokens};
+use crate::app::widgets::degrees::KM_PER_DEGREE;
 use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::scene::Camera;
@@ -19,8 +20,6 @@ const TICKS: [f32; 2] = [7.0, 4.0];
 const LONGEST_BAR: f32 = 132.0;
 /// Space around the scale bar in its box, in points.
 const BAR_MARGIN: Vec2 = vec2(10.0, 7.0);
-/// Kilometres of one degree of latitude, on the sphere with the area of the Earth.
-const KM_PER_DEGREE: f64 = 111.195;
 
 /// Returns the largest of 1, 2 and 5 times a power of ten that is at most `limit`, which is positive.
 fn round_length(limit: f64) -> f64 {

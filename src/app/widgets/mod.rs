@@ -12,6 +12,7 @@ pub mod format;
 pub mod key_menu;
 mod paint;
 mod reveal;
+pub mod degrees;
 pub mod shown_keys;
 pub mod tips;
 pub mod typed;

@@ -93,6 +93,10 @@ fn unknown_unit(suffix: &str, unit: &str) -> String {
             format!("The unit “{suffix}” has no meaning here, because this value has no unit.")
         }
         "" => format!("“{suffix}” after the number is not understood. Type it without a unit."),
+        "°" if is_length => format!(
+            "“{suffix}” cannot be converted to degrees, because a degree has another length in each direction and at \
+             each latitude."
+        ),
         _ => format!("“{suffix}” cannot be converted to {unit}."),
     }
 }
@@ -135,6 +139,7 @@ mod tests {
         assert_eq!(number("512 px", "px"), Ok(512.0));
         let refused = |text, unit| number(text, unit).unwrap_err();
         assert!(refused("1 km", "").contains("no unit"), "{}", refused("1 km", ""));
+        assert!(refused("2 km", "°").contains("another length in each direction"));
         assert!(refused("3 apples", "m").contains("cannot be converted to m"));
         assert!(refused("much", "m").contains("“much” is not a number"));
     }

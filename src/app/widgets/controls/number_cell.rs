@@ -11,8 +11,10 @@ use super::number_input::{Entered, NumberInput, PX_PER_STEP};
 use super::number_menu::{WAYS, number_menu, pasted};
 use super::paint;
 use crate::app::theme::{font, metrics, tokens};
+use crate::app::widgets::degrees::metric_in_degrees;
 use crate::app::widgets::shown_keys::with_keys;
 use crate::app::widgets::{tips, typed};
+use meshbrush_mesh::text::LengthUnit;
 
 /// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
 const WHEEL_REST: f64 = 0.25;
@@ -291,7 +293,7 @@ impl NumberCell<'_> {
         if pressed(Key::Escape) || text == self.input.exact() || untouched.as_ref() == Some(&text) {
             return None;
         }
-        match self.input.read(&text) {
+        match self.entered(ui, &text) {
             Err(problem) if in_field && pressed(Key::Enter) => {
                 self.keep_remark(ui, Some(problem), self.input.value);
                 ui.data_mut(|data| data.insert_temp(self.id, text));
@@ -302,9 +304,19 @@ impl NumberCell<'_> {
         }
     }
 
+    /// Returns the value that a text stands for, or a sentence that says what was not understood and, for a
+    /// metric length in degrees, what to type.
+    fn entered(&self, ui: &Ui, text: &str) -> Result<Entered, String> {
+        let is_in_degrees = self.input.unit == LengthUnit::Degree.symbol();
+        self.input.read(text).map_err(|problem| {
+            let length = is_in_degrees.then(|| metric_in_degrees(ui.ctx(), text)).flatten();
+            length.map_or(problem.clone(), |length| format!("{problem} {length}"))
+        })
+    }
+
     /// Reads a text as the number. Where it cannot be taken as it is, a sentence says so.
     fn read(&self, ui: &Ui, text: &str) -> Option<f64> {
-        match self.input.read(text) {
+        match self.entered(ui, text) {
             Ok(Entered { value, remark }) => {
                 self.keep_remark(ui, remark, value);
                 Some(value).filter(|value| *value != self.input.value)
