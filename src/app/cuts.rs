@@ -1,57 +1,71 @@
-//! Edits of the domain's outline on their way to the document. They are computed on another thread: cutting
-//! an outline of many corners takes longer than a frame.
+//! What is drawn by hand on its way to the document: edits of the domain's outline, of masks, of keep-out
+//! regions and of shapes. They are computed on another thread: an outline of many corners takes longer than a
+//! frame.
 
 use std::collections::VecDeque;
 
 use super::jobs::{Job, Jobs, Kind, Taken};
-use meshbrush_core::document::{Document, Setting, SettingsError};
-use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_core::document::{Document, Drawing, DrawingError, DrawnPart, DrawnShape, Setting};
+use meshbrush_core::domain::CutShape;
 use meshbrush_mesh::geometry::Rect;
 
-/// One edit of the outline.
+/// One edit.
 #[derive(Clone, Debug, PartialEq)]
-enum OutlineEdit {
-    /// Adds a shape (`true`) or removes it.
-    Reshape(CutShape, bool),
+enum DrawnEdit {
+    /// Adds a shape to a part (`true`) or cuts it away.
+    Draw(DrawnPart, DrawnShape, bool),
     /// Another rectangle for the coarse grid, in world units.
     Bounds(Rect),
 }
 
-impl OutlineEdit {
-    /// Returns the edited domain; `None` where the edit changes nothing.
-    fn apply(&self, domain: &Domain) -> Option<Domain> {
+impl DrawnEdit {
+    /// The part of the document that is edited.
+    fn part(&self) -> DrawnPart {
         match self {
-            Self::Reshape(cut_shape, adds) => domain.reshaped(cut_shape, *adds),
-            Self::Bounds(bounds) => Some(domain.with_bounds(*bounds)),
+            Self::Draw(part, ..) => *part,
+            Self::Bounds(_) => DrawnPart::Domain,
+        }
+    }
+
+    /// Returns the edited drawing; `None` where the edit changes nothing.
+    fn apply(&self, drawing: &Drawing) -> Result<Option<Drawing>, DrawingError> {
+        match (self, drawing) {
+            (Self::Draw(_, shape, adds), drawing) => drawing.edited(shape, *adds),
+            (Self::Bounds(bounds), Drawing::Domain(domain)) => {
+                Ok(Some(Drawing::Domain(domain.with_bounds(*bounds))))
+            }
+            (Self::Bounds(_), _) => Ok(None),
         }
     }
 
     /// Appends the next edit, where both belong to one stroke of the brush.
     fn join(&mut self, next: &Self) -> bool {
-        let (Self::Reshape(cut_shape, adds), Self::Reshape(next, next_adds)) = (self, next) else {
-            return false;
-        };
-        *adds == *next_adds && cut_shape.join(next)
+        match (self, next) {
+            (Self::Draw(part, shape, adds), Self::Draw(next_part, next, next_adds)) => {
+                part == next_part && adds == next_adds && shape.join(next)
+            }
+            _ => false,
+        }
     }
 }
 
-/// The changes of the domain, in order.
+/// The edits, in order.
 #[derive(Debug)]
 enum Step {
-    Edit(OutlineEdit),
+    Edit(DrawnEdit),
     /// The gesture ends: what follows is an undo step of its own.
     EndGesture,
 }
 
 /// An edit on the other thread.
 struct Running {
-    edit: OutlineEdit,
-    /// The domain that is edited.
-    domain: Domain,
-    job: Job<Option<Domain>>,
+    edit: DrawnEdit,
+    /// What is edited.
+    before: Drawing,
+    job: Job<Result<Option<Drawing>, DrawingError>>,
 }
 
-/// Edits of the outline that have not reached the document.
+/// Edits that have not reached the document.
 #[derive(Default)]
 pub struct CutQueue {
     waiting: VecDeque<Step>,
@@ -64,29 +78,30 @@ impl CutQueue {
         self.waiting.is_empty() && self.running.is_none()
     }
 
-    /// Returns the shapes that are not cut yet.
-    pub fn shapes(&self) -> impl Iterator<Item = &CutShape> {
+    /// Returns the areas that have not reached the parts that `counts` accepts.
+    pub fn areas(&self, counts: impl Fn(DrawnPart) -> bool) -> impl Iterator<Item = &CutShape> {
         let waiting = self.waiting.iter().filter_map(|step| match step {
             Step::Edit(edit) => Some(edit),
             Step::EndGesture => None,
         });
-        self.running.iter().map(|running| &running.edit).chain(waiting).filter_map(|edit| match edit {
-            OutlineEdit::Reshape(cut_shape, _) => Some(cut_shape),
-            OutlineEdit::Bounds(_) => None,
+        let edits = self.running.iter().map(|running| &running.edit).chain(waiting);
+        edits.filter_map(move |edit| match edit {
+            DrawnEdit::Draw(part, DrawnShape::Area(area), _) if counts(*part) => Some(area),
+            DrawnEdit::Draw(..) | DrawnEdit::Bounds(_) => None,
         })
     }
 
-    /// Adds a shape to the domain (`true`) or removes it.
-    pub fn reshape(&mut self, cut_shape: CutShape, adds: bool) {
-        self.push(OutlineEdit::Reshape(cut_shape, adds));
+    /// Adds a shape to a part of the document (`true`) or cuts it away.
+    pub fn draw(&mut self, part: DrawnPart, shape: DrawnShape, adds: bool) {
+        self.push(DrawnEdit::Draw(part, shape, adds));
     }
 
     /// Gives the coarse grid another rectangle, in world units.
     pub fn set_bounds(&mut self, bounds: Rect) {
-        self.push(OutlineEdit::Bounds(bounds));
+        self.push(DrawnEdit::Bounds(bounds));
     }
 
-    fn push(&mut self, edit: OutlineEdit) {
+    fn push(&mut self, edit: DrawnEdit) {
         if let Some(Step::Edit(last)) = self.waiting.back_mut()
             && last.join(&edit)
         {
@@ -119,41 +134,53 @@ impl CutQueue {
     /// Hands finished edits to the document and starts those that wait. Returns whether one is left.
     ///
     /// # Errors
-    /// Fails when the document refuses an edit; the others are dropped.
-    pub fn advance(&mut self, document: &mut Document, jobs: &Jobs) -> Result<bool, SettingsError> {
+    /// Fails with a sentence when an edit is not possible or the document refuses it; the others are
+    /// dropped.
+    pub fn advance(&mut self, document: &mut Document, jobs: &Jobs) -> Result<bool, String> {
         loop {
             if let Some(running) = &self.running {
                 match running.job.take(jobs) {
                     Taken::Working => return Ok(true),
-                    Taken::Value(domain) => self.finish(document, domain)?,
+                    Taken::Value(Ok(drawing)) => self.finish(document, drawing)?,
+                    Taken::Value(Err(error)) => {
+                        self.discard(document);
+                        return Err(error.to_string());
+                    }
                     Taken::Ended => self.finish(document, None)?,
                 }
             }
             match self.waiting.pop_front() {
                 None => return Ok(false),
                 Some(Step::EndGesture) => document.end_gesture(),
-                Some(Step::Edit(edit)) => self.start(edit, &document.settings().domain, jobs),
+                Some(Step::Edit(edit)) => match edit.part().drawing(document.settings()) {
+                    Some(before) => self.start(edit, before, jobs),
+                    None => _ = self.discard(document),
+                },
             }
         }
     }
 
-    fn start(&mut self, edit: OutlineEdit, domain: &Domain, jobs: &Jobs) {
-        let (edit_there, before) = (edit.clone(), domain.clone());
+    fn start(&mut self, edit: DrawnEdit, before: Drawing, jobs: &Jobs) {
+        let (edit_there, before_there) = (edit.clone(), before.clone());
         let job = jobs.start(Kind::Compute, move |output| {
-            output.send(edit_there.apply(&before));
+            output.send(edit_there.apply(&before_there));
         });
-        self.running = Some(Running { edit, domain: domain.clone(), job });
+        self.running = Some(Running { edit, before, job });
     }
 
-    /// Replaces the domain by the edited one. If it is no longer the one that was edited, all edits are
-    /// dropped.
-    fn finish(&mut self, document: &mut Document, edited: Option<Domain>) -> Result<(), SettingsError> {
-        let Some(running) = self.running.take() else { return Ok(()) };
-        match edited {
-            Some(domain) if document.settings().domain == running.domain => {
-                document.set(Setting::Domain(domain))
-            }
-            _ => {
+    /// Replaces what was edited. If it is no longer what it was, all edits are dropped.
+    fn finish(&mut self, document: &mut Document, edited: Option<Drawing>) -> Result<(), String> {
+        let Some(Running { edit, before, .. }) = self.running.take() else { return Ok(()) };
+        let (part, settings) = (edit.part(), document.settings());
+        let is_as_before = part.drawing(settings).as_ref() == Some(&before);
+        let edited = edited.filter(|_| is_as_before);
+        let setting: Option<Setting> = edited.and_then(|edited| part.setting(settings, edited));
+        match setting {
+            Some(setting) => document.set(setting).map_err(|error| {
+                self.discard(document);
+                error.to_string()
+            }),
+            None => {
                 self.discard(document);
                 Ok(())
             }

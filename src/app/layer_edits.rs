@@ -4,12 +4,32 @@ use super::session::Session;
 use meshbrush_core::document::Setting;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind};
 
+/// Returns the name, or with a number where a layer has that name.
+pub fn unused_name(layers: &[Layer], name: &str) -> String {
+    let is_used = |name: &str| layers.iter().any(|layer| layer.name == name);
+    let numbered = (2..).map(|n| format!("{name} {n}"));
+    std::iter::once(name.to_owned()).chain(numbered).find(|name| !is_used(name)).unwrap_or_default()
+}
+
 impl Session {
     /// Edits the layers. Further edits join the gesture.
     pub fn edit_layers(&mut self, edit: impl FnOnce(&mut Vec<Layer>)) {
         let mut layers = self.document().settings().layers.clone();
         edit(&mut layers);
         self.set(Setting::Layers(layers));
+    }
+
+    /// Inserts a layer of a kind above the selected one, or at the top, with a name that no other layer has.
+    /// Further edits join the gesture.
+    pub fn insert_layer(&mut self, kind: LayerKind) -> LayerId {
+        let document = self.document();
+        let (id, layers) = (document.unused_layer_id(), &document.settings().layers);
+        let name = unused_name(layers, &kind.name());
+        let selected = document.active_layer().map(|layer| layer.id);
+        let place = layers.iter().position(|layer| Some(layer.id) == selected);
+        let place = place.map_or(layers.len(), |place| place + 1);
+        self.edit_layers(|layers| layers.insert(place, Layer::new(id, name, kind)));
+        id
     }
 
     /// Edits the layers as a gesture of its own.

@@ -16,7 +16,9 @@ use super::readout::{Quantity, Readout};
 use super::slices::{SLICE, follow_document};
 use super::threads::Threads;
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Setting, Stage};
+use meshbrush_core::document::{
+    Document, DrawnPart, DrawnShape, Follower, MeshChange, Pricer, Readings, Setting, Stage,
+};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use meshbrush_core::explain::AgesNow;
 use meshbrush_core::layers::Decision;
@@ -240,8 +242,13 @@ impl Session {
                  start from the whole rectangle.",
             );
         } else {
-            self.cuts.reshape(cut_shape, adds);
+            self.draw(DrawnPart::Domain, DrawnShape::Area(cut_shape), adds);
         }
+    }
+
+    /// Adds a shape to a part of the document (`true`) or cuts it away. Further shapes join the gesture.
+    pub fn draw(&mut self, part: DrawnPart, shape: DrawnShape, adds: bool) {
+        self.cuts.draw(part, shape, adds);
     }
 
     /// Gives the domain other bounds, in world units, as a gesture of its own.
@@ -259,14 +266,14 @@ impl Session {
         self.cuts.end_gesture(&mut self.document);
     }
 
-    /// Returns whether cuts of the domain have not reached the document yet.
+    /// Returns whether something that was drawn has not reached the document yet.
     pub fn is_cutting(&self) -> bool {
         !self.cuts.is_idle()
     }
 
-    /// Returns the shapes that are not cut yet.
-    pub fn pending_cuts(&self) -> impl Iterator<Item = &CutShape> {
-        self.cuts.shapes()
+    /// Returns the areas that have not reached the parts of the document that `counts` accepts.
+    pub fn pending_cuts(&self, counts: impl Fn(DrawnPart) -> bool) -> impl Iterator<Item = &CutShape> {
+        self.cuts.areas(counts)
     }
 
     /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any

@@ -147,8 +147,12 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
-        _ => LayerKind::Distance { to: DistanceTo::Outline, at_zero, slope, range },
+        _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
+}
+
+fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {
+    if random.bool() { DistanceTo::Outline } else { DistanceTo::Coasts }
 }
 
 fn threats(random: &mut fastrand::Rng) -> Threats {

@@ -448,7 +448,7 @@ fn a_newer_version_is_named() {
         let newer = text.replace("\"version\": 4", "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 4"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 5"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.

@@ -12,7 +12,7 @@ use crate::app::features::picture::show_corners;
 use crate::app::kit::FrameState;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
-use meshbrush_core::document::Stage;
+use meshbrush_core::document::{DrawnPart, Stage};
 
 /// How long news is shown, in seconds.
 const NEWS_SECONDS: f64 = 5.0;
@@ -144,6 +144,9 @@ fn has_faded(ui: &Ui, number: u64) -> bool {
 /// Returns the present work on the mesh in words, and its progress.
 pub fn work_on_mesh(session: &Session) -> Option<(&'static str, String)> {
     match session.stage() {
+        _ if session.pending_cuts(|part| part != DrawnPart::Domain).next().is_some() => {
+            Some(("Drawing the region", String::new()))
+        }
         _ if session.is_cutting() => Some(("Cutting the outline", String::new())),
         Stage::Refining { triangles } => {
             Some(("Refining", format!("{} triangles", format::count(triangles as u64))))

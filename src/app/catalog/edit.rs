@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use crate::app::command::{Command, DomainCommand, EditCommand, InspectCommand, ShellCommand};
+use crate::app::command::{Command, DomainCommand, EditCommand, InspectCommand, RegionCommand, ShellCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// History and paint.
@@ -17,8 +17,12 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let redo = named("Redo", history.redo_title());
     let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
-    let remove = || Command::Domain(DomainCommand::RemoveCorner);
-    let in_polygon = !state.tools.domain.corners.is_empty();
+    let in_region = !state.tools.region.corners.is_empty();
+    let remove = || match in_region {
+        true => Command::Region(RegionCommand::RemoveCorner),
+        false => Command::Domain(DomainCommand::RemoveCorner),
+    };
+    let in_polygon = in_region || !state.tools.domain.corners.is_empty();
     let undo = if in_polygon {
         CatalogItem::new(Edit, "Undo corner of the polygon", remove())
     } else {

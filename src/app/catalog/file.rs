@@ -27,21 +27,28 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(File, "Add data…", Command::File(FileCommand::Ask(&ADD_DATA)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::D)
             .group(),
-        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK))),
+        // *Add data…* asks what a file is to be; these know it already.
+        CatalogItem::new(File, "Open picture as risk…", Command::File(FileCommand::Ask(&OPEN_RISK)))
+            .palette_only(),
         CatalogItem::new(
             File,
             "Open grid as target diameter…",
             Command::File(FileCommand::Ask(&OPEN_DIAMETERS)),
-        ),
-        CatalogItem::new(File, "Open background picture…", Command::File(FileCommand::Ask(&OPEN_PICTURE))),
+        )
+        .palette_only(),
+        CatalogItem::new(File, "Open background picture…", Command::File(FileCommand::Ask(&OPEN_PICTURE)))
+            .palette_only(),
         CatalogItem::new(File, "Open domain…", Command::File(FileCommand::Ask(&OPEN_DOMAIN)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
         CatalogItem::new(
             File,
             "Add outline to this document…",
             Command::File(FileCommand::Ask(&ADD_OUTLINE)),
-        ),
-        CatalogItem::new(File, "Export mesh…", Command::File(FileCommand::Ask(&EXPORT_MESH))).ctrl(Key::E),
+        )
+        .palette_only(),
+        CatalogItem::new(File, "Export mesh…", Command::File(FileCommand::Ask(&EXPORT_MESH)))
+            .ctrl(Key::E)
+            .group(),
         CatalogItem::new(File, "Export path…", Command::File(FileCommand::Ask(&EXPORT_PATH)))
             .enabled(has_paths),
         CatalogItem::new(File, "Export as test…", Command::File(FileCommand::Ask(&EXPORT_TEST))),

@@ -17,6 +17,7 @@ pub use super::features::painting::BrushCommand;
 pub use super::features::picture::PictureCommand;
 pub use super::features::pins::PinsCommand;
 pub use super::features::plots::{PlotKind, PlotsCommand};
+pub use super::features::regions::{RegionCommand, RegionTarget};
 pub use super::features::report::FigureCommand;
 pub use super::features::statistics::StatisticsCommand;
 pub use super::features::stepping::StepCommand;

@@ -202,6 +202,5 @@ fn contents_text(file: &DataFile) -> String {
 fn note_on_extent(state: &FrameState<'_>, file: &DataFile) -> Option<&'static str> {
     let empty = EmptyDocument::of(state.session)?;
     empty.over(&file.path, file.extent?, LengthUnit::None)?;
-    let has_extent = matches!(file.contents, DataContents::Grid(_) | DataContents::Shapes { .. });
-    has_extent.then_some("The document is empty: with a layer of this file it takes the extent of the file.")
+    Some("The document is empty: with this file it takes the extent of the file.")
 }

@@ -10,6 +10,7 @@ pub mod paths;
 pub mod picture;
 pub mod pins;
 pub mod plots;
+pub mod regions;
 pub mod report;
 pub mod statistics;
 pub mod stepping;
@@ -29,6 +30,7 @@ use paths::Paths;
 use picture::BackgroundPicture;
 use pins::Pins;
 use plots::Plots;
+use regions::Regions;
 use report::Report;
 use statistics::Statistics;
 use stepping::Stepping;
@@ -102,6 +104,8 @@ features! {
         domain: DomainEditor as Domain,
         /// The layers of the size field.
         layers: LayerEditor as Layer,
+        /// Regions drawn by hand.
+        regions: Regions as Region,
         /// The paths of the document.
         paths: Paths as Path,
         /// The queried point and its triangle.

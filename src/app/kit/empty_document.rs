@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::app::background::name_of;
-use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, Opened, ShellCommand};
 use crate::app::session::Session;
 use meshbrush_core::document::{Document, Settings, extent};
 use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::{Layer, LayerId, LayerKind};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -43,6 +44,27 @@ impl EmptyDocument {
         let usual = Settings::for_domain(name, Domain::rectangle(extent));
         Some(Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual })
     }
+}
+
+/// Returns the commands that show settings over the extent of a file, with a layer of it on top, which is
+/// selected.
+///
+/// # Errors
+/// Fails with a sentence when no mesh can be built for them.
+pub fn show_with_layer(mut settings: Settings, kind: LayerKind, file: &Path) -> Result<Vec<Command>, String> {
+    let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
+    settings.layers.push(Layer::new(id, kind.name(), kind));
+    let mut commands = show_over_extent(settings, file)?;
+    commands.push(Command::Layer(LayerCommand::Select(id)));
+    Ok(commands)
+}
+
+/// The space that an empty document leaves around the points of a file, as a share of their longer side.
+const SHARE_AROUND: f64 = 0.1;
+
+/// Returns the extent of a file of points, lines or polygons with some space around it.
+pub fn with_space_around(extent: Rect) -> Rect {
+    extent.expanded(SHARE_AROUND * extent.size().max_element())
 }
 
 /// Returns the commands that show settings over the extent of a file, and say so.

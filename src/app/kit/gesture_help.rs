@@ -12,6 +12,8 @@ pub enum GesturePlace {
     Querying,
     /// With the threats tool.
     Threats,
+    /// With the region tool.
+    Regions,
     /// On the canvas, with any tool.
     Canvas,
     /// On a number or a slider of a panel.
@@ -25,6 +27,7 @@ impl GesturePlace {
             Self::Painting => "Painting with the pointer",
             Self::Querying => "Inspecting triangles",
             Self::Threats => "Threats",
+            Self::Regions => "Drawing regions",
             Self::Canvas => "On the canvas, with any tool",
             Self::Panel => "In the panels",
         }

@@ -10,6 +10,7 @@
 
 mod ctx;
 mod data_file;
+mod drawing;
 mod empty_document;
 mod entry;
 mod feature;
@@ -18,11 +19,13 @@ mod formula_row;
 mod frame_state;
 mod gesture;
 mod gesture_help;
+mod hatching;
 mod keymap;
 mod layer_kind;
 pub mod marks;
 mod mask_file;
 mod menu_item;
+mod name_field;
 mod panel;
 mod place;
 mod radius_row;
@@ -33,7 +36,8 @@ mod tool;
 
 pub use ctx::{Ctx, NO_LIMIT};
 pub use data_file::{DataContents, DataFile, DataRole, RasterFacts, look_at};
-pub use empty_document::{EmptyDocument, show_over_extent};
+pub use drawing::{DrawingCommands, press_brush, press_corner};
+pub use empty_document::{EmptyDocument, show_over_extent, show_with_layer, with_space_around};
 pub use entry::{CatalogItem, DIGITS, Menu, NOT_QUERYING, QUERYING};
 pub use feature::{Feature, Row};
 pub use file_kind::{FileAct, FileKind, FileRequest};
@@ -41,12 +45,14 @@ pub use formula_row::FormulaRow;
 pub use frame_state::FrameState;
 pub use gesture::{CLICK_SLACK, GRIP_POINTS, Gesture, Pointer, Press, SettingsDrag, nearest_within};
 pub use gesture_help::{GestureHelp, GesturePlace};
+pub use hatching::hatching;
 pub use keymap::{Keymap, conflicts, owners};
 pub use layer_kind::{
     Addition, LayerKindRow, add_layer, kinds_of_layers, range_rows, set_kind, set_kind_once,
 };
 pub use mask_file::with_mask;
 pub use menu_item::menu_item;
+pub use name_field::name_field;
 pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once};
 pub use place::Place;
 pub use radius_row::radius_row;

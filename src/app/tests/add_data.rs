@@ -14,7 +14,8 @@ use super::{
     Window, active, click_button, document, entries, key, notice, open_menu, paint, send, settings, value_of,
     wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, PictureCommand};
+use meshbrush_core::document::Settings;
 use meshbrush_core::domain::BoundaryTreatment;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading};
 use meshbrush_mesh::geometry::Rect;
@@ -183,10 +184,43 @@ fn tables_become_threats_or_pins() {
     let LayerKind::Threats(threats) = &active(&window).kind else { panic!("a layer of threats") };
     assert_eq!(threats.list().len(), 2);
     assert_eq!(settings(&window).layers.len(), 4, "the layer that was selected stays as it is");
+    let bounds = settings(&window).domain.bounds;
+    let ranges = Rect::new(dvec2(0.2, 0.3), dvec2(0.8, 0.8));
+    assert!(bounds.min.distance(ranges.min) + bounds.max.distance(ranges.max) < 1e-12, "{bounds:?}");
     drop_and_wait(&mut window, &points);
     choose_role(&mut window, "Pins");
     wait_until(&mut window, |window| settings(window).pins.len() == 2);
     assert!(notice(&window).contains("2 pins"), "a point that is there twice is one pin");
+}
+
+#[test]
+fn points_and_background_pictures_give_an_empty_document_their_extent() {
+    let points = written("extents", "stations.csv", "x,y\n100,10\n300,50\n");
+    let mut window = window();
+    new_document(&mut window);
+    drop_and_wait(&mut window, &points);
+    assert!(window.query_by_label_contains("takes the extent of the file").is_some());
+    choose_role(&mut window, "Pins");
+    wait_until(&mut window, |window| settings(window).pins.len() == 2);
+    assert_eq!(settings(&window).domain.bounds, Rect::new(dvec2(80.0, -10.0), dvec2(320.0, 70.0)));
+    assert!(notice(&window).contains("takes the extent of stations.csv"), "{}", notice(&window));
+
+    let picture = written("extents", "map.png", "");
+    fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/jacksboro_slope.png"), &picture).unwrap();
+    for (world_file, width) in [(None, 1.0), (Some("2\n0\n0\n-2\n101\n899\n"), 806.0)] {
+        if let Some(text) = world_file {
+            fs::write(picture.with_extension("pgw"), text).unwrap();
+        }
+        new_document(&mut window);
+        send(&mut window, Command::Picture(PictureCommand::Open(picture.clone())));
+        wait_until(&mut window, |window| settings(window).background.is_some());
+        let Settings { domain, background, .. } = settings(&window);
+        let background = background.as_ref().unwrap();
+        let [columns, rows] = background.picture.size.map(f64::from);
+        assert_eq!(domain.bounds, background.bounds, "the picture is not distorted");
+        assert_eq!((domain.bounds.size().x, domain.bounds.size().y), (width, width * rows / columns));
+    }
+    fs::remove_file(picture.with_extension("pgw")).unwrap();
 }
 
 #[test]

@@ -7,8 +7,10 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
-use crate::app::command::{BrushCommand, Command, DomainCommand, EditCommand};
-use meshbrush_core::document::{Document, Follower, Settings};
+use crate::app::command::{
+    BrushCommand, Command, DomainCommand, EditCommand, LayerCommand, RegionCommand, RegionTarget,
+};
+use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
@@ -61,6 +63,26 @@ fn lake() -> Settings {
     lake
 }
 
+/// Draws a stroke on the mask of a layer, on a keep-out region or on shapes.
+fn draw_on_a_region(window: &mut Window, path: Vec<DVec2>, random: &mut Rng) {
+    let document = window.state().session().document();
+    let (layers, painted) = (&document.settings().layers, document.active_layer().unwrap().id);
+    let layer = layers[random.usize(..layers.len())].id;
+    let target = match random.usize(..3) {
+        0 => RegionTarget::KeepOut,
+        // Each stroke on another layer than one of shapes adds a layer.
+        1 if layers.len() < 5 => RegionTarget::Shapes,
+        _ => RegionTarget::Mask,
+    };
+    let stroke = CutShape::Stroke { path, radius: 0.05 + 0.1 * random.f64() };
+    send(window, Command::Layer(LayerCommand::Select(layer)));
+    send(window, Command::Region(RegionCommand::Target(target)));
+    send(window, Command::Region(RegionCommand::Draw(DrawnShape::Area(stroke), random.u32(..3) > 0)));
+    send(window, Command::Edit(EditCommand::EndGesture));
+    // The strokes of the brush go on.
+    send(window, Command::Layer(LayerCommand::Select(painted)));
+}
+
 #[test]
 fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
     let mut window = window();
@@ -70,13 +92,14 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
     for _ in 0..40 {
         let mut point = || 2.2 * dvec2(random.f64() - 0.5, random.f64() - 0.5);
         let (a, b) = (point(), point());
-        match random.u32(..6) {
+        match random.u32(..8) {
             0 => {
                 let cut_shape = CutShape::Stroke { path: vec![a], radius: 0.05 + 0.1 * random.f64() };
                 send(&mut window, Command::Domain(DomainCommand::Reshape(cut_shape, random.bool())));
                 send(&mut window, Command::Edit(EditCommand::EndGesture));
             }
             1 => key(&mut window, Modifiers::COMMAND, Key::Z),
+            2 | 3 => draw_on_a_region(&mut window, vec![a, b], &mut random),
             _ => {
                 window.state_mut().send(Command::Brush(BrushCommand::BeginStroke(a)));
                 for step in 0..=4 {

@@ -73,7 +73,7 @@ fn every_entry_of_a_menu_is_in_the_palette() {
         menus.iter().filter(|entry| !palette.iter().any(|title| names(entry, title))).collect();
     assert!(unknown.is_empty(), "not in the palette: {unknown:?}");
     for entry in
-        ["Undo Ctrl+Z", "Redo Ctrl+Shift+Z", "Larger brush I", "Softer brush Shift+J", "Fit domain Home"]
+        ["Undo Ctrl+Z", "Redo Ctrl+Shift+Z", "Larger brush I", "Delete layer Shift+Delete", "Fit domain Home"]
     {
         assert!(menus.contains(entry), "{entry} is not shown with its key");
     }

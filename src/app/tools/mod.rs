@@ -16,6 +16,7 @@ pub use pan::{PAN, Panning};
 use super::features::boundary::BoundaryTool;
 use super::features::domain::DomainTool;
 use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
+use super::features::regions::RegionTool;
 use super::widgets::Hint;
 use crate::app::kit::{FrameState, Tool};
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
@@ -68,6 +69,8 @@ pub struct Tools {
     pub last_painted: Option<DVec2>,
     /// The domain tool.
     pub domain: DomainTool,
+    /// The region tool.
+    pub region: RegionTool,
     /// The boundary tool.
     pub boundary: BoundaryTool,
     /// Whether a tool was selected since [`Self::take_selection`].
@@ -97,6 +100,7 @@ impl Tools {
             pen: Pen::default(),
             last_painted: None,
             domain: DomainTool::default(),
+            region: RegionTool::default(),
             boundary: BoundaryTool::default(),
             was_selected: false,
             uses: BTreeMap::new(),
@@ -108,7 +112,8 @@ impl Tools {
         let choices =
             |tools: &Self| (tools.tool, tools.kind, tools.mode, tools.domain.mode, tools.domain.adds);
         let amounts = |tools: &Self| [tools.paint_strength, tools.erase_strength, tools.risk];
-        let boundary = self.boundary.mode != other.boundary.mode;
+        let region = |tools: &Self| (tools.region.target, tools.region.shape(), tools.region.cuts);
+        let boundary = self.boundary.mode != other.boundary.mode || region(self) != region(other);
         choices(self) != choices(other) || amounts(self) != amounts(other) || boundary
     }
 
@@ -149,6 +154,7 @@ impl Tools {
         let fitting = Self::for_domain(extent, h_min);
         (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
         self.boundary.selected = None;
+        self.region.keep_out = None;
     }
 
     /// Returns whether the selected tool shows the brush ring.

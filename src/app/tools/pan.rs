@@ -9,7 +9,7 @@ use crate::app::widgets::Icon;
 
 /// Moves the view.
 pub static PAN: ToolSpec = ToolSpec {
-    place: 7,
+    place: 8,
     cursor: CursorIcon::Grab,
     hint: |_| HINT,
     press: |press, _, _| Some(Box::new(Panning { last: press.at, button: PointerButton::Primary })),

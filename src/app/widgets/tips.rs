@@ -9,7 +9,7 @@ const EDGE: f32 = 2.0;
 /// The sentences of controls that have no unit or number in it, by the name of the control. The name of a
 /// choice is that of its group and its own. A key is written as the id of its entry in braces, and what to
 /// leave out where there is none, in brackets: `[; {undo}]`.
-static SENTENCES: [(&str, &str); 219] = [
+static SENTENCES: &[(&str, &str)] = &[
     (
         "Open background…",
         "Reads a picture that is shown behind the mesh; a world file beside it says where it lies.",
@@ -105,6 +105,9 @@ static SENTENCES: [(&str, &str); 219] = [
         "This layer alone counts, wherever it asks for anything; the layers below do not.",
     ),
     ("Clear this layer", "Removes all paint of this layer."),
+    ("Draw mask", "Selects the region tool: what you draw on the canvas is where the layer counts."),
+    ("Draw shapes", "Selects the region tool: what you draw on the canvas joins the shapes of the layer."),
+    ("Draw keep-out region", "Selects the region tool: paths stay out of what you draw on the canvas."),
     ("Mask from file…", "Reads polygons from a GeoJSON file: the layer counts only inside them."),
     ("Remove mask", "Removes the mask, so that the layer counts everywhere."),
     ("Add threat", "Adds a threat in the middle of the view, like the selected one."),
@@ -153,6 +156,7 @@ static SENTENCES: [(&str, &str); 219] = [
         "Open shapes…",
         "Reads points, lines and polygons from a GeoJSON file, to measure the distance to them.",
     ),
+    ("Leave out open boundaries", "Only coasts count, and no boundary along the frame of the domain."),
     ("Use outline", "Measures the distance to the outline of the domain again."),
     ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
     (
@@ -193,6 +197,16 @@ static SENTENCES: [(&str, &str); 219] = [
     ("What cuts the domain/Rectangle", "Cuts the domain with a rectangle that you drag."),
     ("What cuts the domain/Polygon", "Cuts the domain with a polygon whose corners you click."),
     ("What cuts the domain/Frame", "Draws the rectangle that the coarse grid covers."),
+    ("What is drawn/Mask", "Draws the area in which the selected layer counts."),
+    ("What is drawn/Keep out", "Draws a region that paths stay out of."),
+    ("What is drawn/Shapes", "Draws shapes to which the selected layer, or a new one, measures."),
+    ("What it is drawn with/Brush", "Draws with a round brush."),
+    ("What it is drawn with/Polygon", "Draws a polygon whose corners you click."),
+    ("What it is drawn with/Line", "Draws a line whose corners you click."),
+    ("What it is drawn with/Point", "Sets a point with each click."),
+    ("Add or cut/Add", "What you draw is added[; {cut-from-the-region} switches]."),
+    ("Add or cut/Cut", "What you draw is cut away[; {cut-from-the-region} switches]."),
+    ("Draw on", "The keep-out region that is drawn on, or a new one."),
     ("Add or remove/Remove", "The domain tool removes area[; {add-to-the-domain} switches]."),
     ("Add or remove/Add", "The domain tool adds area[; {add-to-the-domain} switches]."),
     (

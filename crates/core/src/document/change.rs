@@ -84,7 +84,7 @@ impl Settings {
         let field = transfer != old_transfer
             || layers != old_layers
             || gradation != old_gradation
-            || (outline && layers.iter().any(|layer| layer.visible && layer.is_of_outline()));
+            || (outline && layers.iter().any(|layer| layer.visible && layer.follows_outline()));
         match rule {
             _ if !outline && !field => Change::Nothing,
             RefinementRule::Area => Change::Update { outline, field },

@@ -3,6 +3,7 @@
 
 mod background;
 mod change;
+mod drawing;
 mod edits;
 mod examples;
 mod follower;
@@ -26,6 +27,7 @@ mod strokes;
 mod transfer_price;
 
 pub use background::{Background, Picture};
+pub use drawing::{Drawing, DrawingError, DrawnPart, DrawnShape};
 pub use edits::Edits;
 pub use examples::Example;
 pub use follower::{Follower, MeshChange};

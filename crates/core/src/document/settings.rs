@@ -8,7 +8,7 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
+use crate::layers::{DistanceTo, Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
@@ -215,12 +215,24 @@ impl Settings {
     pub fn field_spec(&self) -> SizeFieldSpec {
         let Self { layers, transfer, gradation, .. } = self;
         SizeFieldSpec {
-            layers: layers.clone(),
+            layers: layers.iter().map(|layer| self.field_layer(layer)).collect(),
             transfer: *transfer,
             unasked: transfer.h_max,
             outline: self.outline_shapes(),
             gradation: *gradation,
         }
+    }
+
+    /// Returns a layer as the size field has it: shapes take the place of the coasts of the domain.
+    pub fn field_layer(&self, layer: &Layer) -> Layer {
+        let mut layer = layer.clone();
+        if let LayerKind::Distance { to, .. } = &mut layer.kind
+            && *to == DistanceTo::Coasts
+            && let Ok(shapes) = Shapes::coasts(&self.domain)
+        {
+            *to = DistanceTo::Shapes { name: String::new(), shapes };
+        }
+        layer
     }
 
     /// Returns the boundary of the domain, if a layer asks for the distance to it.

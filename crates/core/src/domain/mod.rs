@@ -24,7 +24,7 @@ use crate::text::Grouped;
 
 pub use boundary::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, FrameSide, LONGEST_NAME, MeshBoundary,
-    NamedPolygon, PieceFigures, PieceRun,
+    NamedPolygon, PieceFigures, PieceRun, coasts,
 };
 pub use comparison::RegionComparison;
 use complexity::check_complexity;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::Mask;
-use crate::domain::{Polygon, Region, RegionError};
+use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, coasts};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
@@ -26,6 +26,39 @@ impl ShapeList {
         self.segments().next().is_none()
     }
 
+    /// Returns the shapes with an area added: one area where it meets polygons.
+    ///
+    /// # Errors
+    /// Fails when the area is none, or the polygons are too complex.
+    pub fn with_area(mut self, shape: &CutShape) -> Result<Self, RegionError> {
+        match Mask::new(&self.polygons) {
+            Ok(mask) => self.polygons = mask.with(shape)?.polygons().to_vec(),
+            // Polygons without an area are lines, and stay.
+            Err(RegionError::NoArea) => self.polygons.extend_from_slice(Mask::of_shape(shape)?.polygons()),
+            Err(error) => return Err(error),
+        }
+        Ok(self)
+    }
+
+    /// Returns the parts of the shapes that are outside of an area.
+    ///
+    /// # Errors
+    /// Fails when the area is none, or the polygons are too complex.
+    pub fn without_area(mut self, shape: &CutShape) -> Result<Self, RegionError> {
+        let cut = Mask::of_shape(shape)?;
+        match Mask::new(&self.polygons) {
+            Ok(mask) => {
+                let left = mask.without(shape)?;
+                self.polygons = left.map_or_else(Vec::new, |left| left.polygons().to_vec());
+            }
+            Err(RegionError::NoArea) => {}
+            Err(error) => return Err(error),
+        }
+        self.points.retain(|&point| !cut.contains(point));
+        self.lines = self.lines.iter().flat_map(|line| parts_outside(line, &cut)).collect();
+        Ok(self)
+    }
+
     /// Returns the memory, in bytes.
     fn bytes(&self) -> usize {
         let points = |points: &Vec<DVec2>| size_of_val(points) + size_of_val(&**points);
@@ -42,6 +75,46 @@ impl ShapeList {
         let edges = rings.flat_map(|ring| (0..ring.len()).map(|n| [ring[n], ring[(n + 1) % ring.len()]]));
         points.chain(lines).chain(edges)
     }
+}
+
+/// Returns the parts of a polyline that are outside of an area, in their order.
+fn parts_outside(line: &[DVec2], area: &Mask) -> Vec<Vec<DVec2>> {
+    let mut parts: Vec<Vec<DVec2>> = Vec::new();
+    let mut goes_on = false;
+    for ends in line.windows(2) {
+        for piece in pieces(ends[0], ends[1], area).windows(2) {
+            if area.contains(piece[0].midpoint(piece[1])) {
+                goes_on = false;
+                continue;
+            }
+            match parts.last_mut().filter(|_| goes_on) {
+                Some(part) => part.push(piece[1]),
+                None => parts.push(piece.to_vec()),
+            }
+            goes_on = true;
+        }
+    }
+    parts
+}
+
+/// Returns the ends of a segment and the places between them where it crosses the edges of an area, in order.
+fn pieces(a: DVec2, b: DVec2, area: &Mask) -> Vec<DVec2> {
+    let mut shares = vec![0.0, 1.0];
+    if Rect::spanning(a, b).intersection(&area.bounds()).is_some() {
+        shares.extend(area.region().edges().filter_map(|[from, to]| {
+            let (along, edge) = (b - a, to - from);
+            let turn = along.perp_dot(edge);
+            let (share, on_edge) = ((from - a).perp_dot(edge) / turn, (from - a).perp_dot(along) / turn);
+            let crosses = share > 0.0 && share < 1.0 && (0.0..=1.0).contains(&on_edge);
+            crosses.then_some(share)
+        }));
+        shares.sort_by(f64::total_cmp);
+    }
+    let mut places: Vec<DVec2> = shares.into_iter().map(|share| a.lerp(b, share)).collect();
+    // The ends are not computed: they stay as they were, bit for bit.
+    places[0] = a;
+    *places.last_mut().expect("a segment has two ends") = b;
+    places
 }
 
 /// Shapes with an index, to measure the distance to them. Clones share their data.
@@ -116,6 +189,14 @@ impl Shapes {
     /// Fails when the region is empty.
     pub fn outline(region: &Region) -> Result<Self, ShapesError> {
         Self::new(ShapeList { polygons: region.polygons().to_vec(), ..ShapeList::default() }, false)
+    }
+
+    /// Returns the coasts of a domain: its boundary without the open parts.
+    ///
+    /// # Errors
+    /// Fails when there is no coast.
+    pub fn coasts(domain: &Domain) -> Result<Self, ShapesError> {
+        Self::new(ShapeList { lines: coasts(domain), ..ShapeList::default() }, false)
     }
 
     /// Returns the shapes as they were given.
@@ -262,6 +343,43 @@ mod tests {
                 assert!(bounds.greatest - bounds.least <= rect.size().length() * 1.001 + 1e-6);
             }
         }
+    }
+
+    #[test]
+    fn cutting_shapes_leaves_what_is_outside() {
+        let mut random = fastrand::Rng::with_seed(93);
+        for _ in 0..40 {
+            let list = shapes(&mut random);
+            let path = (0..random.usize(1..4)).map(|_| near(&mut random)).collect();
+            let cut = CutShape::Stroke { path, radius: 0.02 + 0.2 * random.f64() };
+            let (area, left) = (Mask::of_shape(&cut).unwrap(), list.clone().without_area(&cut).unwrap());
+            assert_eq!(left.points.len(), list.points.iter().filter(|&&p| !area.contains(p)).count());
+            let length = |lines: &[Vec<DVec2>], counts: &dyn Fn(DVec2) -> bool| {
+                let steps = 2_000;
+                let step = |ends: &[DVec2]| {
+                    let middles = (0..steps).map(|n| ends[0].lerp(ends[1], (f64::from(n) + 0.5) / 2_000.0));
+                    middles.filter(|&p| counts(p)).count() as f64 / 2_000.0 * ends[0].distance(ends[1])
+                };
+                lines.iter().flat_map(|line| line.windows(2).map(step)).sum::<f64>()
+            };
+            let (expected, found) =
+                (length(&list.lines, &|p| !area.contains(p)), length(&left.lines, &|_| true));
+            assert!((expected - found).abs() < 2e-2, "{expected} {found}");
+        }
+    }
+
+    #[test]
+    fn an_area_joins_the_polygons_that_it_meets() {
+        let square = |x: f64| CutShape::Ring(crate::domain::corners(&Rect::around(dvec2(x, 0.0), 0.5)));
+        let list = ShapeList::default().with_area(&square(0.0)).unwrap().with_area(&square(0.75)).unwrap();
+        assert_eq!((list.polygons.len(), list.polygons[0].len()), (1, 1));
+        let apart = list.clone().with_area(&square(3.0)).unwrap();
+        assert_eq!(apart.polygons.len(), 2);
+        let halves = list.without_area(&CutShape::Ring(crate::domain::corners(&Rect::spanning(
+            dvec2(0.3, -1.0),
+            dvec2(0.4, 1.0),
+        ))));
+        assert_eq!(halves.unwrap().polygons.len(), 2);
     }
 
     #[test]

@@ -87,7 +87,12 @@ impl Layer {
         }
     }
 
-    /// Returns whether it asks for the distance to the boundary of the domain.
+    /// Returns whether it changes with the boundary of the domain.
+    pub fn follows_outline(&self) -> bool {
+        matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline | DistanceTo::Coasts, .. })
+    }
+
+    /// Returns whether it asks for the distance to the whole boundary of the domain.
     pub fn is_of_outline(&self) -> bool {
         matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline, .. })
     }

@@ -112,6 +112,9 @@ pub enum LayerKind {
 pub enum DistanceTo {
     /// The boundary of the domain, on both sides.
     Outline,
+    /// The coasts: the boundary of the domain without its open parts, on both sides. A layer of a document
+    /// has it; in the description of a size field, shapes take its place, or nothing without a coast.
+    Coasts,
     /// Points, lines and polygons.
     Shapes {
         /// The name of their file, for a person; empty where there is none.
@@ -129,10 +132,10 @@ pub enum DistanceTo {
 }
 
 impl DistanceTo {
-    /// Returns the shapes, unless it is the outline.
+    /// Returns the shapes, unless it is the outline or a part of it.
     pub fn shapes(&self) -> Option<&Shapes> {
         match self {
-            Self::Outline => None,
+            Self::Outline | Self::Coasts => None,
             Self::Shapes { shapes, .. } | Self::Corridor { lines: shapes, .. } => Some(shapes),
         }
     }

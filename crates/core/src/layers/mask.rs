@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::domain::{Domain, Polygon, Region, RegionError};
+use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, Ring};
 use crate::geometry::{BoxTree, Rect};
 
 /// The part of the plane that polygons cover.
@@ -58,6 +58,52 @@ impl Mask {
         let boxes: Vec<Rect> = edges.iter().map(|&[a, b]| Rect::spanning(a, b)).collect();
         let tree = BoxTree::new(&boxes);
         Ok(Self(Arc::new(Indexed { region: region.clone(), edges, tree })))
+    }
+
+    /// Returns the mask of a shape drawn by hand.
+    ///
+    /// # Errors
+    /// Fails as [`Self::new`] does.
+    pub fn of_shape(shape: &CutShape) -> Result<Self, RegionError> {
+        let rings = shape.rings();
+        let frame = bounds_of(&rings).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
+        Self::of_region(&Region::new(&[], frame).with(&rings))
+    }
+
+    /// Returns the mask with a shape added to it.
+    ///
+    /// # Errors
+    /// Fails as [`Self::new`] does.
+    pub fn with(&self, shape: &CutShape) -> Result<Self, RegionError> {
+        let (region, rings) = (self.region(), shape.rings());
+        match bounds_of(&rings).map(|bounds| bounds.union(region.frame())) {
+            Some(frame) if frame != *region.frame() => Self::of_region(&region.reframed(frame).with(&rings)),
+            _ => Self::of_region(&region.with(&rings)),
+        }
+    }
+
+    /// Returns the mask with a shape cut away; `None` where nothing is left.
+    ///
+    /// # Errors
+    /// Fails as [`Self::new`] does.
+    pub fn without(&self, shape: &CutShape) -> Result<Option<Self>, RegionError> {
+        let region = self.region().without(&shape.rings());
+        if region.is_empty() { Ok(None) } else { Self::of_region(&region).map(Some) }
+    }
+
+    /// Returns the mask of a region. It is the mask that is read back after its polygons are saved.
+    fn of_region(region: &Region) -> Result<Self, RegionError> {
+        let mut mask = Self::new(region.polygons())?;
+        // Corners move to the grid of the tight frame, and a part thinner than its step vanishes: the frame
+        // of what is left can be smaller.
+        for _ in 0..MOST_FRAMES {
+            let again = Self::new(mask.polygons())?;
+            if again == mask {
+                break;
+            }
+            mask = again;
+        }
+        Ok(mask)
     }
 
     /// Returns the polygons as a region. Clones of a mask share it.
@@ -124,6 +170,14 @@ impl Mask {
         let Rect { min, max } = self.bounds();
         min.abs().max(max.abs()).max_element()
     }
+}
+
+/// Most times that a frame becomes tighter, as thin parts vanish.
+const MOST_FRAMES: u32 = 8;
+
+/// Returns the smallest rectangle that holds all corners of rings.
+fn bounds_of(rings: &[Ring]) -> Option<Rect> {
+    rings.iter().flatten().map(|&corner| Rect::new(corner, corner)).reduce(|a, b| a.union(&b))
 }
 
 /// Returns whether an edge crosses the ray from `p` to the right. An end at the height of `p` counts as
@@ -228,6 +282,36 @@ mod tests {
             }
         }
         assert!(met.iter().all(|&count| count > 500), "{met:?}");
+    }
+
+    #[test]
+    fn shapes_are_added_to_a_mask_and_cut_from_it() {
+        let mut random = fastrand::Rng::with_seed(83);
+        let shape = |random: &mut fastrand::Rng| match random.bool() {
+            true => CutShape::Ring(ring(random, 12)),
+            false => {
+                let path = (0..random.usize(1..4)).map(|_| dvec2(random.f64(), random.f64())).collect();
+                CutShape::Stroke { path, radius: 0.05 + 0.1 * random.f64() }
+            }
+        };
+        for _ in 0..40 {
+            let (first, next) = (shape(&mut random), shape(&mut random));
+            let (mask, other) = (Mask::of_shape(&first).unwrap(), Mask::of_shape(&next).unwrap());
+            let (joined, left) = (mask.with(&next).unwrap(), mask.without(&next).unwrap());
+            for _ in 0..200 {
+                let p = dvec2(1.6 * random.f64() - 0.3, 1.6 * random.f64() - 0.3);
+                let (before, covered) = (mask.contains(p), other.contains(p));
+                assert_eq!(joined.contains(p), before || covered, "{p}");
+                assert_eq!(left.as_ref().is_some_and(|left| left.contains(p)), before && !covered, "{p}");
+            }
+            for mask in [Some(joined), left].into_iter().flatten() {
+                assert_eq!(Mask::new(mask.polygons()).unwrap(), mask, "it is read back as it was saved");
+            }
+        }
+        let disc = CutShape::Stroke { path: vec![DVec2::ONE], radius: 0.5 };
+        assert_eq!(Mask::of_shape(&disc).unwrap().without(&disc), Ok(None));
+        let line = CutShape::Ring(vec![DVec2::ZERO, DVec2::ONE, dvec2(0.5, 0.5)]);
+        assert_eq!(Mask::of_shape(&line), Err(RegionError::NoArea));
     }
 
     #[test]

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use crate::formula_mesh::formula_mesh;
 use glam::{DVec2, dvec2};
 use meshbrush_core::domain::{
-    BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryTreatment, Domain, MeshBoundary, Ring,
+    BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryTreatment, Domain, MeshBoundary, Ring, coasts,
 };
+use meshbrush_core::layers::Shapes;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Cleaning;
@@ -56,6 +57,14 @@ fn what_a_rectangle_cuts_is_open() {
     let whole = Domain::of_polygons(&[vec![island()]]).unwrap();
     let cut = whole.with_bounds(Rect::new(dvec2(0.25, -1.0), dvec2(2.0, 2.0)));
     assert_eq!(open(&cut), ["open west"]);
+    // The distance to the coasts leaves that part out.
+    let [middle, outline] = [Shapes::coasts(&cut), Shapes::outline(cut.region().unwrap())].map(|shapes| {
+        let shapes = shapes.unwrap();
+        shapes.distance(dvec2(0.25, 0.5))
+    });
+    assert!(outline == 0.0 && (middle - 0.3).abs() < 1e-6, "{outline} {middle}");
+    assert_eq!(coasts(&whole).len(), 1, "a ring that nothing cuts is all coast");
+    assert!(coasts(&Domain::rectangle(Rect::UNIT)).is_empty());
     // The mouth of a fjord is longer than the edges of its coast, though no corner of the frame is wet.
     let south = (0..=20).map(|k| f64::from(k) / 20.0).map(|x| dvec2(x, 0.15 * x - 0.1 * (9.0 * x).sin()));
     let north = (0..=20).rev().map(|k| f64::from(k) / 20.0);

@@ -69,8 +69,14 @@ fn two_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
     let mut follower = Follower::new(&mut document).unwrap();
     let edits = |document: &Document| document.recording().unwrap().edits().len();
     let mut expected = vec![shown(&mut document, &mut follower)];
+    let mut was_undone = false;
     while edits(&document) < 200 {
-        let operation = Operation::choose(&mut random, scale);
+        // What was undone is often done again.
+        let operation = match was_undone && random.bool() {
+            true => Operation::Redo,
+            false => Operation::choose(&mut random, scale),
+        };
+        was_undone = matches!(operation, Operation::Undo);
         // Opened again, a document has another recording. Strokes under a limited gradation take long.
         if matches!(operation, Operation::Reopen | Operation::Set(Setting::Gradation(_))) {
             continue;

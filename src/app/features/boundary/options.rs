@@ -1,12 +1,12 @@
 //! The settings of the boundary tool, on the strip above the canvas: what a click does, and the name of the
 //! selected piece.
 
-use eframe::egui::{Id, Ui};
+use eframe::egui::Ui;
 
 use super::{BoundaryCommand, BoundaryToolMode};
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, StripItem, set_once};
-use crate::app::widgets::{ActionButton, TextRow, segmented};
+use crate::app::kit::{FrameState, StripItem, name_field, set_once};
+use crate::app::widgets::{ActionButton, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
 
@@ -34,7 +34,7 @@ fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn name_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some((pieces, number)) = selected(state) else { return };
     let marks = &state.session.document().settings().boundary_marks;
-    if let Some(name) = name_field(ui, &pieces.list()[number].name) {
+    if let Some(name) = name_field(ui, "piece", &pieces.list()[number].name) {
         set_once(Setting::BoundaryMarks(pieces.renamed(marks, number, &name)), commands);
     }
 }
@@ -48,27 +48,4 @@ fn join_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     {
         set_once(Setting::BoundaryMarks(joined), commands);
     }
-}
-
-/// The text typed so far, in egui's memory.
-#[derive(Clone, Debug, Default)]
-struct TypedName {
-    text: String,
-    /// The name when the text was last equal to it.
-    of: String,
-}
-
-/// Shows a field for a name. Returns the new name once it is complete.
-fn name_field(ui: &mut Ui, current: &str) -> Option<String> {
-    let id = Id::unique("name of a piece typed so far");
-    let mut typed: TypedName = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    if typed.of != current {
-        // Another piece is selected, or the name was changed elsewhere.
-        typed = TypedName { text: current.to_owned(), of: current.to_owned() };
-    }
-    let response = TextRow::new("Name", &mut typed.text).show(ui);
-    let changed = typed.text != current;
-    let new = (response.lost_focus() && changed).then(|| typed.text.clone());
-    ui.data_mut(|data| data.insert_temp(id, typed));
-    new
 }

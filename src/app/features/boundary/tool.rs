@@ -13,7 +13,7 @@ use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {
-    place: 6,
+    place: 7,
     cursor: CursorIcon::PointingHand,
     tab: Some(Tab::Domain),
     options: &BOUNDARY_OPTIONS,

@@ -19,7 +19,10 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         mode("Cut domain with a rectangle", DomainToolMode::Rectangle),
         mode("Cut domain with a polygon", DomainToolMode::Polygon),
         mode("Draw the frame of the domain", DomainToolMode::Frame),
-        item("Add to the domain", DomainCommand::Adds(!adds)).key(Key::X).checked(adds),
+        item("Add to the domain", DomainCommand::Adds(!adds))
+            .key(Key::X)
+            .only("with the domain tool", tools.tool == &DOMAIN)
+            .checked(adds),
     ];
     if !tools.domain.corners.is_empty() {
         items.push(

@@ -5,16 +5,20 @@ use glam::DVec2;
 
 use super::{DOMAIN_OPTIONS, DomainCommand};
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks};
+use crate::app::kit::{
+    CLICK_SLACK, DrawingCommands, FrameState, Gesture, OverMesh, Pointer, Press, Tab, ToolSpec, marks,
+    press_brush, press_corner,
+};
 use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
+use meshbrush_core::document::DrawnPart;
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {
-    place: 5,
+    place: 6,
     tab: Some(Tab::Domain),
     options: &DOMAIN_OPTIONS,
     hint,
@@ -25,9 +29,6 @@ pub static DOMAIN: ToolSpec = ToolSpec {
     menu,
     ..ToolSpec::new("Domain", Key::D, Icon::DOMAIN)
 };
-
-/// Points within which a press takes hold of a corner of the open polygon.
-const CORNER_POINTS: f64 = 9.0;
 
 /// Returns what to do next with the shape that cuts.
 fn hint(state: &FrameState<'_>) -> &'static [Hint<'static>] {
@@ -86,35 +87,28 @@ pub struct DomainTool {
 
 /// Alt swaps adding and removing.
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
-    let point = pointer.world(press.at);
     let tool = &pointer.tools.domain;
     let adds = tool.adds != press.modifiers.alt;
     let (from, to) = (press.at, press.at);
-    match tool.mode {
-        DomainToolMode::Brush => {
-            commands.push(cut_along(vec![point], pointer, adds));
-            Some(Box::new(Cutting { last: point, adds }))
-        }
-        DomainToolMode::Rectangle => Some(Box::new(Framing { from, to, adds: Some(adds) })),
-        DomainToolMode::Frame => Some(Box::new(Framing { from, to, adds: None })),
-        DomainToolMode::Polygon => Some(Box::new(press_corner(press, pointer, commands))),
-    }
+    Some(match tool.mode {
+        DomainToolMode::Brush => press_brush(&COMMANDS, press, pointer, adds, commands),
+        DomainToolMode::Rectangle => Box::new(Framing { from, to, adds: Some(adds) }),
+        DomainToolMode::Frame => Box::new(Framing { from, to, adds: None }),
+        DomainToolMode::Polygon => press_corner(&COMMANDS, press, pointer, &tool.corners, commands),
+    })
 }
 
-/// Takes hold of the corner under the pointer, or sets a new one.
-fn press_corner(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> MovingCorner {
-    let corners = &pointer.tools.domain.corners;
-    let distance = |corner: DVec2| pointer.camera.screen_from_world(corner).distance(pointer.px(press.at));
-    let reach = CORNER_POINTS * pointer.px_per_point;
-    let near = (0..corners.len()).filter(|&i| distance(corners[i]) < reach);
-    let nearest = near.min_by(|&i, &j| distance(corners[i]).total_cmp(&distance(corners[j])));
-    let index = nearest.unwrap_or(corners.len());
-    if nearest.is_none() {
-        commands.push(Command::Domain(DomainCommand::AddCorner(pointer.world(press.at))));
-    }
-    let ends = index == 0 || index + 1 == corners.len();
-    MovingCorner { index, from: press.at, moved: false, closes: nearest.is_some() && ends }
-}
+/// The commands of the strokes and the polygon that cut the domain.
+static COMMANDS: DrawingCommands = DrawingCommands {
+    draw: |cut_shape, adds| Command::Domain(DomainCommand::Reshape(cut_shape, adds)),
+    drawn: |command| match command {
+        Command::Domain(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
+        _ => None,
+    },
+    add_corner: |corner| Command::Domain(DomainCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::Domain(DomainCommand::MoveCorner(index, corner)),
+    close: || Command::Domain(DomainCommand::ClosePolygon),
+};
 
 /// Returns the secondary button closes the polygon.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
@@ -133,66 +127,6 @@ fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
         entries.push(("Begin a polygon here", Command::Domain(DomainCommand::AddCorner(point))));
     }
     entries
-}
-
-/// Moving a corner of the open polygon. A click on its first or last corner closes it, and so does a double
-/// click, whose second click meets the corner that the first one set.
-#[derive(Debug)]
-struct MovingCorner {
-    index: usize,
-    /// The point where the pointer went down, in points.
-    from: Pos2,
-    moved: bool,
-    closes: bool,
-}
-
-impl Gesture for MovingCorner {
-    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        self.moved |= at.distance(self.from) > CLICK_SLACK;
-        if self.moved {
-            let corner = DomainCommand::MoveCorner(self.index, pointer.world(at));
-            commands.push(Command::Domain(corner));
-        }
-    }
-
-    fn released(&self, _at: Pos2, _pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        if self.closes && !self.moved {
-            commands.push(Command::Domain(DomainCommand::ClosePolygon));
-        }
-    }
-}
-
-fn cut_along(path: Vec<DVec2>, pointer: &Pointer<'_>, adds: bool) -> Command {
-    let stroke = CutShape::Stroke { path, radius: pointer.tools.radius };
-    Command::Domain(DomainCommand::Reshape(stroke, adds))
-}
-
-/// Cutting the domain with the brush.
-#[derive(Debug)]
-struct Cutting {
-    /// The last position of the brush, in world units.
-    last: DVec2,
-    /// Whether it adds to the domain.
-    adds: bool,
-}
-
-impl Gesture for Cutting {
-    /// Cuts from where the brush was; all moves of one frame are one cut.
-    fn moved(&mut self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
-        let point = pointer.world(at);
-        if let Some(Command::Domain(DomainCommand::Reshape(CutShape::Stroke { path, .. }, _))) =
-            commands.last_mut()
-        {
-            path.push(point);
-        } else if point != self.last {
-            commands.push(cut_along(vec![self.last, point], pointer, self.adds));
-        }
-        self.last = point;
-    }
-
-    fn changes_settings(&self) -> bool {
-        true
-    }
 }
 
 /// Drawing a rectangle: the domain's bounds, or one to cut with.
@@ -243,7 +177,7 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
             marks::paint_outline(over.painter, ring.iter().map(|&corner| at(corner)));
         }
     }
-    for cut_shape in state.session.pending_cuts() {
+    for cut_shape in state.session.pending_cuts(|part| part == DrawnPart::Domain) {
         marks::paint_cut_shape(over.painter, cut_shape, at);
     }
     let corners: Vec<Pos2> = state.tools.domain.corners.iter().map(|&corner| at(corner)).collect();

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
+use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
@@ -90,14 +91,12 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
 
 /// Adds a layer above the selected one, and selects it.
 fn add_layer(kind: LayerKind, ctx: &mut Ctx<'_>) {
-    let document = ctx.session.document();
-    let id = document.unused_layer_id();
-    let name = unused_name(&document.settings().layers, &kind.name());
-    let place = place_above_selected(ctx);
     if let Some(tool) = kind_of(ctx.rows, &kind).tool {
         ctx.tools.select(tool);
     }
-    ctx.session.edit_layers_once(|layers| layers.insert(place, Layer::new(id, name, kind)));
+    ctx.session.end_gesture();
+    let id = ctx.session.insert_layer(kind);
+    ctx.session.end_gesture();
     select_layer(id, ctx);
 }
 
@@ -157,14 +156,6 @@ fn ask_name(id: LayerId, ctx: &mut Ctx<'_>) {
     }
 }
 
-/// Returns the place above the selected layer; the top without one.
-fn place_above_selected(ctx: &Ctx<'_>) -> usize {
-    let document = ctx.session.document();
-    let selected = document.active_layer().map(|layer| layer.id);
-    let layers = &document.settings().layers;
-    layers.iter().position(|layer| Some(layer.id) == selected).map_or(layers.len(), |place| place + 1)
-}
-
 fn edit_layer_once(id: LayerId, edit: impl FnOnce(&mut Layer), ctx: &mut Ctx<'_>) {
     ctx.session.edit_layers_once(|layers| edit_layer(layers, id, edit));
 }
@@ -188,11 +179,4 @@ fn move_layer(layers: &mut Vec<Layer>, id: LayerId, place: usize) {
         let layer = layers.remove(from);
         layers.insert(place.min(layers.len()), layer);
     }
-}
-
-/// Returns the name, or with a number where a layer has that name.
-fn unused_name(layers: &[Layer], name: &str) -> String {
-    let is_used = |name: &str| layers.iter().any(|layer| layer.name == name);
-    let numbered = (2..).map(|n| format!("{name} {n}"));
-    std::iter::once(name.to_owned()).chain(numbered).find(|name| !is_used(name)).unwrap_or_default()
 }

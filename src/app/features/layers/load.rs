@@ -5,21 +5,16 @@ use std::sync::Arc;
 
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::{EmptyDocument, show_over_extent, with_mask};
+use crate::app::kit::{EmptyDocument, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerId, LayerKind, RasterReading, RasterSource, ShapeList, Shapes,
-};
+use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, ShapeList, Shapes};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues};
 use meshbrush_io::io::{self, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
-
-/// The space that an empty document leaves around shapes, as a share of their longer side.
-const SHARE_AROUND_SHAPES: f64 = 0.1;
 
 /// Reads a picture or a grid, and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
@@ -64,7 +59,7 @@ fn load_raster(
             let transfer = over.as_ref().map_or(frame.transfer, |settings| settings.transfer);
             let kind = kind_of(source, &transfer).ok_or_else(|| no_values(&file))?;
             match over {
-                Some(settings) => commands_in_empty(settings, kind, &file),
+                Some(settings) => show_with_layer(settings, kind, &file),
                 None => check_place(&bounds, &frame.domain, &file).map(|()| commands_to_add(kind)),
             }
         };
@@ -81,15 +76,6 @@ fn commands_to_add(kind: LayerKind) -> Vec<Command> {
     vec![Command::Layer(LayerCommand::Add(Box::new(kind))), Command::Edit(EditCommand::EndGesture)]
 }
 
-/// Returns the commands that show a document over the extent of a file, with a layer of it on top.
-fn commands_in_empty(mut settings: Settings, kind: LayerKind, path: &Path) -> Result<Vec<Command>, String> {
-    let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
-    settings.layers.push(Layer::new(id, kind.name(), kind));
-    let mut commands = show_over_extent(settings, path)?;
-    commands.push(Command::Layer(LayerCommand::Select(id)));
-    Ok(commands)
-}
-
 /// Reads points, lines and polygons, and adds a layer of the distance to them. An empty document takes their
 /// extent.
 pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) {
@@ -98,13 +84,12 @@ pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) 
     background.start(Aim::Read, path, move |meter| {
         let read = || {
             let (to, extent, unit) = shapes_of(&file, meter)?;
-            let room = SHARE_AROUND_SHAPES * extent.size().max_element();
-            let over = empty.and_then(|empty| empty.over(&file, extent.expanded(room), unit));
+            let over = empty.and_then(|empty| empty.over(&file, with_space_around(extent), unit));
             let transfer = over.as_ref().map_or(transfer, |settings| settings.transfer);
             let kind = LayerKind::distance_to(to, &transfer, Settings::USUAL_GRADATION);
             over.map_or_else(
                 || Ok(commands_to_add(kind.clone())),
-                |settings| commands_in_empty(settings, kind.clone(), &file),
+                |settings| show_with_layer(settings, kind.clone(), &file),
             )
         };
         match read() {
@@ -158,7 +143,7 @@ fn raster_of(
     let raster = RasterLoader::new(meter).load(&file, values, frame).map_err(|error| match (&error, values) {
         (RasterError::Value(_), RasterValues::Risk) => {
             format!(
-                "{error} If they are target diameters, use *Open grid as target diameter…* in the menu File."
+                "{error} If they are target diameters, add the file with *Add data…* in the menu File as target diameter."
             )
         }
         _ => error.to_string(),

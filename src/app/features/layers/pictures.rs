@@ -138,7 +138,7 @@ fn picture_of(
 ) -> Option<impl FnOnce() -> ColorImage + Send + 'static> {
     let settings = document.settings();
     let lattice = settings.lattice().ok()?;
-    let alone = Layer { visible: true, combine: Combine::Finest, ..layer.clone() };
+    let alone = Layer { visible: true, combine: Combine::Finest, ..settings.field_layer(layer) };
     let spec = SizeFieldSpec {
         layers: vec![alone],
         unasked: f64::INFINITY,

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::kinds::kind_of;
 use super::{LayerCommand, OPEN_MASK};
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented};
 use meshbrush_core::layers::{Combine, Layer};
@@ -60,6 +60,9 @@ fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut 
     let help = "Area of the polygons in which the layer counts; without a mask it counts everywhere.";
     ValueRow::new("Mask", &area).help(help).show(ui);
     ui.horizontal(|ui| {
+        if ui.add(ActionButton::new("Draw mask")).clicked() {
+            commands.push(Command::Region(RegionCommand::Target(RegionTarget::Mask)));
+        }
         if ui.add(ActionButton::new("Mask from file…")).clicked() {
             commands.push(Command::File(FileCommand::Ask(&OPEN_MASK)));
         }

@@ -33,6 +33,7 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
         CatalogItem::new(InTool, title, Command::Brush(BrushCommand::Hardness(hardness)))
             .keys(Modifiers::SHIFT, key)
             .keys(Modifiers::SHIFT, bracket)
+            .palette_only()
     };
     // I is above J on every keyboard; brackets need AltGr on many.
     vec![

@@ -11,8 +11,9 @@ use glam::dvec2;
 use super::corners::NAMES;
 use crate::app::command::{Command, PictureCommand};
 use crate::app::tests::{
-    TALL, Window, choose, document, entries, fingerprint, folder, key, move_to, notice, open_section,
-    press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until, window_of,
+    TALL, Window, choose_in_palette, document, entries, fingerprint, folder, key, move_to, notice,
+    open_section, press_at, release, send, set, settings, type_into, value_of, wait_for_notice, wait_until,
+    window_of,
 };
 use meshbrush_core::document::{Background, Document, Setting};
 use meshbrush_io::io::{self, project};
@@ -92,7 +93,7 @@ fn a_picture_that_cannot_be_shown_is_refused_with_a_sentence() {
     let problem = wait_for_notice(&mut window);
     assert!(problem.contains("map.wld") && problem.contains("north up"), "{problem}");
     assert_eq!(background(&window), None);
-    choose(&mut window, "File", "Open background picture…");
+    choose_in_palette(&mut window, "Open background picture…");
     set(&mut window, Setting::Background(None));
     assert_eq!(entries(&window), 0);
 }

@@ -36,7 +36,7 @@ impl Feature for Pins {
             PinsCommand::Select(number) => self.select(number, ctx),
             PinsCommand::Delete => self.delete(ctx),
             PinsCommand::DeleteAll => set_pins(Vec::new(), ctx),
-            PinsCommand::Open(path) => load_pins(ctx.background, &path),
+            PinsCommand::Open(path) => load_pins(ctx.session, ctx.background, &path),
             PinsCommand::AddAll(points) => add_all(points, ctx),
             PinsCommand::Read => {
                 let budget = if ctx.reproducible { NO_LIMIT } else { TABLE_BUDGET };
@@ -108,13 +108,18 @@ impl Pins {
 
 /// Adds a pin at each point that has none, as one gesture.
 fn add_all(points: Vec<DVec2>, ctx: &mut Ctx<'_>) {
-    let mut pins = pins_of(ctx).to_vec();
-    let before = pins.len();
-    let mut known: HashSet<[u64; 2]> = pins.iter().map(bits).collect();
-    pins.extend(points.into_iter().filter(|point| known.insert(bits(point))));
+    let before = pins_of(ctx).len();
+    let pins = with_points(pins_of(ctx).to_vec(), points);
     let added = pins.len() - before;
     set_pins(pins, ctx);
     ctx.session.tell(format!("Added: {}.", counted(added)));
+}
+
+/// Returns pins with those of points that have none yet.
+pub fn with_points(mut pins: Vec<DVec2>, points: Vec<DVec2>) -> Vec<DVec2> {
+    let mut known: HashSet<[u64; 2]> = pins.iter().map(bits).collect();
+    pins.extend(points.into_iter().filter(|point| known.insert(bits(point))));
+    pins
 }
 
 fn bits(point: &DVec2) -> [u64; 2] {

@@ -1,17 +1,37 @@
 //! Reads pins from a table of points.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::PinsCommand;
+use super::execute::with_points;
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::Command;
+use crate::app::kit::{EmptyDocument, show_over_extent, with_space_around};
+use crate::app::session::Session;
 use meshbrush_io::io;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
-/// Reads a table of points, and adds a pin at each.
-pub fn load_pins(background: &mut Background, path: &Path) {
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |_| match io::points::read(&file) {
-        Ok(points) => Outcome::PartRead(vec![Command::Pins(PinsCommand::AddAll(points))]),
-        Err(error) => Outcome::not_read(error),
+/// Reads a table of points, and adds a pin at each. An empty document takes their extent.
+pub fn load_pins(session: &Session, background: &mut Background, path: &Path) {
+    let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    background.start(Aim::Read, path, move |_| {
+        let points = match io::points::read(&file) {
+            Ok(points) => points,
+            Err(error) => return Outcome::not_read(error),
+        };
+        let extent = points.iter().map(|&point| Rect::new(point, point)).reduce(|a, b| a.union(&b));
+        let over = empty
+            .zip(extent)
+            .and_then(|(empty, extent)| empty.over(&file, with_space_around(extent), LengthUnit::None));
+        let Some(mut settings) = over else {
+            return Outcome::PartRead(vec![Command::Pins(PinsCommand::AddAll(points))]);
+        };
+        settings.pins = Arc::new(with_points(Vec::new(), points));
+        match show_over_extent(settings, &file) {
+            Ok(commands) => Outcome::PartRead(commands),
+            Err(problem) => Outcome::NotRead(problem),
+        }
     });
 }

@@ -5,23 +5,33 @@ use std::path::Path;
 use super::threats_layer;
 use crate::app::background::{Aim, Background, Outcome, exported};
 use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::kit::{EmptyDocument, show_with_layer};
 use crate::app::session::Session;
 use crate::app::widgets::format;
-use meshbrush_core::layers::{LayerKind, Threats};
+use meshbrush_core::layers::{LayerKind, Threat, Threats};
 use meshbrush_io::io;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Reads a table of threats in place of those of the selected layer, or as a new layer if the selected one is
-/// of another kind.
+/// of another kind. An empty document takes the extent of their ranges.
 pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
     let layer = threats_layer(session.document()).map(|(layer, _)| layer.id);
-    let file = path.to_owned();
+    let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
     background.start(Aim::Read, path, move |meter| {
         let list = match io::threats::read(&file, meter) {
             Ok(list) => list,
             Err(error) => return Outcome::not_read(error),
         };
-        match Threats::new(list) {
-            Ok(threats) => {
+        let extent = list.iter().map(Threat::reach).reduce(|a, b| a.union(&b));
+        let over = empty.zip(extent).and_then(|(empty, extent)| empty.over(&file, extent, LengthUnit::None));
+        match (Threats::new(list), over) {
+            (Ok(threats), Some(settings)) => {
+                match show_with_layer(settings, LayerKind::Threats(threats), &file) {
+                    Ok(commands) => Outcome::PartRead(commands),
+                    Err(problem) => Outcome::NotRead(problem),
+                }
+            }
+            (Ok(threats), None) => {
                 let kind = Box::new(LayerKind::Threats(threats));
                 let change = match layer {
                     Some(layer) => LayerCommand::SetKind(layer, kind),
@@ -33,7 +43,7 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
                     Command::Edit(EditCommand::EndGesture),
                 ])
             }
-            Err((_, error)) => Outcome::NotRead(format!("{}: {error}", file.display())),
+            (Err((_, error)), _) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }
     });
 }

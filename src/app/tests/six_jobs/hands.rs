@@ -86,6 +86,12 @@ impl Hands {
         self.clicks += 1;
     }
 
+    /// Adds a layer by the button below the list of layers.
+    pub fn add_layer(&mut self, title: &str) {
+        self.press(Role::Button, "Add layer");
+        self.press_in_list(title);
+    }
+
     /// Shows an overlay. The list closes with the choice.
     pub fn overlay(&mut self, name: &str) {
         self.press(Role::Button, "Overlays");

@@ -75,7 +75,7 @@ fn a_depth_model_becomes_the_size_of_triangles() {
     let file = folder("six-jobs", "depths").join("depths.asc");
     fs::write(&file, DEPTHS).unwrap();
     let mut hands = Hands::new();
-    hands.menu("File", "Open grid as target diameter…");
+    hands.add_layer("grid, as target diameter…");
     key(&mut hands.window, Modifiers::COMMAND, Key::A);
     hands.window.event(Event::Text(file.to_str().unwrap().to_owned()));
     hands.window.run();

@@ -17,6 +17,8 @@ impl Icon {
     pub const QUERY: Self = Self(material::ICON_MY_LOCATION.codepoint);
     /// Edit the domain.
     pub const DOMAIN: Self = Self(material::ICON_HEXAGON.codepoint);
+    /// Draw regions.
+    pub const REGION: Self = Self(material::ICON_LASSO_SELECT.codepoint);
     /// Name the boundary.
     pub const BOUNDARY: Self = Self(material::ICON_LABEL.codepoint);
     /// Move the view.

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec2;
 
-use super::super::{Ring, signed_area};
+use super::super::{Domain, Ring, signed_area};
 use crate::geometry::Rect;
 
 /// The kind of a piece of the boundary.
@@ -121,6 +121,20 @@ pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, cutting: Opti
     found.sort_by(Stretch::order);
     number(&mut found);
     found
+}
+
+/// Returns the coasts of a domain as polylines: its boundary without the open parts. None for a domain that
+/// is given by a formula.
+pub fn coasts(domain: &Domain) -> Vec<Vec<DVec2>> {
+    let Some(region) = domain.region() else { return Vec::new() };
+    let rings: Vec<&Ring> = region.rings().collect();
+    let frame = is_cut(&rings, &domain.bounds).then_some(&domain.bounds);
+    let mut coasts = Vec::new();
+    for ring in rings {
+        push_stretches(ring, frame, &mut coasts);
+    }
+    coasts.retain(|stretch| stretch.kind != BoundaryKind::Open);
+    coasts.into_iter().map(|stretch| stretch.points).collect()
 }
 
 fn push_stretches(ring: &Ring, cutting: Option<&Rect>, found: &mut Vec<Stretch>) {

@@ -77,7 +77,9 @@ impl CompiledLayer {
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let shapes = match to {
                     DistanceTo::Outline => outline,
-                    DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => to.shapes(),
+                    DistanceTo::Coasts | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => {
+                        to.shapes()
+                    }
                 };
                 let values = shapes.map_or(Values::Nothing, |shapes| {
                     let (shapes, reach) = (shapes.clone(), to.reach());

@@ -149,7 +149,7 @@ fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let to = match choices.below(5) {
         0 => {
             at_zero = scale.diameter * (2.0 + 8.0 * choices.share());
-            DistanceTo::Outline
+            [DistanceTo::Outline, DistanceTo::Coasts][choices.below(2)].clone()
         }
         1 => {
             let lines = ShapeList { lines: vec![vec![centre, end]], ..ShapeList::default() };

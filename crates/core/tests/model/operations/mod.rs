@@ -13,7 +13,7 @@ use std::path::Path;
 pub use driver::Driver;
 use glam::{DVec2, dvec2};
 pub use layers::LayerEdit;
-use meshbrush_core::document::{Document, Setting, Settings};
+use meshbrush_core::document::{Document, DrawnPart, DrawnShape, Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, CutShape, corners};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::LayerId;
@@ -85,6 +85,8 @@ pub enum Operation {
     ClearPaint,
     /// Adds a shape to the domain, or takes it away.
     Cut(CutShape, bool),
+    /// Draws on a mask, a keep-out region or shapes. Layers are counted as in [`LayerEdit`].
+    DrawByHand(DrawnKind, usize, DrawnShape, bool),
     Set(Setting),
     /// Changes the stack of layers.
     Layers(LayerEdit),
@@ -114,10 +116,24 @@ impl Operation {
                 _ => Self::EndGesture,
             },
             24..28 => Self::Cut(cut_shape(choices), choices.below(3) == 0),
+            28..31 => Self::draw(choices),
             36 => Self::Reopen,
             37.. => Self::Layers(LayerEdit::choose(choices, scale)),
             _ => Self::Set(setting(choices, scale)),
         }
+    }
+
+    fn draw(choices: &mut impl Choices) -> Self {
+        let kind = [DrawnKind::Mask, DrawnKind::KeepOut, DrawnKind::Shapes][choices.below(3)];
+        let (place, adds) = (choices.below(8), choices.below(3) > 0);
+        let mut at = || dvec2(choices.share(), choices.share());
+        let (a, b) = (at(), at());
+        let shape = match choices.below(4) {
+            0 if kind == DrawnKind::Shapes => DrawnShape::Point(a),
+            1 if kind == DrawnKind::Shapes => DrawnShape::Line(vec![a, a.lerp(b, 0.3)]),
+            _ => DrawnShape::Area(cut_shape(choices)),
+        };
+        Self::DrawByHand(kind, place, shape, adds)
     }
 
     pub fn stroke(choices: &mut impl Choices, scale: Scale) -> Self {
@@ -152,6 +168,16 @@ impl Operation {
                     Self::Set(Setting::Domain(domain)).apply(document);
                 }
             }
+            Self::DrawByHand(kind, place, shape, adds) => {
+                let part = kind.part(document, place);
+                let drawing = part.and_then(|part| part.drawing(document.settings()));
+                if let (Some(part), Some(drawing)) = (part, drawing)
+                    && let Ok(Some(edited)) = drawing.edited(&shape, adds)
+                {
+                    let setting = part.setting(document.settings(), edited).unwrap();
+                    Self::Set(setting).apply(document);
+                }
+            }
             Self::Set(setting) => {
                 let before = document.settings().clone();
                 if document.set(setting).is_err() {
@@ -162,6 +188,30 @@ impl Operation {
             Self::EndGesture => document.end_gesture(),
             Self::CancelUpdate => {}
             Self::Reopen => *document = reopened(document),
+        }
+    }
+}
+
+/// What is drawn on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrawnKind {
+    Mask,
+    KeepOut,
+    Shapes,
+}
+
+impl DrawnKind {
+    /// Returns a part of a document of this kind; `None` where there is none at this place.
+    fn part(self, document: &Document, place: usize) -> Option<DrawnPart> {
+        let layers = &document.settings().layers;
+        let regions = document.settings().paths.keep_out.len();
+        match self {
+            Self::Mask => layers.get(place % layers.len().max(1)).map(|layer| DrawnPart::Mask(layer.id)),
+            Self::KeepOut => Some(DrawnPart::KeepOut(place % (regions.min(3) + 1))),
+            Self::Shapes => {
+                let mut parts = layers.iter().map(|layer| DrawnPart::Shapes(layer.id));
+                parts.find(|part| part.drawing(document.settings()).is_some())
+            }
         }
     }
 }

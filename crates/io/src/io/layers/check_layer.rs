@@ -43,8 +43,8 @@ pub enum CheckedKind {
 /// The target of a distance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CheckedShapes {
-    /// The boundary of the domain.
-    Outline,
+    /// The boundary of the domain, or a part of it.
+    Boundary(SavedDistanceTo),
     /// The shapes of the layer's file.
     File,
     /// Shapes in place.
@@ -158,11 +158,12 @@ impl SavedLayer {
 
     fn distance_to(&self, stored: Stored) -> Result<CheckedShapes, KeyFault> {
         match (self.to, &self.file, &self.shapes) {
-            (Some(SavedDistanceTo::Outline), None, None) => Ok(CheckedShapes::Outline),
+            (Some(to), None, None) => Ok(CheckedShapes::Boundary(to)),
             (None, Some(_), None) => Ok(CheckedShapes::File),
             (None, file, Some(shapes)) if file.is_none() || stored == Stored::InProject => shapes_of(shapes),
             (None, None, None) => {
-                Err(self.missing("needs to = \"outline\", `file`, a .geojson, or `shapes`"))
+                Err(self
+                    .missing("needs to = \"outline\" or to = \"coasts\", `file`, a .geojson, or `shapes`"))
             }
             (to, _, shapes) => {
                 let key = if to.is_some() {

@@ -71,15 +71,15 @@ impl SavedLayer {
             }
             CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
                 let to = match self.shapes_of(to, data)? {
-                    Some(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
-                    None => DistanceTo::Outline,
+                    Ok(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
+                    Err(boundary) => boundary,
                 };
                 LayerKind::Distance { to, at_zero, slope, range }
             }
             CheckedKind::Corridor(along, Growth { at_zero, slope, range }, width) => {
                 let to = match self.shapes_of(along, data)? {
-                    Some(lines) => DistanceTo::Corridor { lines, width },
-                    None => DistanceTo::Outline,
+                    Ok(lines) => DistanceTo::Corridor { lines, width },
+                    Err(boundary) => boundary,
                 };
                 LayerKind::Distance { to, at_zero, slope, range }
             }
@@ -100,14 +100,18 @@ impl SavedLayer {
         Ok(RasterSource { name: self.file_name(), raster: data.raster(self)? })
     }
 
-    /// Returns the shapes of a distance, or `None` for the outline of the domain.
-    fn shapes_of<D: LayerData>(&self, to: CheckedShapes, data: &mut D) -> Result<Option<Shapes>, D::Error> {
+    /// Returns the shapes of a distance, or the boundary of the domain that it is to.
+    fn shapes_of<D: LayerData>(
+        &self,
+        to: CheckedShapes,
+        data: &mut D,
+    ) -> Result<Result<Shapes, DistanceTo>, D::Error> {
         let list = match to {
-            CheckedShapes::Outline => return Ok(None),
+            CheckedShapes::Boundary(to) => return Ok(Err(to.into())),
             CheckedShapes::File => data.shapes(self.path())?,
             CheckedShapes::InPlace(list) => list,
         };
-        Ok(Some(Shapes::new(list, true).map_err(|error| self.error(error))?))
+        Ok(Ok(Shapes::new(list, true).map_err(|error| self.error(error))?))
     }
 
     fn loaded_mask<D: LayerData>(&self, data: &mut D) -> Result<Option<Mask>, D::Error> {

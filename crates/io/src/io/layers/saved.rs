@@ -173,7 +173,7 @@ impl SavedLayer {
                 Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
             }
             LayerKind::Distance { to, at_zero, slope, range } => Self {
-                to: matches!(to, DistanceTo::Outline).then_some(SavedDistanceTo::Outline),
+                to: SavedDistanceTo::of(to),
                 shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
                 width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
                 at_zero: Some(*at_zero),
@@ -181,7 +181,9 @@ impl SavedLayer {
                 range: range.is_finite().then_some(*range),
                 ..Self::of_kind(match to {
                     DistanceTo::Corridor { .. } => SavedKind::Corridor,
-                    DistanceTo::Outline | DistanceTo::Shapes { .. } => SavedKind::Distance,
+                    DistanceTo::Outline | DistanceTo::Coasts | DistanceTo::Shapes { .. } => {
+                        SavedKind::Distance
+                    }
                 })
             },
             LayerKind::Band { between, diameter, .. } => {

@@ -33,7 +33,11 @@ fn every_kind_is_read_from_its_keys() {
         (r#"{ "kind": "threats", "file": "a.csv" }"#, "Threats(None)"),
         (
             r#"{ "kind": "distance", "to": "outline", "at_zero": 0.1, "slope": 0.2 }"#,
-            "Distance(Outline, Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+            "Distance(Boundary(Outline), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+        ),
+        (
+            r#"{ "kind": "distance", "to": "coasts", "at_zero": 0.1, "slope": 0.2 }"#,
+            "Distance(Boundary(Coasts), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
             r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use meshbrush_core::layers::{Combine, Quantity};
+use meshbrush_core::layers::{Combine, DistanceTo, Quantity};
 
 /// The kinds of layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -53,6 +53,8 @@ pub enum SavedQuantity {
 pub enum SavedDistanceTo {
     /// The boundary of the domain.
     Outline,
+    /// The boundary of the domain without its open parts.
+    Coasts,
 }
 
 /// How the risk of a threat falls with the distance.
@@ -66,6 +68,26 @@ pub enum SavedLaw {
     Gaussian,
     /// See `ThreatLaw::Disc`.
     Disc,
+}
+
+impl SavedDistanceTo {
+    /// Returns the word for a target; `None` for one that has shapes.
+    pub(super) fn of(to: &DistanceTo) -> Option<Self> {
+        match to {
+            DistanceTo::Outline => Some(Self::Outline),
+            DistanceTo::Coasts => Some(Self::Coasts),
+            DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => None,
+        }
+    }
+}
+
+impl From<SavedDistanceTo> for DistanceTo {
+    fn from(to: SavedDistanceTo) -> Self {
+        match to {
+            SavedDistanceTo::Outline => Self::Outline,
+            SavedDistanceTo::Coasts => Self::Coasts,
+        }
+    }
 }
 
 impl SavedKind {

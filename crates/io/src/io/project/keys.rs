@@ -37,7 +37,7 @@ const PLACES: [(&str, &str); 26] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (4, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (5, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -64,7 +64,7 @@ layers.layer: kind name visible locked combine mask mask_file quantity formula f
 layers.layer.kind: paint formula raster threats distance corridor band
 layers.layer.combine: finest floor replace
 layers.layer.quantity: risk diameter
-layers.layer.to: outline
+layers.layer.to: outline coasts
 layers.layer.threats: x y range peak law
 layers.layer.threats.law: radar gaussian disc
 layers.layer.shapes: point line polygon

@@ -217,9 +217,9 @@ fn domain_of(
     Ok((domain, marks))
 }
 
-/// Refuses a distance to the outline of a domain that has none.
+/// Refuses a distance to the outline or to the coasts of a domain that has none.
 fn check_outline(Settings { layers, domain, .. }: &Settings) -> Result<(), LoadError> {
-    let Some(layer) = layers.iter().find(|layer| layer.visible && layer.is_of_outline()) else {
+    let Some(layer) = layers.iter().find(|layer| layer.visible && layer.follows_outline()) else {
         return Ok(());
     };
     let Some(region) = domain.as_region() else {

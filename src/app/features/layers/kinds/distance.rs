@@ -2,10 +2,10 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, RegionCommand, RegionTarget};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, set_kind_once};
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow};
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
+use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row};
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 
@@ -20,12 +20,18 @@ pub static DISTANCE: LayerKindRow = LayerKindRow {
     tool: None,
     additions: &[
         Addition { title: "distance to the outline", command: add_distance_to_outline },
+        Addition { title: "distance to drawn shapes", command: |_| draw_shapes() },
         Addition {
             title: "distance to shapes…", command: |_| Command::File(FileCommand::Ask(&OPEN_SHAPES))
         },
     ],
     parameters,
 };
+
+/// Selects the tool that draws shapes: the first one adds a layer, unless the selected one has shapes.
+fn draw_shapes() -> Command {
+    Command::Region(RegionCommand::Target(RegionTarget::Shapes))
+}
 
 fn add_distance_to_outline(state: &FrameState<'_>) -> Command {
     let transfer = &state.session.document().settings().transfer;
@@ -36,12 +42,14 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let LayerKind::Distance { to, at_zero, slope, range } = &layer.kind else { return };
     let target = match to {
         DistanceTo::Outline => "outline of the domain",
+        DistanceTo::Coasts => "coasts of the domain",
         DistanceTo::Shapes { name, .. } if name.is_empty() => "drawn shapes",
         DistanceTo::Shapes { name, .. } => name,
         DistanceTo::Corridor { .. } => return,
     };
     ValueRow::new("Distance to", target).help("What the distance is measured to.").show(ui);
     target_buttons(ui, layer, to, commands);
+    open_boundary_row(ui, state, layer, to, commands);
     let (mut at_zero, mut slope, mut range) = (*at_zero, *slope, *range);
     let positive = f64::MIN_POSITIVE..=f64::MAX;
     let unit = state.unit().symbol();
@@ -56,13 +64,39 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     }
 }
 
+/// Shows whether open parts of the boundary count, where the distance is that to the boundary.
+fn open_boundary_row(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    layer: &Layer,
+    to: &DistanceTo,
+    commands: &mut Vec<Command>,
+) {
+    let mut leaves_out = *to == DistanceTo::Coasts;
+    if to.shapes().is_some() {
+        return;
+    }
+    if toggle_row(ui, "Leave out open boundaries", &mut leaves_out).changed() {
+        let to = if leaves_out { DistanceTo::Coasts } else { DistanceTo::Outline };
+        commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, to)));
+    }
+    let domain = &state.session.document().settings().domain;
+    if leaves_out && domain.region().is_none() {
+        remark(ui, "All of the boundary is open, as the domain has no polygons: the layer asks for nothing.");
+    }
+}
+
 /// Shows buttons that choose the target of the distance.
 fn target_buttons(ui: &mut Ui, layer: &Layer, to: &DistanceTo, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
+        let draw = ActionButton::new("Draw shapes");
+        if ui.add_enabled_ui(to.shapes().is_some(), |ui| ui.add(draw)).inner.clicked() {
+            commands.push(draw_shapes());
+        }
         if ui.add(ActionButton::new("Open shapes…")).clicked() {
             commands.push(Command::File(FileCommand::Ask(&REPLACE_SHAPES)));
         }
-        let is_shapes = *to != DistanceTo::Outline;
+        let is_shapes = to.shapes().is_some();
         let outline = ActionButton::new("Use outline");
         if ui.add_enabled_ui(is_shapes, |ui| ui.add(outline)).inner.clicked() {
             commands.push(Command::Layer(LayerCommand::MeasureTo(layer.id, DistanceTo::Outline)));

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::features::paths::KeepOutCommand;
 use crate::app::features::paths::OPEN_KEEP_OUT;
 use crate::app::features::paths::PathCommand;
@@ -33,6 +33,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     let can_take_mask = KeepOutCommand::mask_to_add(state.session).is_some();
     let rows = [
+        [("Draw keep-out region", true, Command::Region(RegionCommand::Target(RegionTarget::KeepOut)))],
         [("Add keep-out region…", true, Command::File(FileCommand::Ask(&OPEN_KEEP_OUT)))],
         [("Use the layer's mask", can_take_mask, command(KeepOutCommand::AddMask))],
     ];

@@ -1,0 +1,34 @@
+//! Commands about regions drawn by hand.
+
+use glam::DVec2;
+
+use super::{RegionShape, RegionTarget};
+use meshbrush_core::document::DrawnShape;
+
+/// One thing to do with a region drawn by hand. Points are in world units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RegionCommand {
+    /// Adds a shape to the target of the tool (`true`) or cuts it away. Further shapes join until
+    /// [`EditCommand::EndGesture`](crate::app::command::EditCommand::EndGesture).
+    Draw(DrawnShape, bool),
+    /// Sets the next corner of the polygon or the line.
+    AddCorner(DVec2),
+    /// Moves one of its corners.
+    MoveCorner(usize, DVec2),
+    /// Removes its last corner.
+    RemoveCorner,
+    /// Closes the polygon, or ends the line, and draws it.
+    Close,
+    /// Selects the tool and what it draws on.
+    Target(RegionTarget),
+    /// Selects the tool and what it draws with.
+    Shape(RegionShape),
+    /// Sets whether it cuts away instead of adding.
+    Cuts(bool),
+    /// Chooses the keep-out region that is drawn on, by its number from 0, or a new one.
+    KeepOut(Option<usize>),
+    /// Names a keep-out region, by its number from 0.
+    Rename(usize, String),
+    /// Removes the mask, or the keep-out region, that the tool draws on.
+    Clear,
+}

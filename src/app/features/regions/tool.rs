@@ -1,0 +1,167 @@
+//! The region tool: draws the mask of the selected layer, a keep-out region of paths, or the shapes to which
+//! the selected layer measures the distance, with a brush or corner by corner.
+
+use eframe::egui::Key;
+use glam::DVec2;
+
+use super::{REGION_OPTIONS, RegionCommand, marks};
+use crate::app::command::{Command, EditCommand};
+use crate::app::kit::{
+    DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
+};
+use crate::app::tools::Tools;
+use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use crate::app::widgets::Icon;
+use meshbrush_core::document::DrawnShape;
+
+/// Draws regions by hand.
+pub static REGION: ToolSpec = ToolSpec {
+    place: 5,
+    options: &REGION_OPTIONS,
+    hint: |state| match state.tools.region.shape() {
+        RegionShape::Brush => BRUSH_HINT,
+        RegionShape::Polygon => POLYGON_HINT,
+        RegionShape::Line => LINE_HINT,
+        RegionShape::Point => POINT_HINT,
+    },
+    has_ring: |tools| tools.region.shape() == RegionShape::Brush,
+    paint: marks::paint,
+    press,
+    press_secondary,
+    menu,
+    ..ToolSpec::new("Region", Key::M, Icon::REGION)
+};
+
+const BRUSH_HINT: &[Hint] = &[
+    Text("Paint the region"),
+    KeyOf("cut-from-the-region"),
+    Text("add or cut"),
+    HintKey("Alt"),
+    Text("the opposite"),
+    KeyOf("undo"),
+    Text("undo"),
+];
+const POLYGON_HINT: &[Hint] = &[
+    Text("Click each corner; drag one to move it"),
+    HintKey("Enter"),
+    Text("or a double click closes the polygon"),
+    HintKey("Backspace"),
+    Text("removes the last corner"),
+    HintKey("Esc"),
+    Text("all"),
+];
+const LINE_HINT: &[Hint] = &[
+    Text("Click each corner; drag one to move it"),
+    HintKey("Enter"),
+    Text("or a double click ends the line"),
+    HintKey("Backspace"),
+    Text("removes the last corner"),
+    HintKey("Esc"),
+    Text("all"),
+];
+const POINT_HINT: &[Hint] = &[Text("Click to set points"), KeyOf("undo"), Text("undo")];
+
+/// What the region tool draws on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionTarget {
+    /// The mask of the selected layer.
+    #[default]
+    Mask,
+    /// A keep-out region of paths.
+    KeepOut,
+    /// The shapes to which the selected layer measures the distance.
+    Shapes,
+}
+
+/// What the region tool draws with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionShape {
+    /// The brush ring.
+    #[default]
+    Brush,
+    /// A polygon, corner by corner.
+    Polygon,
+    /// A polyline, among shapes only.
+    Line,
+    /// Points, among shapes only.
+    Point,
+}
+
+/// Settings of the region tool, and its open polygon.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RegionTool {
+    /// What it draws on.
+    pub target: RegionTarget,
+    /// What was chosen to draw with.
+    pub chosen_shape: RegionShape,
+    /// Whether it cuts away instead of adding.
+    pub cuts: bool,
+    /// The keep-out region that is drawn on, by its number from 0; `None` for a new one.
+    pub keep_out: Option<usize>,
+    /// Corners so far of the polygon or the line, in world units.
+    pub corners: Vec<DVec2>,
+}
+
+impl RegionTool {
+    /// What it draws with: lines and points only among shapes, and what cuts is an area.
+    pub fn shape(&self) -> RegionShape {
+        let areas_only = self.target != RegionTarget::Shapes || self.cuts;
+        match self.chosen_shape {
+            RegionShape::Line | RegionShape::Point if areas_only => RegionShape::Polygon,
+            shape => shape,
+        }
+    }
+}
+
+static COMMANDS: DrawingCommands = DrawingCommands {
+    draw: |area, adds| Command::Region(RegionCommand::Draw(DrawnShape::Area(area), adds)),
+    drawn: |command| match command {
+        Command::Region(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
+        _ => None,
+    },
+    add_corner: |corner| Command::Region(RegionCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::Region(RegionCommand::MoveCorner(index, corner)),
+    close: || Command::Region(RegionCommand::Close),
+};
+
+/// With the brush, Alt swaps adding and cutting.
+fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
+    let tool = &pointer.tools.region;
+    match tool.shape() {
+        RegionShape::Brush => {
+            let adds = tool.cuts == press.modifiers.alt;
+            Some(press_brush(&COMMANDS, press, pointer, adds, commands))
+        }
+        RegionShape::Polygon | RegionShape::Line => {
+            Some(press_corner(&COMMANDS, press, pointer, &tool.corners, commands))
+        }
+        RegionShape::Point => {
+            let point = DrawnShape::Point(pointer.world(press.at));
+            commands.push(Command::Region(RegionCommand::Draw(point, true)));
+            commands.push(Command::Edit(EditCommand::EndGesture));
+            None
+        }
+    }
+}
+
+/// The secondary button closes the polygon, or ends the line.
+fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
+    let has_corners = !tools.region.corners.is_empty();
+    if has_corners {
+        commands.push(Command::Region(RegionCommand::Close));
+    }
+    has_corners
+}
+
+fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
+    let tool = &state.tools.region;
+    let swap = if tool.cuts { "Add to the region" } else { "Cut from the region" };
+    let mut entries = vec![(swap, Command::Region(RegionCommand::Cuts(!tool.cuts)))];
+    let begin = match tool.shape() {
+        RegionShape::Polygon => "Begin a polygon here",
+        RegionShape::Line => "Begin a line here",
+        RegionShape::Brush | RegionShape::Point => return entries,
+    };
+    entries.push((begin, Command::Region(RegionCommand::AddCorner(point))));
+    entries
+}
