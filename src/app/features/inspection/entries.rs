@@ -42,8 +42,8 @@ fn trail(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
     })
 }
 
-/// Steps in the bisection tree that are in the menu: to the parent, the sibling and the halves.
-const STEPS_IN_MENU: usize = 4;
+/// Steps in the bisection tree that are in the menu: to the parent and the sibling.
+const STEPS_IN_MENU: usize = 2;
 
 /// Steps in the bisection tree from the queried triangle. They have keys with the tool that explains it.
 fn tree_steps(state: &FrameState<'_>) -> impl Iterator<Item = CatalogItem> + use<> {
