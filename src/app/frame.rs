@@ -174,6 +174,7 @@ impl App {
         let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds);
         let plan = plan.filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, start + price_budget);
+        let prices = prices | self.session.price_setting(start + price_budget);
         self.canvas.note_work(&self.session);
         if cuts || follows || derives || features_work || prices {
             ctx.request_repaint();

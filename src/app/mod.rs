@@ -8,6 +8,7 @@
 mod ages;
 mod background;
 mod boundary;
+mod brake;
 mod busy;
 mod canvas;
 mod catalog;
@@ -42,6 +43,7 @@ pub mod readout;
 mod replacing;
 mod screenshots;
 pub mod session;
+mod size_change;
 mod slices;
 mod software_window;
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Messages on the canvas: news, failures, and the standing one while the mesh stops short of the document.
 
-use super::command::Command;
+use super::brake::Need;
+use super::command::{Command, EditCommand};
 use super::widgets::format;
 use meshbrush_core::build::BuildError;
 use meshbrush_mesh::mesh::RefineError;
@@ -20,6 +21,8 @@ pub struct Notice {
     pub text: String,
     /// The button of the notice, if it has one.
     pub offer: Option<Offer>,
+    /// Another answer, where the notice is a question.
+    pub other: Option<Offer>,
 }
 
 /// A button in a message that does what would help.
@@ -39,22 +42,48 @@ pub struct Notices {
     count: u64,
     /// Says that the mesh stopped short of the document, as long as that is so.
     standing: Option<Notice>,
+    /// Asks whether an edit is to be applied, until that is answered, and what it needs.
+    question: Option<(Need, Notice)>,
 }
 
 impl Notices {
     /// Returns the message to show.
     pub fn shown(&self) -> Option<&Notice> {
-        self.latest.as_ref().or(self.standing.as_ref())
+        let question = self.question.as_ref().map(|(_, notice)| notice);
+        question.or(self.latest.as_ref()).or(self.standing.as_ref())
     }
 
     /// Returns whether the message cannot be dismissed. It disappears once mesh and document agree.
     pub fn shown_stands(&self) -> bool {
-        self.latest.is_none() && self.standing.is_some()
+        self.question.is_some() || self.latest.is_none() && self.standing.is_some()
+    }
+
+    /// Asks whether the mesh, which had `before` triangles, is to have many more.
+    pub fn ask(&mut self, need: Need, before: Option<usize>, budget: u64) {
+        if self.question.as_ref().is_some_and(|(asked, _)| *asked == need) {
+            return;
+        }
+        let notice = self.numbered(false, None, question(need, before, budget));
+        let apply = Command::Edit(EditCommand::ApplyAnyway);
+        let keep = Command::Edit(EditCommand::KeepMesh);
+        let offer = Some(Offer { label: "Keep the mesh", command: keep });
+        let other = Some(Offer { label: "Apply anyway", command: apply });
+        self.question = Some((need, Notice { offer, other, ..notice }));
+    }
+
+    /// The question is answered, or no longer open.
+    pub fn end_question(&mut self) {
+        self.question = None;
     }
 
     /// Shows news.
     pub fn tell(&mut self, text: String) {
         self.latest = Some(self.numbered(false, None, text));
+    }
+
+    /// Shows news, and offers what else can be done.
+    pub fn tell_with_offer(&mut self, text: String, offer: Offer) {
+        self.latest = Some(Notice { offer: Some(offer), ..self.numbered(false, None, text) });
     }
 
     /// Shows a failure.
@@ -80,7 +109,7 @@ impl Notices {
 
     fn numbered(&mut self, failed: bool, failed_edit_of: Option<u64>, text: String) -> Notice {
         self.count += 1;
-        Notice { number: self.count, failed, failed_edit_of, text, offer: None }
+        Notice { number: self.count, failed, failed_edit_of, text, offer: None, other: None }
     }
 
     /// Dismisses the message, except one that says that the mesh stopped short of the document.
@@ -115,6 +144,21 @@ impl Notices {
     pub fn end_standing(&mut self) {
         self.standing = None;
     }
+}
+
+/// Returns a question before the mesh gets very many triangles.
+fn question(need: Need, before: Option<usize>, budget: u64) -> String {
+    let triangles = match need {
+        Need::About(triangles) => format!("about {}", format::about(triangles)),
+        Need::MoreThan(triangles) => format!("more than {}", format::about(triangles)),
+    };
+    let now = before
+        .map_or(String::new(), |before| format!(" The mesh has {} and waits.", format::count(before as u64)));
+    let over = match need.triangles() > budget {
+        true => format!(" The budgets allow {}: the edit would be taken back there.", format::count(budget)),
+        false => String::new(),
+    };
+    format!("This edit needs {triangles} triangles.{now}{over} Apply it?")
 }
 
 /// Returns advice against an error, as a further sentence.

@@ -7,13 +7,15 @@ use glam::DVec2;
 
 use super::ages::AgeKeeper;
 use super::boundary::BoundaryFinder;
+use super::brake::Brake;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, ShownChange};
 use super::document_id::DocumentId;
 use super::jobs::Jobs;
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
-use super::slices::{SLICE, follow_document};
+use super::size_change::SizeChange;
+use super::slices::SLICE;
 use super::threads::Threads;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{
@@ -28,17 +30,21 @@ use meshbrush_mesh::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 
 /// A document and its mesh in the window.
 pub struct Session {
-    document: Document,
+    pub(super) document: Document,
     document_id: DocumentId,
-    follower: Follower,
+    pub(super) follower: Follower,
     /// A cache of values at points. It changes no result.
     readings: RefCell<Readings>,
     pricer: Pricer,
+    /// The effect of the last edit of the size, and the price of the next.
+    pub(super) size_change: SizeChange,
+    /// Holds updates that need very many triangles.
+    pub(super) brake: Brake,
     cuts: CutQueue,
     queried: Option<DVec2>,
     /// The middles of the triangles on the way to the queried one, in world units.
     trail: Vec<DVec2>,
-    notices: Notices,
+    pub(super) notices: Notices,
     /// When the update in progress began.
     update_began: Option<Instant>,
     last_update: Option<Duration>,
@@ -64,6 +70,8 @@ impl Session {
             follower,
             readings: RefCell::default(),
             pricer: Pricer::default(),
+            size_change: SizeChange::default(),
+            brake: Brake::default(),
             cuts: CutQueue::default(),
             queried: None,
             trail: Vec::new(),
@@ -228,6 +236,7 @@ impl Session {
 
     /// Changes a setting. What cannot be met is reported, and the document stays as it was.
     pub fn set(&mut self, setting: Setting) {
+        self.size_change.note(&setting, &self.document, &self.follower);
         match self.document.set(setting) {
             Ok(()) => self.notices.dismiss(),
             Err(error) => self.report_edit(error),
@@ -326,6 +335,8 @@ impl Session {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
         self.document_id = self.document_id.next();
+        self.brake.release();
+        self.size_change = SizeChange::default();
         self.query(None);
         self.notices.dismiss();
     }
@@ -380,15 +391,14 @@ impl Session {
         let began = self.update_began.unwrap_or_else(Instant::now);
         self.ages.look_at(&self.document);
         let revision = self.follower.revision();
-        let (document, follower) = (&mut self.document, &mut self.follower);
-        let left = threads.run(|| follow_document(document, follower, deadline)).unwrap_or_else(|error| {
-            self.take_back(&error);
-            true
-        });
+        let left = self.follow_as_agreed(threads, deadline);
         if self.follower.stopped().is_none() && self.stage() != Stage::GaveUp(None) {
             self.notices.end_standing();
         }
         self.notices.forget_failed_edit(self.document.version());
+        if !self.brake.holds() {
+            self.notices.end_question();
+        }
         let left = left || !self.document.is_stroke_drawn();
         let changed = self.follower.revision() != revision;
         let was_in_progress = self.update_began.is_some();
@@ -401,7 +411,8 @@ impl Session {
             self.ages.note(&change, self.follower.mesh());
             MeshChange::join(&mut self.mesh_change, change, self.follower.mesh());
         }
-        left | self.ages.advance(self.follower.mesh(), deadline)
+        let estimates = self.brake.advance_stopped(&self.document, &self.follower, deadline);
+        left | estimates | self.ages.advance(self.follower.mesh(), deadline)
     }
 
     /// Returns how many edits ago each triangle of the follower's mesh came.
@@ -430,7 +441,7 @@ impl Session {
 
     /// Takes back the setting that made a mesh impossible. If paint did, the mesh stops, and a message says
     /// so.
-    fn take_back(&mut self, error: &BuildError) {
+    pub(super) fn take_back(&mut self, error: &BuildError) {
         let revision = self.document.revision();
         let is_other = self.document.settings() != self.follower.settings();
         if is_other || self.document.is_followed_in_place() {

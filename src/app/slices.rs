@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower};
+use meshbrush_core::document::{Document, Follower, Stage};
 use meshbrush_mesh::mesh::Progress;
 
 /// Pixels of a stroke, or triangles of its price, in one slice of work: well below a millisecond.
@@ -13,21 +13,42 @@ pub const SLICE: usize = 2048;
 /// gradation can take 20 µs.
 const MESH_SLICE: usize = 256;
 
-/// Draws the current stroke and brings the follower closer to the document. Returns whether work is left.
+/// How far the mesh followed the document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Followed {
+    /// No work is left.
+    Wholly,
+    /// Work is left.
+    Partly,
+    /// Work is left, and the mesh has more triangles than it may have without a question.
+    TooFar,
+}
+
+/// Draws the current stroke and brings the follower closer to the document, up to `most` triangles.
 pub fn follow_document(
     document: &mut Document,
     follower: &mut Follower,
+    most: usize,
     deadline: Instant,
-) -> Result<bool, BuildError> {
+) -> Result<Followed, BuildError> {
     loop {
         if document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
             continue;
         }
-        if follower.advance(document, MESH_SLICE)?.is_settled() {
-            return Ok(false);
+        let stage = follower.advance(document, MESH_SLICE)?;
+        if stage.is_settled() {
+            return Ok(Followed::Wholly);
+        }
+        if matches!(stage, Stage::Refining { triangles } if triangles > most) {
+            return Ok(Followed::TooFar);
         }
         if Instant::now() >= deadline {
-            return Ok(true);
+            return Ok(Followed::Partly);
         }
     }
+}
+
+/// Draws the current stroke, and leaves the mesh alone.
+pub fn draw_stroke(document: &mut Document, deadline: Instant) {
+    while document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {}
 }

@@ -103,10 +103,11 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
     let banner = if notice.failed { Banner::error(&notice.text) } else { Banner::info(&notice.text) };
     let stands = session.notices().shown_stands();
     let offer = notice.offer.as_ref();
-    let banner = match offer {
-        Some(offer) => banner.action(offer.label),
-        None if stands => banner.standing().action("Undo"),
-        None => banner,
+    let banner = match (offer, &notice.other) {
+        (Some(offer), Some(other)) => banner.standing().action(offer.label).other(other.label),
+        (Some(offer), None) => banner.action(offer.label),
+        (None, _) if stands => banner.standing().action("Undo"),
+        (None, _) => banner,
     };
     let answer = banner.show(&mut child);
     if !notice.failed && !stands && has_faded(&child, notice.number) {
@@ -120,6 +121,9 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
             }
             None => commands.push(Command::Edit(EditCommand::Undo)),
         },
+        BannerAnswer::ActedOtherwise => {
+            commands.extend(notice.other.as_ref().map(|other| other.command.clone()));
+        }
         BannerAnswer::Dismissed => commands.push(Command::Shell(ShellCommand::DismissNotice)),
     }
     Some(child.min_rect())
@@ -148,6 +152,8 @@ pub fn work_on_mesh(session: &Session) -> Option<(&'static str, String)> {
             Some(("Drawing the region", String::new()))
         }
         _ if session.is_cutting() => Some(("Cutting the outline", String::new())),
+        _ if session.question().is_some() => None,
+        _ if session.is_held() => Some(("Counting triangles", String::new())),
         Stage::Refining { triangles } => {
             Some(("Refining", format!("{} triangles", format::count(triangles as u64))))
         }

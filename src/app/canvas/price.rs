@@ -113,6 +113,7 @@ fn tag(price: Price, count: usize, settings: &Settings, t: &Tokens) -> (String, 
         }
         Price::MoreThan(most @ 1..) => format!("over {} triangles", format::change(most)),
         Price::MoreThan(most) => format!("frees over {} triangles", format::count(most.unsigned_abs())),
+        Price::About(change) => format!("about {} triangles", format::about_change(change)),
         Price::Many => format!("changes over {} triangles", format::count(Price::MOST as u64)),
         Price::TooFine => return ("finer than the lattice".into(), t.danger),
         Price::Nothing(_) => return ("no change".into(), t.label),

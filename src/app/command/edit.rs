@@ -16,6 +16,12 @@ pub enum EditCommand {
     Set(Setting),
     /// Ends the gesture, as when a slider is released.
     EndGesture,
+    /// Computes the price of a setting without applying it, or of none.
+    Consider(Option<Setting>),
+    /// Returns to the settings of the mesh, where the document asks for very many triangles.
+    KeepMesh,
+    /// Lets the mesh have very many triangles.
+    ApplyAnyway,
     /// Stops the update of the mesh.
     CancelUpdate,
 }

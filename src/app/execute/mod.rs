@@ -64,6 +64,9 @@ impl App {
             EditCommand::ClearPaint => self.session.document_mut().clear_paint(),
             EditCommand::Set(setting) => self.session.set(setting),
             EditCommand::EndGesture => self.session.end_gesture(),
+            EditCommand::Consider(candidate) => self.session.consider(candidate),
+            EditCommand::KeepMesh => self.keep_brush_share(|app| _ = app.session.keep_mesh()),
+            EditCommand::ApplyAnyway => self.session.apply_anyway(),
             EditCommand::CancelUpdate => self.session.cancel_update(),
         }
     }
@@ -120,14 +123,17 @@ impl App {
         }
     }
 
-    /// Ends the steps. Else cancels what is in progress: the stroke, the cut, or the rectangle or polygon.
-    /// Else closes the help, or clears query and message.
+    /// Ends the steps. Else cancels what is in progress: the stroke, the edit that asks for very many
+    /// triangles, the cut, or the rectangle or polygon. Else closes the help, or clears query and message.
     fn escape(&mut self, ctx: &Context) {
         if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
             return;
         }
         if self.session.document().stroke().is_some() {
             return self.session.document_mut().cancel_stroke();
+        }
+        if self.session.question().is_some() {
+            return self.keep_brush_share(|app| _ = app.session.keep_mesh());
         }
         let gesture_ended = self.canvas.end_gesture_on_escape();
         let in_gesture = self.session.document().is_in_gesture();

@@ -29,6 +29,7 @@ mod name_field;
 mod panel;
 mod place;
 mod radius_row;
+mod size_price;
 mod strip;
 mod tab;
 mod shortcut;
@@ -57,6 +58,7 @@ pub use panel::{Panel, button_rows, end_gesture_when_released, remark, set_once}
 pub use place::Place;
 pub use radius_row::radius_row;
 pub use shortcut::{same_keys, shortcut_text};
+pub use size_price::size_price_row;
 pub use strip::StripItem;
 pub use tab::Tab;
 pub use tool::{OverMesh, Tool, ToolSpec, all_tools};

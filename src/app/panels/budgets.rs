@@ -4,10 +4,12 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::Ui;
 
+use crate::app::brake::Need;
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, Panel, Tab, set_once};
-use crate::app::widgets::{NumberRow, Section, format, value_row};
+use crate::app::widgets::{NumberRow, Section, ValueRow, format, value_row};
 use meshbrush_core::document::{LEAST_MEMORY, Setting, Settings};
+use meshbrush_mesh::mesh::MemoryLimit;
 
 /// The longest label of a number; the fields of the others are aligned with it.
 const TRIANGLE_BUDGET: &str = "Triangle budget";
@@ -50,6 +52,39 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
     }
-    let bytes = state.session.mesh().bytes() as f64;
-    value_row(ui, "Memory in use", &format!("{} MB", format::fixed(bytes / MEGABYTE, 1)));
+    needs(ui, state);
+}
+
+/// Shows what is used of the budgets, and what the present settings would need.
+fn needs(ui: &mut Ui, state: &FrameState<'_>) {
+    let session = state.session;
+    let (mesh, limits) = (session.mesh(), session.document().settings().limits());
+    let most = limits.most_triangles();
+    let share = 100.0 * mesh.raw_triangle_count() as f64 / most as f64;
+    let used = format!(
+        "{} of {} ({} %)",
+        format::count(mesh.raw_triangle_count() as u64),
+        format::about(most as u64),
+        format::digits(share, 2)
+    );
+    let help = "The triangles of the mesh, of those that the smaller of the two budgets allows.";
+    ValueRow::new("Triangles in use", &used).help(help).show(ui);
+    value_row(ui, "Memory in use", &format!("{} MB", format::fixed(mesh.bytes() as f64 / MEGABYTE, 1)));
+    let (text, over) = match session.need() {
+        Some(need) => (need_in_words(need), need.triangles() > most as u64),
+        None => ("as many as there are".to_owned(), false),
+    };
+    let help = "The triangles that the document asks for, and their memory with the next mesh beside. An estimate, \
+                where a budget or a question stops the mesh before.";
+    ValueRow::new("Needed", &text).help(help).stands_out(over).show(ui);
+}
+
+/// Returns a need of triangles, and the memory for it.
+fn need_in_words(need: Need) -> String {
+    let bytes = need.triangles() as f64 * MemoryLimit::TWO_MESHES as f64;
+    let memory = format!("{} GB", format::digits(bytes / GIGABYTE, 2));
+    match need {
+        Need::About(triangles) => format!("about {}, {memory}", format::about(triangles)),
+        Need::MoreThan(triangles) => format!("over {}, {memory}", format::about(triangles)),
+    }
 }

@@ -33,6 +33,7 @@ mod project;
 mod recipes;
 mod settings;
 mod six_jobs;
+mod size_prices;
 mod software_window;
 mod steady;
 mod threads;

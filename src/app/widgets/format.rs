@@ -5,7 +5,7 @@
 //! nothing jumps.
 
 use meshbrush_mesh::text::{LengthUnit, group_digits};
-pub use meshbrush_mesh::text::{digits, fixed, rounded, significant, with_unit};
+pub use meshbrush_mesh::text::{digits, fixed, percent_above, rounded, significant, with_unit};
 
 /// Returns a count, grouped by thousands: `37,987`.
 pub fn count(value: u64) -> String {
@@ -21,6 +21,40 @@ pub fn change(value: i64) -> String {
     };
     format!("{sign}{}", count(value.unsigned_abs()))
 }
+
+/// Returns an estimated count, with two digits: `620,000`, `1.2 million`, `20 million`.
+pub fn about(value: u64) -> String {
+    let rounded = rounded(value as f64, 2);
+    match rounded {
+        n if n < 1e6 => count(n as u64),
+        n if n < 1e9 => format!("{} million", digits(n / 1e6, 2)),
+        n => format!("{} billion", digits(n / 1e9, 2)),
+    }
+}
+
+/// Returns an estimated change of a count, with its sign: `+20 million`, `−620,000`.
+pub fn about_change(value: i64) -> String {
+    format!("{}{}", if value < 0 { "−" } else { "+" }, about(value.unsigned_abs()))
+}
+
+/// Returns an interval with as many digits as tell its ends apart, the lower end rounded down and the upper
+/// one up: `161.38 … 161.42`. Where that takes too many, it says how narrow it is: `161.4 (within 0.001 %)`.
+pub fn interval(lower: f64, upper: f64) -> String {
+    let digit = |digits: usize| 10_f64.powi(upper.abs().log10().floor() as i32 + 1 - digits as i32);
+    let Some(digits) = INTERVAL_DIGITS.into_iter().find(|&digits| 2.0 * digit(digits) <= upper - lower)
+    else {
+        let gap = if upper > lower { (upper - lower) / upper } else { 0.0 };
+        return format!("{} (within {})", significant(upper, 4), percent_above(gap));
+    };
+    let unit = digit(digits);
+    let decimals = decimals_for(unit);
+    // A quotient is off by a rounding error where the number has these digits only.
+    let [lower, upper] = [(lower / unit + 1e-9).floor() * unit, (upper / unit - 1e-9).ceil() * unit];
+    format!("{} … {}", fixed(lower, decimals), fixed(upper, decimals))
+}
+
+/// Digits of the ends of an interval.
+const INTERVAL_DIGITS: [usize; 4] = [4, 5, 6, 7];
 
 /// Returns all digits of `value`: exactly this number when it is read again. Without commas, for other
 /// programs.
@@ -100,6 +134,31 @@ mod tests {
         assert_eq!(change(-12), "−12");
         assert_eq!(change(0), "0");
         assert_eq!(change(i64::MIN), "−9,223,372,036,854,775,808");
+    }
+
+    #[test]
+    fn the_ends_of_an_interval_differ() {
+        assert_eq!(interval(155.123, 161.46), "155.1 … 161.5");
+        assert_eq!(interval(161.381, 161.423), "161.38 … 161.43");
+        assert_eq!(interval(0.0, 161.42), "0.0 … 161.5");
+        assert_eq!(interval(0.001_234_1, 0.001_235_9), "0.0012341 … 0.0012359");
+        assert_eq!(interval(161.423, 161.423_01), "161.4 (within 0.001 %)");
+        assert_eq!(interval(161.423, 161.423), "161.4 (within 0 %)");
+    }
+
+    #[test]
+    fn estimates_have_two_digits() {
+        for (value, text) in [
+            (0, "0"),
+            (617_034, "620,000"),
+            (1_234_567, "1.2 million"),
+            (19_999_999, "20 million"),
+            (996_000_000, "1 billion"),
+            (7_560_000_000, "7.6 billion"),
+        ] {
+            assert_eq!(about(value), text);
+        }
+        assert_eq!([about_change(20_312_345), about_change(-617_034)], ["+20 million", "−620,000"]);
     }
 
     #[test]

@@ -73,6 +73,9 @@ static SENTENCES: &[(&str, &str)] = &[
         "Lowers h_min and h_risk to the painted diameter: layers of risk get finer, too.",
     ),
     ("Not now", "Keeps the smallest diameter; what was painted below it stays in the layer. Esc."),
+    ("Keep the mesh", "Takes the edit back; the mesh stays as it is. Esc."),
+    ("Apply anyway", "Lets the mesh have as many triangles as the edit needs, up to the budgets."),
+    ("Keep the former", "Leads the path along the one before the proof, by a place in between."),
     ("h_max", "Target diameter at risk 0, in the unit of the document."),
     ("h_risk", "Target diameter at risk 1, in the unit of the document; at least h_min."),
     (

@@ -26,7 +26,7 @@ impl EntryData {
         }
     }
 
-    fn settings(&self) -> Option<&Settings> {
+    pub(super) fn settings(&self) -> Option<&Settings> {
         match self {
             Self::Paint(_) => None,
             Self::Settings(settings) => Some(settings),
@@ -117,6 +117,10 @@ impl History {
 
     pub(super) fn last_done(&self) -> Option<&Entry> {
         self.done.back()
+    }
+
+    pub(super) fn last_undone(&self) -> Option<&Entry> {
+        self.undone.last()
     }
 
     /// Undoes the last gesture: `exchange` exchanges its data with the document's. Returns whether there was

@@ -6,6 +6,7 @@ mod change;
 mod drawing;
 mod edits;
 mod examples;
+mod field_price;
 mod follower;
 mod following;
 mod history;
@@ -30,6 +31,7 @@ pub use background::{Background, Picture};
 pub use drawing::{Drawing, DrawingError, DrawnPart, DrawnShape};
 pub use edits::Edits;
 pub use examples::Example;
+pub use field_price::CountEstimate;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
 pub use layers::NoPaintLayer;
@@ -42,7 +44,7 @@ pub use replay::{Replay, ReplayedMesh};
 pub use setting::{Setting, SettingKind};
 pub use settings::{LEAST_MEMORY, MAX_COARSE_TRIANGLES, MOST_RASTER_PIXELS, Settings, SettingsError};
 pub use stage::Stage;
-pub use transfer_price::{TransferPrice, TransferPricer};
+pub use transfer_price::{SizePricer, TransferPrice, TransferPricer};
 
 use crate::layers::{LayerId, PaintChange, PaintLayers};
 use crate::paint::{Patch, Repaint};
@@ -282,6 +284,24 @@ impl Document {
         let newest = self.version == self.last_version;
         if self.stroke.is_none() && !paints && newest && self.undo() {
             self.history.forget_undone();
+        }
+    }
+
+    /// Returns to earlier settings: undoes or redoes the last gesture where that leads there, and otherwise
+    /// sets them as a gesture of its own. Paint stays as it is.
+    pub fn return_to(&mut self, settings: &Settings) {
+        let leads_there = |entry: Option<&Entry>| entry.and_then(|e| e.data.settings()) == Some(settings);
+        self.end_gesture();
+        if self.settings == *settings || self.stroke.is_some() {
+            return;
+        }
+        if leads_there(self.history.last_done()) {
+            self.undo();
+        } else if leads_there(self.history.last_undone()) {
+            self.redo();
+        } else if settings.check_paint(&self.paint).is_ok() {
+            self.enter_settings("former settings", settings.clone());
+            self.note_settings("former settings", false);
         }
     }
 

@@ -51,6 +51,9 @@ pub enum Price {
     /// More than this number would be added, or removed where it is below zero: counting them all would take
     /// too long.
     MoreThan(i64),
+    /// About this number would be added, or removed where it is below zero: an estimate, as counting them all
+    /// would take too long.
+    About(i64),
     /// More than [`Self::MOST`] triangles would be added and others removed, or the other way around.
     Many,
     /// The stroke asks for triangles finer than the lattice.
@@ -76,7 +79,7 @@ impl Price {
     /// Returns the number of triangles by which the mesh grows, as far as it is known.
     pub fn change(self) -> i64 {
         match self {
-            Self::Change(change) | Self::MoreThan(change) => change,
+            Self::Change(change) | Self::MoreThan(change) | Self::About(change) => change,
             Self::Nothing(_) | Self::Many | Self::TooFine => 0,
         }
     }

@@ -102,6 +102,27 @@ impl Setting {
         }
     }
 
+    /// Returns whether the setting is one of the size: a limit of the diameter, the risk curve, the gradation
+    /// or the layers.
+    pub fn is_of_size(&self) -> bool {
+        matches!(
+            self,
+            Self::SmallestDiameter(_)
+                | Self::DiameterAtRiskOne(_)
+                | Self::LargestDiameter(_)
+                | Self::TransferShape(_)
+                | Self::Gradation(_)
+                | Self::Layers(_)
+        )
+    }
+
+    /// Returns settings with this change, unchecked.
+    pub fn applied_to(self, settings: &Settings) -> Settings {
+        let mut settings = settings.clone();
+        self.apply(&mut settings);
+        settings
+    }
+
     pub(super) fn apply(self, settings: &mut Settings) {
         let transfer = &mut settings.transfer;
         match self {

@@ -1,15 +1,18 @@
-use super::pricer::{Price, price_of};
-use super::{Document, Follower};
-use crate::build::RefinementCriterion;
+use std::sync::Arc;
+
+use super::field_price::FieldPrice;
+use super::pricer::Price;
+use super::{CountEstimate, Document, Follower, Settings};
 use crate::field::{RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{SizeField, SizeFieldSpec};
-use crate::mesh::{Forecast, Progress};
+use crate::mesh::Progress;
 
 /// Computes in slices how other limits of h̄, or another curve from risk to diameter, would change the number
 /// of triangles, without changing document or mesh.
 ///
-/// By the area rule the answer is exact. Under the vertex rule there is none: every edit rebuilds the mesh.
+/// By the area rule the answer is exact up to [`Price::MOST`] triangles, and an estimate beyond. Under the
+/// vertex rule there is none: every edit rebuilds the mesh.
 #[derive(Clone, Debug, Default)]
 pub struct TransferPricer {
     question: Option<Question>,
@@ -27,11 +30,12 @@ pub struct TransferPrice {
 }
 
 impl TransferPrice {
-    /// Returns the change outside the area of the question; `None` where more triangles change than are
-    /// counted.
-    pub fn elsewhere(self) -> Option<i64> {
+    /// Returns the change outside the area of the question: the same kind of price as that everywhere.
+    /// `None` where either is not known.
+    pub fn elsewhere(self) -> Option<Price> {
         match (self.here, self.everywhere) {
-            (Price::Change(here), Price::Change(everywhere)) => Some(everywhere - here),
+            (Price::Change(here), Price::Change(everywhere)) => Some(Price::Change(everywhere - here)),
+            (Price::Change(here), Price::About(everywhere)) => Some(Price::About(everywhere - here)),
             _ => None,
         }
     }
@@ -47,10 +51,9 @@ struct Question {
 
 #[derive(Clone, Debug)]
 struct Work {
-    field: SizeField,
-    forecast: Forecast,
-    /// The price in the area, once it is known; then the whole domain is counted.
-    here: Option<Price>,
+    here: FieldPrice,
+    price_here: Option<Price>,
+    everywhere: SizePrice,
 }
 
 impl TransferPricer {
@@ -59,10 +62,7 @@ impl TransferPricer {
     ///
     /// There is a price only while the follower is in step with its document and no stroke is being painted.
     pub fn ask(&mut self, question: Option<(Transfer, Rect)>, document: &Document, follower: &Follower) {
-        let answerable = document.stroke().is_none()
-            && document.settings().rule == RefinementRule::Area
-            && follower.is_in_step(document);
-        let question = question.filter(|_| answerable).map(|(transfer, area)| {
+        let question = question.filter(|_| is_answerable(document, follower)).map(|(transfer, area)| {
             let (document, mesh) = (document.revision(), follower.revision());
             Question { transfer, area, document, mesh }
         });
@@ -88,13 +88,7 @@ impl TransferPricer {
         if let Some(work) = &mut self.work
             && let Some(price) = work.advance(document, follower, budget)
         {
-            match work.here {
-                None => work.count_everywhere(price, follower),
-                Some(here) => {
-                    self.price = Some(TransferPrice { here, everywhere: price });
-                    self.work = None;
-                }
-            }
+            (self.price, self.work) = (Some(price), None);
         }
         self.progress()
     }
@@ -103,29 +97,118 @@ impl TransferPricer {
 impl Work {
     /// Returns the work with nothing counted; `None` where the area is outside the domain's rectangle.
     fn new(question: Question, document: &Document, follower: &Follower) -> Option<Box<Self>> {
-        let lattice = follower.field().lattice();
-        let area = lattice.rect_around(&question.area)?;
-        let spec = SizeFieldSpec { transfer: question.transfer, ..document.settings().field_spec() };
-        let field = SizeField::new(spec, lattice);
-        let forecast = Forecast::new(follower.mesh(), area, &follower.settings().limits());
-        Some(Box::new(Self { field, forecast, here: None }))
-    }
-
-    fn count_everywhere(&mut self, here: Price, follower: &Follower) {
-        self.here = Some(here);
-        let lattice = follower.field().lattice();
-        if let Some(all) = lattice.rect_around(&lattice.bounds()) {
-            self.forecast = Forecast::new(follower.mesh(), all, &follower.settings().limits());
-        }
+        let settings = Settings { transfer: question.transfer, ..document.settings().clone() };
+        let everywhere = SizePrice::new(&settings, follower)?;
+        let here = FieldPrice::new(everywhere.field.clone(), &question.area, follower)?;
+        Some(Box::new(Self { here, price_here: None, everywhere }))
     }
 
     /// Counts more triangles. Returns the price once it is known.
-    fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Option<Price> {
-        let domain = follower.domain();
-        let criterion = RefinementCriterion::by_area(domain, &self.field, document.paint());
-        let exceeds = |corners, level| criterion.exceeds_at(corners, level);
-        let is_in_domain = |corners, _| !domain.excludes_at(corners);
-        let progress = self.forecast.advance(follower.mesh(), exceeds, is_in_domain, budget);
-        price_of(progress, &self.forecast)
+    fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Option<TransferPrice> {
+        let Some(here) = self.price_here else {
+            self.price_here = self.here.advance(document, follower, budget);
+            return None;
+        };
+        let everywhere = self.everywhere.advance(document, follower, budget)?;
+        Some(TransferPrice { here, everywhere })
     }
+}
+
+/// Computes in slices how other settings of the size would change the number of triangles of a document:
+/// limits, gradation or layers, on the same coarse grid.
+///
+/// Exact up to [`Price::MOST`] triangles, and an estimate beyond.
+#[derive(Clone, Debug, Default)]
+pub struct SizePricer {
+    /// The settings, and the revisions of document and mesh for which the price is valid.
+    question: Option<(Settings, [u64; 2])>,
+    work: Option<Box<SizePrice>>,
+    price: Option<Price>,
+}
+
+impl SizePricer {
+    /// Asks for the price of other settings, or for none. Asking the same again keeps the price.
+    ///
+    /// There is a price only while the follower is in step with its document, no stroke is being painted, and
+    /// the settings leave the coarse grid as it is; and none under the vertex rule.
+    pub fn ask(&mut self, settings: Option<&Settings>, document: &Document, follower: &Follower) {
+        let settings = settings.filter(|_| is_answerable(document, follower));
+        let revisions = [document.revision(), follower.revision()];
+        let is_same = match (&self.question, settings) {
+            (None, None) => true,
+            (Some((asked, of)), Some(settings)) => *of == revisions && asked == settings,
+            _ => false,
+        };
+        if !is_same {
+            self.question = settings.map(|settings| (settings.clone(), revisions));
+            self.price = None;
+            self.work = settings.and_then(|settings| SizePrice::new(settings, follower)).map(Box::new);
+        }
+    }
+
+    /// Returns the price, once known.
+    pub fn price(&self) -> Option<Price> {
+        self.price
+    }
+
+    /// Whether the price is still being computed.
+    pub fn progress(&self) -> Progress {
+        if self.work.is_some() { Progress::More } else { Progress::Done }
+    }
+
+    /// One slice of work: about `budget` triangles. Document and follower must not have changed since
+    /// [`Self::ask`].
+    pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
+        if let Some(work) = &mut self.work
+            && let Some(price) = work.advance(document, follower, budget)
+        {
+            (self.price, self.work) = (Some(price), None);
+        }
+        self.progress()
+    }
+}
+
+/// The count of a price in the whole domain, and the estimate if that would take too long.
+#[derive(Clone, Debug)]
+struct SizePrice {
+    field: Arc<SizeField>,
+    count: FieldPrice,
+    estimate: Option<CountEstimate>,
+    settings: Settings,
+}
+
+impl SizePrice {
+    fn new(settings: &Settings, follower: &Follower) -> Option<Self> {
+        let lattice = follower.field().lattice();
+        if settings.lattice().ok()? != *lattice || settings.domain != follower.settings().domain {
+            return None;
+        }
+        let spec: SizeFieldSpec = settings.field_spec();
+        let field = Arc::new(SizeField::new(spec, lattice));
+        let count = FieldPrice::new(field.clone(), &lattice.bounds(), follower)?;
+        Some(Self { field, count, estimate: None, settings: settings.clone() })
+    }
+
+    fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Option<Price> {
+        let Some(estimate) = &mut self.estimate else {
+            let price = self.count.advance(document, follower, budget)?;
+            if let Price::MoreThan(_) | Price::Many = price {
+                let (field, mesh) = (self.field.clone(), follower.mesh());
+                self.estimate = Some(CountEstimate::of_field(field, &self.settings, mesh));
+                return None;
+            }
+            return Some(price);
+        };
+        if estimate.advance(document, follower, budget) == Progress::More {
+            return None;
+        }
+        Some(Price::About(estimate.triangles() as i64 - follower.mesh().triangle_count() as i64))
+    }
+}
+
+/// Returns whether prices can be computed: the mesh is that of the document, by the area rule.
+fn is_answerable(document: &Document, follower: &Follower) -> bool {
+    document.stroke().is_none()
+        && document.settings().rule == RefinementRule::Area
+        && follower.is_in_step(document)
 }

@@ -3,7 +3,7 @@ use std::fmt;
 use glam::DVec2;
 
 use crate::domain::{Domain, DomainShape, Polygon};
-use crate::text::{Grouped, Number};
+use crate::text::{Grouped, Number, rounded};
 
 /// The least cost per unit of length that paths are found with.
 pub(super) const LEAST_COST: f64 = 1e-100;
@@ -18,7 +18,7 @@ pub enum PathError {
     #[error(
         "The cost at {} is {}. A cost per unit of length must be positive and finite everywhere; \
          change the formula, or give the length a weight above 0.",
-        PointInWords(*at), Number(*value)
+        PointInWords(*at), Number(rounded(*value, VALUE_DIGITS))
     )]
     InvalidCost {
         /// A place with this cost, in world units.
@@ -94,7 +94,7 @@ pub enum PathError {
     #[error(
         "The cost near {} is {}. Only costs from {} to {} can be added up along paths: scale the formula or \
          the weights.",
-        PointInWords(*at), Number(*value), Number(LEAST_COST), Number(GREATEST_COST)
+        PointInWords(*at), Number(rounded(*value, VALUE_DIGITS)), Number(LEAST_COST), Number(GREATEST_COST)
     )]
     CostOutOfRange {
         /// A place with such a cost, in world units.
@@ -243,8 +243,14 @@ impl fmt::Display for Waypoint {
 /// A point for a sentence.
 struct PointInWords(DVec2);
 
+/// Digits of a coordinate in a sentence: metres of a country, or centimetres of a degree.
+const POINT_DIGITS: usize = 7;
+/// Digits of a cost in a sentence.
+const VALUE_DIGITS: usize = 6;
+
 impl fmt::Display for PointInWords {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({}, {})", Number(self.0.x), Number(self.0.y))
+        let [x, y] = self.0.to_array().map(|value| Number(rounded(value, POINT_DIGITS)));
+        write!(f, "({x}, {y})")
     }
 }

@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights};
 use crate::layers::RiskField;
+use crate::text::rounded;
 
 /// A path of the front, and the weights for which it is best.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,9 @@ pub struct Front {
 /// The least and the greatest risk weight, beside 0.
 const WEIGHTS: [f64; 2] = [0.1, 1000.0];
 
+/// Digits of a weight.
+const WEIGHT_DIGITS: usize = 3;
+
 /// Differences below this share count as none.
 const EQUAL: f64 = 1e-6;
 
@@ -41,7 +45,9 @@ impl Front {
     pub fn new(mesh: impl Into<Arc<PathMesh>>, risk: RiskField, places: Vec<DVec2>, count: usize) -> Self {
         let steps = count.max(3) - 2;
         let [least, greatest] = WEIGHTS;
-        let weight = |n: usize| least * libm::pow(greatest / least, n as f64 / steps as f64);
+        // Few digits: a person may take a weight, and read it.
+        let weight =
+            |n: usize| rounded(least * libm::pow(greatest / least, n as f64 / steps as f64), WEIGHT_DIGITS);
         let waiting = (0..=steps).rev().map(weight).chain([0.0]).collect();
         Self { mesh: mesh.into(), risk, places, waiting, points: Vec::new() }
     }

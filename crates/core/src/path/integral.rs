@@ -62,6 +62,8 @@ pub(super) struct RiskAlong {
     pub integral: f64,
     /// The greatest risk at the points that were looked at.
     pub highest: f64,
+    /// Where that is: its distance from the start along the polyline.
+    pub highest_at: f64,
 }
 
 /// A piece along which the risk varies by more is halved.
@@ -73,25 +75,39 @@ impl RiskAlong {
     /// Returns the risk along a polyline, however long its pieces are: where the risk does not count, a path
     /// is straight and has few points.
     pub fn of(points: &[DVec2], density: &dyn CostDensity) -> Self {
-        let highest = points.iter().map(|&point| density.risk_at(point)).fold(0.0, f64::max);
-        let mut along = Self { integral: 0.0, highest };
+        let mut along = Self::default();
+        let mut walked = 0.0;
+        if let Some(&start) = points.first() {
+            along.look_at(start, 0.0, density);
+        }
         for pair in points.windows(2) {
-            along.add_piece(pair[0], pair[1], density, MOST_RISK_HALVINGS);
+            along.add_piece([pair[0], pair[1]], walked, density, MOST_RISK_HALVINGS);
+            walked += pair[0].distance(pair[1]);
+            along.look_at(pair[1], walked, density);
         }
         along
     }
 
-    fn add_piece(&mut self, p: DVec2, q: DVec2, density: &dyn CostDensity, halvings: u32) {
+    /// Looks at a point at a distance from the start. Returns its risk.
+    fn look_at(&mut self, point: DVec2, distance: f64, density: &dyn CostDensity) -> f64 {
+        let risk = density.risk_at(point);
+        if risk > self.highest {
+            (self.highest, self.highest_at) = (risk, distance);
+        }
+        risk
+    }
+
+    /// Adds a piece that begins at the distance `walked` from the start.
+    fn add_piece(&mut self, [p, q]: [DVec2; 2], walked: f64, density: &dyn CostDensity, halvings: u32) {
         let middle = p.midpoint(q);
         let range = density.risk_range(&Rect::spanning(p, q));
         if range.greatest - range.least <= MOST_RISK_SPREAD || halvings == 0 {
-            let risk = density.risk_at(middle);
+            let risk = self.look_at(middle, walked + p.distance(middle), density);
             self.integral += p.distance(q) * risk;
-            self.highest = self.highest.max(risk);
             return;
         }
-        self.add_piece(p, middle, density, halvings - 1);
-        self.add_piece(middle, q, density, halvings - 1);
+        self.add_piece([p, middle], walked, density, halvings - 1);
+        self.add_piece([middle, q], walked + p.distance(middle), density, halvings - 1);
     }
 }
 

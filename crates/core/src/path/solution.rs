@@ -22,6 +22,8 @@ pub struct Solution {
     pub risk: f64,
     /// The highest risk on the way.
     pub highest_risk: f64,
+    /// The distance from the start of the place with the highest risk.
+    pub(super) highest_risk_at: f64,
     /// The path from the start to the goal, in world units.
     pub points: Vec<DVec2>,
     /// The places in `points` of the start, the via points and the goal.
@@ -80,9 +82,21 @@ impl Solution {
     /// Returns the solution of a polyline. `tolerance` is that of [`PathFigures::of`].
     pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
         let PathFigures { cost, upper, length } = PathFigures::of(&points, density, tolerance);
-        let RiskAlong { integral: risk, highest: highest_risk } = RiskAlong::of(&points, density);
+        let RiskAlong { integral: risk, highest: highest_risk, highest_at: highest_risk_at } =
+            RiskAlong::of(&points, density);
         let stops = vec![0, points.len() - 1];
-        Self { cost, lower: 0.0, upper, length, risk, highest_risk, points, stops, walls: Vec::new() }
+        Self {
+            cost,
+            lower: 0.0,
+            upper,
+            length,
+            risk,
+            highest_risk,
+            highest_risk_at,
+            points,
+            stops,
+            walls: Vec::new(),
+        }
     }
 
     /// Returns the path along several, each of which begins where the last ends.
@@ -118,9 +132,12 @@ impl Solution {
         self.cost += next.cost;
         self.lower += next.lower;
         self.upper += next.upper;
+        if next.highest_risk > self.highest_risk {
+            self.highest_risk = next.highest_risk;
+            self.highest_risk_at = self.length + next.highest_risk_at;
+        }
         self.length += next.length;
         self.risk += next.risk;
-        self.highest_risk = self.highest_risk.max(next.highest_risk);
         let end = self.points.len() - 1;
         self.points.extend(&next.points[1..]);
         self.stops.extend(next.stops[1..].iter().map(|stop| end + stop));
@@ -144,14 +161,13 @@ impl Solution {
     }
 
     /// Returns cost, risk and density at `count` places at equal distances along the path, its ends among
-    /// them.
+    /// them, and at the place of the highest risk.
     pub fn profile(&self, density: &dyn CostDensity, count: usize) -> Vec<PathSample> {
-        let count = count.max(2);
-        let mut samples = Vec::with_capacity(count);
+        let distances = self.profile_distances(count.max(2));
+        let mut samples = Vec::with_capacity(distances.len());
         let (mut piece, mut walked, mut cost) = (0, 0.0, 0.0);
         let mut last = self.points.first().copied().unwrap_or_default();
-        for n in 0..count {
-            let distance = self.length * n as f64 / (count - 1) as f64;
+        for distance in distances {
             let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
             while piece + 2 < self.points.len() && walked + length(piece) < distance {
                 walked += length(piece);
@@ -169,9 +185,22 @@ impl Solution {
             cost += PathFigures::of(&[last, point], density, PROFILE_TOLERANCE).cost;
             last = point;
             let (risk, density) = (density.risk_at(point), density.at(point));
+            // Where the risk jumps, the point may lie on the other side by a rounding error.
+            let risk = if distance == self.highest_risk_at { self.highest_risk.max(risk) } else { risk };
             samples.push(PathSample { distance, point, cost, risk, density });
         }
         samples
+    }
+
+    /// Returns `count` equal distances from the start, and that of the highest risk.
+    fn profile_distances(&self, count: usize) -> Vec<f64> {
+        let even = |n: usize| self.length * n as f64 / (count - 1) as f64;
+        let mut distances: Vec<f64> = (0..count).map(even).collect();
+        let place = distances.partition_point(|&distance| distance < self.highest_risk_at);
+        if distances.get(place).is_some_and(|&distance| distance != self.highest_risk_at) {
+            distances.insert(place, self.highest_risk_at);
+        }
+        distances
     }
 
     /// Returns a path with fewer points: none of those left out is farther than `tolerance` from it, in world

@@ -36,6 +36,7 @@ mod replay;
 #[path = "../../../../tests/shared/runs.rs"]
 mod runs;
 mod size_field;
+mod size_price;
 mod slabs;
 mod smallest_diameter;
 mod stacks;

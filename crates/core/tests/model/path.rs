@@ -306,6 +306,15 @@ fn via_points_are_visited_in_order() {
 }
 
 #[test]
+fn sentences_have_few_digits() {
+    let at = dvec2(1.0 / 3.0, 4_512_345.671_234_5);
+    let sentence = PathError::Outside { which: Waypoint::Goal, at }.to_string();
+    assert!(sentence.starts_with("The goal (0.3333333, 4512346) lies outside"), "{sentence}");
+    let sentence = PathError::CostOutOfRange { at, value: 1e103 / 3.0 }.to_string();
+    assert!(sentence.contains("is 3.33333e102. Only"), "{sentence}");
+}
+
+#[test]
 fn bad_input_has_a_sentence() {
     let mesh = mesh(Rect::UNIT, |_| 0.2);
     let (inside, outside) = (dvec2(0.3, 0.4), dvec2(1.3, 0.4));

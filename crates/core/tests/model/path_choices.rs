@@ -58,6 +58,8 @@ fn the_front_goes_from_the_shortest_path_to_the_safest() {
         assert!(a.length < b.length && a.risk > b.risk && pair[0].weights.risk < pair[1].weights.risk);
     }
     assert!(points[points.len() - 1].solution.risk < 0.01);
+    let texts = points.iter().map(|point| point.weights.risk.to_string());
+    assert!(texts.clone().all(|text| text.len() <= 6), "few digits: {:?}", texts.collect::<Vec<_>>());
 }
 
 #[test]
@@ -72,6 +74,25 @@ fn the_risk_of_a_straight_path_counts_between_its_points() {
     let (integral, highest) = (risks().sum::<f64>() * p.distance(q) / 1e5, risks().fold(0.0, f64::max));
     assert!(integral > 0.01 && (solution.risk / integral - 1.0).abs() < 0.01, "{} {integral}", solution.risk);
     assert!((solution.highest_risk - highest).abs() < 0.01, "{} {highest}", solution.highest_risk);
+}
+
+#[test]
+fn a_profile_has_the_place_of_the_highest_risk() {
+    // So narrow that places at equal distances miss it.
+    let risk = threats(&[(0.437, 0.5), (0.7, 0.47)], 0.004);
+    let density = WeightedCost::new(Weights { length: 1.0, risk: 0.0 }, risk).unwrap();
+    let mut planner = Planner::new(mesh(0.05), &density).unwrap();
+    for places in
+        [vec![dvec2(0.1, 0.5), dvec2(0.9, 0.5)], vec![dvec2(0.1, 0.5), dvec2(0.2, 0.5), dvec2(0.9, 0.5)]]
+    {
+        let solution = planner.solve(&density, &places, PathRequest::FULL).unwrap();
+        let profile = solution.profile(&density, 21);
+        assert_eq!(profile.len(), 22);
+        assert!(profile.windows(2).all(|pair| pair[0].distance < pair[1].distance));
+        let top = profile.iter().max_by(|a, b| a.risk.total_cmp(&b.risk)).unwrap();
+        assert_eq!(top.risk, solution.highest_risk);
+        assert!(top.risk > 0.5 && (top.point.x - 0.437).abs() < 0.004, "{top:?}");
+    }
 }
 
 #[test]

@@ -35,6 +35,6 @@ pub use kernel::{
     TriangleId, Updater, bisection_edge_length, level_for_diameter,
 };
 pub use query::{
-    Adjacency, Cause, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator, Removed,
-    RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
+    Adjacency, Cause, Census, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator,
+    Removed, RemovedPart, Topology, Violation, barycentric, fingerprint_of, interpolate,
 };

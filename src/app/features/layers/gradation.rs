@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::LayerCommand;
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released};
+use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use crate::app::widgets::{Section, SliderRow, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
 
@@ -18,11 +18,25 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let gradation = state.session.document().settings().gradation;
     let mut limits = gradation.is_some();
-    if toggle_row(ui, "Limit gradation", &mut limits).changed() {
+    let toggle = toggle_row(ui, "Limit gradation", &mut limits);
+    if toggle.changed() {
         commands.push(Command::Layer(LayerCommand::LimitGradation(limits)));
     }
-    let Some(mut slope) = gradation else { return };
-    let row = SliderRow::new("Gradation g", &mut slope, 0.02..=2.0).logarithmic();
+    if let Some(slope) = gradation {
+        slope_row(ui, slope, commands);
+    }
+    let other = if gradation.is_some() { None } else { Some(Settings::USUAL_GRADATION) };
+    let typed = SliderRow::typed_so_far(ui, SLOPE, "").filter(|_| gradation.is_some());
+    let candidate = typed.map(Some).or((toggle.hovered() && !toggle.changed()).then_some(other));
+    let kinds = [Setting::Gradation(None).kind()];
+    size_price_row(ui, state, &kinds, candidate.map(Setting::Gradation), commands);
+}
+
+/// The name of the number.
+const SLOPE: &str = "Gradation g";
+
+fn slope_row(ui: &mut Ui, mut slope: f64, commands: &mut Vec<Command>) {
+    let row = SliderRow::new(SLOPE, &mut slope, 0.02..=2.0).logarithmic();
     let row = row.typed_range(f64::MIN_POSITIVE..=f64::MAX).default(Settings::USUAL_GRADATION);
     let help = "Largest change of h̄ per unit of length, over the whole stack: the smaller, the more slowly \
                 triangles grow with the distance from fine places.";

@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released};
+use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use crate::app::readout::{Quantity, value_at};
-use crate::app::widgets::{CurveValues, Section, SliderRow, TransferCurve};
+use crate::app::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
@@ -25,7 +25,28 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         smallest_row(ui, state, commands);
         ui.add_space(4.0);
         curve(ui, state, commands);
+        let kinds = [
+            Setting::SmallestDiameter(0.0),
+            Setting::DiameterAtRiskOne(0.0),
+            Setting::LargestDiameter(0.0),
+            Setting::TransferShape(0.0),
+        ];
+        size_price_row(ui, state, &kinds.map(|setting| setting.kind()), candidate(ui, state), commands);
     });
+}
+
+/// Returns the diameter that is being typed.
+fn candidate(ui: &Ui, state: &FrameState<'_>) -> Option<Setting> {
+    let unit = state.unit().symbol();
+    let smallest = SliderRow::typed_so_far(ui, SMALLEST, unit).map(Setting::SmallestDiameter);
+    let of_curve = || {
+        let (field, typed) = TransferCurve::typed_so_far(ui, unit)?;
+        Some(match field {
+            CurveField::Largest => Setting::LargestDiameter(typed),
+            CurveField::AtRiskOne => Setting::DiameterAtRiskOne(typed),
+        })
+    };
+    smallest.or_else(of_curve)
 }
 
 fn smallest_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -34,7 +55,7 @@ fn smallest_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let Transfer { h_min, h_max, .. } = settings.transfer;
     let mut smallest = h_min;
     let least = (DIAMETERS.start() * extent).min(h_min);
-    let slider = SliderRow::new("h_min", &mut smallest, least..=h_max).logarithmic();
+    let slider = SliderRow::new(SMALLEST, &mut smallest, least..=h_max).logarithmic();
     let slider = slider.typed_range(f64::MIN_POSITIVE..=h_max).unit(settings.unit.symbol());
     let slider = slider.default(Settings::default().transfer.h_min * extent).help(SMALLEST_HELP);
     let response = slider.show(ui);
@@ -43,6 +64,9 @@ fn smallest_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     }
     end_gesture_when_released(&response, commands);
 }
+
+/// The name of the smallest diameter.
+const SMALLEST: &str = "h_min";
 
 const SMALLEST_HELP: &str = "The smallest target diameter of the document, in its unit: nothing gets finer, \
                              whatever layers ask for. The risk curve stays.";

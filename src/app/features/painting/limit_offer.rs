@@ -176,15 +176,19 @@ fn price_in_words(price: TransferPrice) -> String {
         Price::Change(1) => "+1 triangle here".to_owned(),
         Price::Change(change) => format!("{} triangles here", format::change(change)),
         Price::TooFine => return "finer than the lattice".to_owned(),
-        Price::MoreThan(_) | Price::Many | Price::Nothing(_) => {
-            return format!("over {} triangles here", format::change(Price::MOST as i64));
+        Price::MoreThan(_) | Price::Many | Price::Nothing(_) | Price::About(_) => {
+            return match price.everywhere {
+                Price::About(change) => format!("about {} triangles", format::about_change(change)),
+                _ => format!("over {} triangles here", format::change(Price::MOST as i64)),
+            };
         }
     };
     match price.elsewhere() {
-        Some(0) => format!("{here}, none elsewhere"),
-        Some(change) => format!("{here}, {} elsewhere", format::change(change)),
-        None if price.everywhere == Price::TooFine => format!("{here}, finer than the lattice elsewhere"),
-        None => format!("{here}, over {} elsewhere", format::change(Price::MOST as i64)),
+        Some(Price::Change(0)) => format!("{here}, none elsewhere"),
+        Some(Price::Change(change)) => format!("{here}, {} elsewhere", format::change(change)),
+        Some(Price::About(change)) => format!("{here}, about {} elsewhere", format::about_change(change)),
+        _ if price.everywhere == Price::TooFine => format!("{here}, finer than the lattice elsewhere"),
+        _ => format!("{here}, over {} elsewhere", format::change(Price::MOST as i64)),
     }
 }
 
@@ -202,6 +206,9 @@ mod tests {
         let many = Price::MoreThan(500_000);
         assert_eq!(words(change(2000), many), "+2,000 triangles here, over +500,000 elsewhere");
         assert_eq!(words(many, many), "over +500,000 triangles here");
+        let about = Price::About(20_312_345);
+        assert_eq!(words(change(2000), about), "+2,000 triangles here, about +20 million elsewhere");
+        assert_eq!(words(many, about), "about +20 million triangles", "here and elsewhere");
         assert_eq!(words(change(2), Price::TooFine), "+2 triangles here, finer than the lattice elsewhere");
         assert_eq!(words(Price::TooFine, Price::TooFine), "finer than the lattice");
     }

@@ -24,6 +24,20 @@ pub enum AlternativesCommand {
     Cancel,
 }
 
+/// Returns the place of a path that is farthest from the best one, with the number of its leg, from 0.
+pub(super) fn farthest_place(best: &Solution, path: &Solution) -> Option<(usize, DVec2)> {
+    let distance = |&point: &DVec2| {
+        let pieces = best.points.windows(2);
+        let distances =
+            pieces.map(|ends| nearest_on_segment(point, [ends[0], ends[1]]).distance_squared(point));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let points = path.points.iter().enumerate();
+    let (place, point) = points.max_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+    let leg = path.stops.windows(2).position(|ends| place < ends[1])?;
+    Some((leg, *point))
+}
+
 /// Finds the alternatives of one path while they are shown.
 #[derive(Default)]
 pub struct AlternativesFinder {
@@ -57,17 +71,7 @@ impl AlternativesFinder {
     /// Returns a place that leads the path along an alternative: where that is farthest from the best path.
     /// With it is the number of the leg, from 0.
     pub fn place_on(&self, number: usize) -> Option<(usize, DVec2)> {
-        let (best, path) = (self.best.as_ref()?, self.paths.get(number)?);
-        let distance = |&point: &DVec2| {
-            let pieces = best.points.windows(2);
-            let distances =
-                pieces.map(|ends| nearest_on_segment(point, [ends[0], ends[1]]).distance_squared(point));
-            distances.fold(f64::INFINITY, f64::min)
-        };
-        let points = path.points.iter().enumerate();
-        let (place, point) = points.max_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
-        let leg = path.stops.windows(2).position(|ends| place < ends[1])?;
-        Some((leg, *point))
+        farthest_place(self.best.as_ref()?, self.paths.get(number)?)
     }
 
     /// Ends the search. What was found stays.

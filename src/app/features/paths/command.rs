@@ -9,7 +9,7 @@ use meshbrush_core::document::PathCost;
 use meshbrush_core::layers::LayerId;
 
 /// Why nothing can be done with a path of a document without one.
-pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool (P).";
+pub const NO_PATH: &str = "There is no path: set its start and goal with the path tool[ ({path})].";
 
 /// One thing to do with paths. Points and lengths are in world units.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +42,8 @@ pub enum PathCommand {
     DeleteAll,
     /// Names the path that is shown. Further changes join this gesture.
     Name(String),
+    /// Leads a path along the one that was shown before its proof found a better one.
+    KeepFormer(usize),
     /// Makes the start the goal of the path that is shown.
     Swap,
     /// Sets what paths cost. Further changes join this gesture.

@@ -3,6 +3,7 @@
 use super::{NO_PATH, Paths};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::Ctx;
+use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
 
@@ -34,7 +35,7 @@ impl Paths {
     fn current_paths(&mut self, ctx: &mut Ctx<'_>) -> Option<Shapes> {
         let plan = &ctx.session.document().settings().paths;
         if plan.routes.is_empty() {
-            ctx.session.report(NO_PATH);
+            ctx.session.report(with_keys(ctx.egui, NO_PATH));
             return None;
         }
         let shown = self.finder.shown();

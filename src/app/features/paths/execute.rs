@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::alternatives::farthest_place;
 use super::front::FrontFinder;
 use super::keep_out::load;
 use super::{
@@ -13,6 +14,9 @@ use super::{
 };
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
+use crate::app::notices::Offer;
+use crate::app::widgets::format;
+use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;
@@ -50,6 +54,7 @@ impl Feature for Paths {
                     self.change_paths(|plan| plan.routes[route].reverse(), ctx);
                 }
             }
+            PathCommand::KeepFormer(route) => self.keep_former(route, ctx),
             PathCommand::AddCorridor => self.add_corridor(ctx),
             PathCommand::MoveCorridor(id) => self.take_paths(id, ctx),
             PathCommand::Cost(cost) => self.set_paths(|plan| plan.cost = cost, ctx),
@@ -70,6 +75,13 @@ impl Feature for Paths {
     fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
         let route = self.tool.route_in(plan(ctx));
         self.finder.advance(ctx.session, route, ctx.jobs);
+        if let Some((number, excess)) = self.finder.take_exchanged() {
+            let (name, less) = (plan(ctx).name(number), format::percent_above(excess / (1.0 + excess)));
+            let text =
+                format!("The proof of {name} found a path that costs {less} less, and shows that one.");
+            let command = Command::Path(PathCommand::KeepFormer(number));
+            ctx.session.notices_mut().tell_with_offer(text, Offer { label: "Keep the former", command });
+        }
         false
     }
 
@@ -94,7 +106,16 @@ impl Paths {
         let (view, of_paths) = (&*ctx.view, (&self.finder, &self.tool));
         let started = export::export(ctx.session, view, of_paths, ctx.background, path);
         if let Err(problem) = started {
-            ctx.fail(problem);
+            ctx.fail(with_keys(ctx.egui, &problem).into_owned());
+        }
+    }
+
+    /// Leads a path along the one before its proof, by a place in between.
+    fn keep_former(&mut self, route: usize, ctx: &mut Ctx<'_>) {
+        let found = self.finder.shown().get(route).and_then(|shown| shown.found.as_ref());
+        let place = found.and_then(|found| farthest_place(&found.solution, found.former.as_ref()?));
+        if let Some((leg, at)) = place.filter(|_| self.finder.is_current(ctx.session)) {
+            self.insert_place((route, leg + 1), at, ctx);
         }
     }
 

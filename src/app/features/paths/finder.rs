@@ -49,6 +49,8 @@ pub struct PathFinder {
     planner: Option<(KnownPlanner, MeshKey)>,
     key: Option<Key>,
     shown: Vec<ShownPath>,
+    /// Whether it was said that a proof exchanged the path.
+    told: Vec<bool>,
     /// The data with which the shown paths were found.
     basis: Option<Known>,
     prover: Prover,
@@ -86,6 +88,23 @@ impl PathFinder {
     /// Returns whether the paths are those of the document as it is.
     pub fn is_current(&self, session: &Session) -> bool {
         self.key.as_ref().is_some_and(|key| key.document == session.document().revision() && !key.is_live)
+    }
+
+    /// Returns the number of a path that a proof has exchanged for a better one since the last call, with the
+    /// share by which the former costs more.
+    pub fn take_exchanged(&mut self) -> Option<(usize, f64)> {
+        let excess = |shown: &ShownPath| shown.found.as_ref().and_then(FoundPath::former_excess);
+        self.told.resize(self.shown.len(), false);
+        let number = (0..self.shown.len()).find(|&n| !self.told[n] && excess(&self.shown[n]).is_some())?;
+        self.told[number] = true;
+        Some((number, excess(&self.shown[number])?))
+    }
+
+    /// Makes a path the one that was shown before a proof.
+    #[cfg(test)]
+    pub fn set_former(&mut self, number: usize, former: meshbrush_core::path::Solution) {
+        let found = self.shown[number].found.as_mut().expect("a complete path");
+        found.former = Some(Box::new(former));
     }
 
     /// Takes what was found, waiting as long as the frame may, and begins what is to be found next. The
@@ -206,6 +225,7 @@ impl PathFinder {
 
     fn take_paths(&mut self, routes: Vec<Result<FoundPath, PathError>>) {
         self.shown.resize_with(routes.len(), ShownPath::default);
+        self.told.clear();
         for (shown, found) in self.shown.iter_mut().zip(routes) {
             match found {
                 Ok(found) => *shown = ShownPath { found: Some(found), problem: None },

@@ -106,7 +106,8 @@ fn shortened(name: String) -> String {
     }
 }
 
-/// The alternatives, and the path that is pointed at in their list or on the front.
+/// The alternatives, the path before its proof, and the path that is pointed at in their list or on the
+/// front.
 fn paint_others(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let line = |path: &Solution, color, width| {
         let points = path.points.iter().map(|&point| (over.screen_from_world)(point));
@@ -114,6 +115,10 @@ fn paint_others(state: &FrameState<'_>, over: &OverMesh<'_>) {
     };
     let alternatives = &state.features.paths.finder.alternatives;
     alternatives.paths().iter().for_each(|path| line(path, ALTERNATIVE_COLOR, THIN));
+    let selected = state.features.paths.tool.route_in(&state.session.document().settings().paths);
+    let shown = selected.and_then(|number| state.features.paths.finder.shown().get(number));
+    let former = shown.and_then(|shown| shown.found.as_ref()?.former.as_deref());
+    former.into_iter().for_each(|path| line(path, ALTERNATIVE_COLOR, THIN));
     let pointed = alternatives.pointed.and_then(|number| alternatives.paths().get(number));
     let of_front = state.features.paths.finder.front.pointed().map(|point| &point.solution);
     pointed.into_iter().chain(of_front).for_each(|path| line(path, POINTED_COLOR, WIDTH));

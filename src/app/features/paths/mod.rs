@@ -42,7 +42,7 @@ use options::PATH_OPTIONS;
 use panel::{OTHER_PATHS, PATH_COST, PATH_PANEL};
 pub use tool::PATH;
 use tool::PathTool;
-use work::FoundPath;
+use work::{FoundPath, ShownPath};
 
 /// What the window keeps of paths; their places and their cost are in the document.
 #[derive(Default)]

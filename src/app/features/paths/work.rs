@@ -54,19 +54,33 @@ pub struct FoundPath {
     pub profile: Vec<PathSample>,
     /// Why its certificate ended.
     pub end: Option<CertificateEnd>,
+    /// The path that was shown before its certificate found a better one.
+    pub former: Option<Box<Solution>>,
 }
 
 impl FoundPath {
     fn new(solution: Solution, density: &dyn CostDensity) -> Self {
         let profile = solution.profile(density, PROFILE_SAMPLES);
-        Self { solution, profile, end: None }
+        Self { solution, profile, end: None, former: None }
     }
 
-    /// Takes what a certificate found out.
+    /// Takes what a certificate found out. The path that a person saw first is kept.
     pub fn take(&mut self, proved: Solution, density: &dyn CostDensity) {
+        let former = self.solution.clone();
         if self.solution.take(proved) {
             self.profile = self.solution.profile(density, PROFILE_SAMPLES);
+            self.former.get_or_insert_with(|| Box::new(former));
         }
+    }
+
+    /// Returns the highest risk on the way: that of the profile.
+    pub fn highest_risk(&self) -> f64 {
+        self.profile.iter().map(|sample| sample.risk).fold(self.solution.highest_risk, f64::max)
+    }
+
+    /// Returns how much more than this path the one before its proof costs, as a share.
+    pub fn former_excess(&self) -> Option<f64> {
+        self.former.as_ref().map(|former| former.cost / self.solution.cost - 1.0)
     }
 }
 

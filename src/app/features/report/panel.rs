@@ -63,7 +63,10 @@ fn title(ui: &mut Ui, figure: ReportFigure, commands: &mut Vec<Command>) {
 
 fn nothing_to_compare(figure: ReportFigure) -> Option<&'static str> {
     Some(match figure {
-        ReportFigure::CoarseGrid => "Go to the first step (F10, then Shift+←) to compare the numbers.",
+        ReportFigure::CoarseGrid => {
+            "Go to the first step to compare the numbers[: {step-through-the-refinement} shows the steps][, {first-step} goes \
+             to the first]."
+        }
         ReportFigure::Descendants | ReportFigure::Neighbours => {
             "This is another step. Open the figure again to compare the numbers."
         }

@@ -34,6 +34,6 @@ pub use tabs::tab_bar;
 pub use text_row::{TextError, TextRow};
 pub use toggle::toggle_row;
 pub use tool_button::{ActionButton, ButtonKind, ToolButton};
-pub use transfer::{CurveValues, TransferCurve};
+pub use transfer::{CurveField, CurveValues, TransferCurve};
 
 use super::{Icon, format, paint};

@@ -90,6 +90,12 @@ impl NumberCell<'_> {
         ui.ctx().request_repaint();
     }
 
+    /// Returns the number that is being typed in the cell `id`, if it can be read.
+    pub fn typed_so_far(ui: &Ui, id: Id, unit: &str) -> Option<f64> {
+        let text = ui.data(|data| data.get_temp::<String>(id))?;
+        typed::number(&text, unit).ok().filter(|typed| typed.is_finite())
+    }
+
     fn take_up_editing(&self, ui: &Ui) {
         let id = self.id.with("edit soon");
         if ui.input(|input| !input.pointer.any_click())

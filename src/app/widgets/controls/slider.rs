@@ -130,6 +130,11 @@ impl<'a> SliderRow<'a> {
         self
     }
 
+    /// Returns the number that is being typed for the slider named `label` in this place, if it can be read.
+    pub fn typed_so_far(ui: &Ui, label: &str, unit: &str) -> Option<f64> {
+        NumberCell::typed_so_far(ui, number_id(ui.make_persistent_id(("slider", label))), unit)
+    }
+
     /// Shows the row.
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let row = paint::row(ui);

@@ -18,6 +18,8 @@ use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{reveal, tips};
 use meshbrush_mesh::text::LengthUnit;
 
+/// Identifies the curve in its panel.
+const ID: &str = "transfer curve";
 /// Height of the plot; the numbers are in a row below it.
 const HEIGHT: f32 = 104.0;
 /// Space between the two numbers below the plot.
@@ -40,6 +42,15 @@ pub struct CurveValues {
     pub h_risk: f64,
     /// The shape of the curve, positive; the caller's formula says what it means.
     pub shape: f64,
+}
+
+/// A diameter of the curve that can be typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CurveField {
+    /// That at risk 0.
+    Largest,
+    /// That at risk 1.
+    AtRiskOne,
 }
 
 /// Diameter over risk: risk 0 to 1 from left to right, the diameter on a logarithmic axis of whole decades.
@@ -78,6 +89,14 @@ impl<'a> TransferCurve<'a> {
         Self { value, curve, limits, shapes, mark: None, unit, defaults }
     }
 
+    /// Returns the diameter that is being typed in this place, if it can be read.
+    pub fn typed_so_far(ui: &Ui, unit: &str) -> Option<(CurveField, f64)> {
+        let id = ui.make_persistent_id(ID);
+        let typed = |handle| NumberCell::typed_so_far(ui, number_id(id, handle), unit);
+        let largest = typed(Handle::Max).map(|typed| (CurveField::Largest, typed));
+        largest.or_else(|| typed(Handle::Min).map(|typed| (CurveField::AtRiskOne, typed)))
+    }
+
     /// Marks a risk on the curve, such as that under the pointer on the canvas.
     pub fn mark(mut self, risk: Option<f64>) -> Self {
         self.mark = risk;
@@ -101,7 +120,7 @@ impl<'a> TransferCurve<'a> {
     pub fn show(mut self, ui: &mut Ui) -> Response {
         let before = *self.value;
         let (_, rect) = ui.allocate_space(vec2(ui.available_width(), HEIGHT));
-        let id = ui.make_persistent_id("transfer curve");
+        let id = ui.make_persistent_id(ID);
         let mut response = ui.interact(rect, id, Sense::hover());
         let inner = rect.shrink2(vec2(12.0, 14.0));
         let plot = Plot { rect: inner.with_min_x(rect.left() + AXIS), axis: self.axis(ui, id) };

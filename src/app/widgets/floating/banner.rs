@@ -27,6 +27,8 @@ pub enum BannerAnswer {
     Dismissed,
     /// The button was clicked.
     Acted,
+    /// The second button was clicked.
+    ActedOtherwise,
 }
 
 /// A sentence with an icon, a cross to dismiss it, and possibly a button.
@@ -35,23 +37,30 @@ pub struct Banner<'a> {
     kind: BannerKind,
     text: &'a str,
     action: Option<&'a str>,
+    other: Option<&'a str>,
     stands: bool,
 }
 
 impl<'a> Banner<'a> {
     /// Something failed; `text` says what, why, and what helps.
     pub fn error(text: &'a str) -> Self {
-        Self { kind: BannerKind::Error, text, action: None, stands: false }
+        Self { kind: BannerKind::Error, text, action: None, other: None, stands: false }
     }
 
     /// News.
     pub fn info(text: &'a str) -> Self {
-        Self { kind: BannerKind::Info, text, action: None, stands: false }
+        Self { kind: BannerKind::Info, text, action: None, other: None, stands: false }
     }
 
     /// Returns a button that helps.
     pub fn action(mut self, action: &'a str) -> Self {
         self.action = Some(action);
+        self
+    }
+
+    /// Returns a second button, left of the first.
+    pub fn other(mut self, other: &'a str) -> Self {
+        self.other = Some(other);
         self
     }
 
@@ -78,7 +87,8 @@ impl<'a> Banner<'a> {
     }
 
     fn contents(&self, ui: &mut Ui, icon: Icon, color: Color32) -> BannerAnswer {
-        let button = self.action.map_or(0.0, |action| action_width(ui, action) + 8.0);
+        let buttons = [self.action, self.other].into_iter().flatten();
+        let button: f32 = buttons.map(|label| action_width(ui, label) + 8.0).sum();
         let cross = if self.stands { 0.0 } else { metrics::ROW };
         let room = ui.available_width() - 28.0 - button - cross - 8.0;
         let text = ui.painter().layout(self.text.to_owned(), font::body(), tokens(ui).text, room);
@@ -103,8 +113,12 @@ impl<'a> Banner<'a> {
                 return BannerAnswer::Dismissed;
             }
         }
-        match self.action {
-            Some(action) if child.add(ActionButton::new(action).vanishing()).clicked() => BannerAnswer::Acted,
+        let mut clicked = |label: Option<&str>| {
+            label.is_some_and(|l| child.add(ActionButton::new(l).vanishing()).clicked())
+        };
+        match (clicked(self.action), clicked(self.other)) {
+            (true, _) => BannerAnswer::Acted,
+            (_, true) => BannerAnswer::ActedOtherwise,
             _ => BannerAnswer::Open,
         }
     }

@@ -82,6 +82,8 @@ pub enum Operation {
     CancelStroke,
     Undo,
     Redo,
+    /// Returns to the settings of some gestures before; paint stays.
+    ReturnTo(usize),
     ClearPaint,
     /// Adds a shape to the domain, or takes it away.
     Cut(CutShape, bool),
@@ -99,7 +101,7 @@ pub enum Operation {
 
 impl Operation {
     pub fn choose(choices: &mut impl Choices, scale: Scale) -> Self {
-        match choices.below(46) {
+        match choices.below(47) {
             0..14 => Self::stroke(choices, scale),
             14 => {
                 let brush = brush(choices, scale);
@@ -118,6 +120,7 @@ impl Operation {
             24..28 => Self::Cut(cut_shape(choices), choices.below(3) == 0),
             28..31 => Self::draw(choices),
             36 => Self::Reopen,
+            46 => Self::ReturnTo(1 + choices.below(3)),
             37.. => Self::Layers(LayerEdit::choose(choices, scale)),
             _ => Self::Set(setting(choices, scale)),
         }
@@ -162,6 +165,13 @@ impl Operation {
             Self::CancelStroke => document.cancel_stroke(),
             Self::Undo => _ = document.undo(),
             Self::Redo => _ = document.redo(),
+            Self::ReturnTo(gestures) => {
+                let mut earlier = document.clone();
+                (0..gestures).for_each(|_| _ = earlier.undo());
+                let (wanted, paint) = (earlier.settings().clone(), document.paint().clone());
+                document.return_to(&wanted);
+                assert_eq!(*document.paint(), paint, "paint stays");
+            }
             Self::ClearPaint => document.clear_paint(),
             Self::Cut(cut_shape, adds) => {
                 if let Some(domain) = document.settings().domain.reshaped(&cut_shape, adds) {

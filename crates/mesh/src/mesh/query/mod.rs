@@ -3,6 +3,7 @@
 
 mod adjacency;
 mod cause;
+mod census;
 mod check;
 mod cleaning;
 mod fingerprint;
@@ -18,6 +19,7 @@ mod tree;
 
 pub use adjacency::Adjacency;
 pub use cause::Cause;
+pub use census::Census;
 pub use check::Violation;
 pub use cleaning::{Cleaning, KeptParts, Removed, RemovedPart};
 pub use fingerprint::{Fingerprint, fingerprint_of};

@@ -77,10 +77,19 @@ pub fn curve_plot(
     (changed, response)
 }
 
-/// Shows buttons that make the usual curves. Returns the curve of the one that was clicked.
-pub fn usual_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) -> Option<ValueCurve> {
+/// What was done with the buttons of the usual curves.
+#[derive(Default)]
+pub struct UsualCurves {
+    /// The curve of the button that was clicked.
+    pub chosen: Option<ValueCurve>,
+    /// The curve of the button under the pointer.
+    pub hovered: Option<ValueCurve>,
+}
+
+/// Shows buttons that make the usual curves.
+pub fn usual_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) -> UsualCurves {
     let transfer = state.session.document().settings().transfer;
-    let mut chosen = None;
+    let mut done = UsualCurves::default();
     ui.add_space(4.0);
     ui.horizontal_wrapped(|ui| {
         for (name, place) in [
@@ -88,13 +97,15 @@ pub fn usual_curves(ui: &mut Ui, state: &FrameState<'_>, source: &RasterSource) 
             ("Fine near 0", FineAt::Zero),
             ("Fine at high", FineAt::Greatest),
         ] {
-            if ui.add(ActionButton::new(name)).clicked() {
+            let button = ui.add(ActionButton::new(name));
+            if button.clicked() || button.hovered() {
                 let sample = Sample::of(ui, &source.raster);
-                chosen = ValueCurve::fine_at(place, &sample.sorted, transfer.h_min, transfer.h_max);
+                let curve = ValueCurve::fine_at(place, &sample.sorted, transfer.h_min, transfer.h_max);
+                if button.clicked() { done.chosen = curve } else { done.hovered = curve }
             }
         }
     });
-    chosen
+    done
 }
 
 /// Shows the knots of a curve. Returns the curve once it was changed.

@@ -8,9 +8,10 @@ use super::curve::{curve_plot, curve_rows, usual_curves};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use crate::app::kit::{
-    Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once,
+    Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once, size_price_row,
 };
 use crate::app::widgets::{Icon, ValueRow, format, segmented};
+use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
 use meshbrush_io::io;
@@ -95,10 +96,22 @@ fn curve_controls(
         set_kind(layer, kind(curve), commands);
     }
     end_gesture_when_released(&response, commands);
-    let chosen = usual_curves(ui, state, source);
-    if let Some(curve) = chosen.or(curve_rows(ui, curve, state.unit())) {
+    let usual = usual_curves(ui, state, source);
+    let candidate = usual.hovered.map(|curve| with_kind(state, layer, kind(curve)));
+    let kinds = [Setting::Layers(Vec::new()).kind()];
+    size_price_row(ui, state, &kinds, candidate, commands);
+    if let Some(curve) = usual.chosen.or(curve_rows(ui, curve, state.unit())) {
         set_kind_once(layer, kind(curve), commands);
     }
+}
+
+/// Returns the layers of the document, where one asks for something else.
+fn with_kind(state: &FrameState<'_>, layer: &Layer, kind: LayerKind) -> Setting {
+    let mut layers = state.session.document().settings().layers.clone();
+    if let Some(changed) = layers.iter_mut().find(|other| other.id == layer.id) {
+        changed.kind = kind;
+    }
+    Setting::Layers(layers)
 }
 
 /// Returns the reading of a raster with another meaning. A new curve is fine where the layer was fine: where

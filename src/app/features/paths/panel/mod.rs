@@ -8,7 +8,7 @@ mod others;
 use eframe::egui::{RichText, Ui};
 
 use crate::app::command::{Command, EditCommand};
-use crate::app::features::paths::{FoundPath, PathCommand};
+use crate::app::features::paths::{FoundPath, PathCommand, ShownPath};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::{Icon, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view};
@@ -59,9 +59,16 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             ui.label(text.font(font::body()).color(tokens(ui).danger));
             ui.add_space(4.0);
         }
-        match shown.and_then(|shown| shown.found.as_ref()) {
-            Some(found) => figures(ui, state, found, commands),
-            None => remark(ui, "The path is being found."),
+        let Some(shown) = shown else { return };
+        match &shown.found {
+            Some(found) => {
+                figures(ui, state, found);
+                former_row(ui, state, (route, found), commands);
+                proof(ui, state, shown, commands);
+                profile_view(ui, state, found, commands);
+            }
+            None if shown.problem.is_none() => remark(ui, "The path is being found."),
+            None => {}
         }
     });
 }
@@ -103,7 +110,7 @@ fn name_row(ui: &mut Ui, plan: &PathPlan, route: usize, commands: &mut Vec<Comma
     ui.add_space(4.0);
 }
 
-fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {
+fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
     let solution = &found.solution;
     let number = |value: f64| format::significant(value, 4);
     let has_bound = solution.lower > 0.0;
@@ -111,7 +118,7 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         true => format!("within {} of optimal", percent_above(solution.gap())),
         false => "…".to_owned(),
     };
-    let optimum = format!("{} … {}", number(solution.lower), number(solution.upper));
+    let optimum = format::interval(solution.lower, solution.upper);
     let metric = if state.unit() == LengthUnit::Degree { IN_DEGREES } else { IN_THE_PLANE };
     let rows = [
         ("Cost", number(solution.cost), "The integral of the cost per length along the path that is shown."),
@@ -119,7 +126,11 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
         ("Least possible cost", optimum, LEAST_POSSIBLE),
         ("Length", format::length(solution.length, state.unit()), metric),
         ("Accumulated risk", number(solution.risk), "The risk, summed up along the path."),
-        ("Highest risk", number(solution.highest_risk), "The highest risk on the way, 0 to 1."),
+        (
+            "Highest risk",
+            number(found.highest_risk()),
+            "The highest risk on the way, 0 to 1: the top of the plot.",
+        ),
     ];
     ui.scope(|ui| {
         // The figures and the profile are in sight together.
@@ -131,18 +142,66 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mu
     if state.unit() == LengthUnit::Degree {
         remark(ui, "Lengths and costs are measured in degrees of the plane, not in metres on the earth.");
     }
+    if let Some(diameter) = boundary_diameter(state) {
+        let diameter = format::length(diameter, state.unit());
+        remark(
+            ui,
+            &format!("Along the outline the path can cut capes by up to {diameter}, the boundary diameter."),
+        );
+    }
+}
+
+/// Returns the diameter along the outline of a domain of polygons.
+fn boundary_diameter(state: &FrameState<'_>) -> Option<f64> {
+    let settings = state.session.document().settings();
+    settings.domain.region()?;
+    settings.boundary.diameter()
+}
+
+/// Shows the path before its proof found a better one, if there was one.
+fn former_row(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    (route, found): (usize, &FoundPath),
+    commands: &mut Vec<Command>,
+) {
+    let Some((former, excess)) = found.former.as_ref().zip(found.former_excess()) else { return };
+    let (excess, length) = (format::percent_above(excess), format::length(former.length, state.unit()));
+    let value = format!("+{excess} · {length}");
+    let help = "The proof found the better path that is shown; this is the one before it, thin on the canvas, with its \
+                cost above the better one and its length. A click leads the path along it, by a place in between.";
+    let row = ValueRow::new("Path before the proof", &value).help(help);
+    if row.link().show(ui).clicked() {
+        commands.push(Command::Path(PathCommand::KeepFormer(route)));
+    }
+}
+
+/// Asks for the width of the interval, and says how far the proof is.
+fn proof(ui: &mut Ui, state: &FrameState<'_>, shown: &ShownPath, commands: &mut Vec<Command>) {
     let mut width = state.features.paths.finder.width();
     if dropdown_row(ui, "Prove within", &mut width, &WIDTHS).changed() {
         commands.push(Command::Path(PathCommand::Width(width)));
     }
-    match (state.features.paths.finder.is_current(state.session), state.features.paths.finder.is_proving()) {
-        (false, _) => remark(ui, "The path is being found."),
-        (true, true) => remark(ui, "The bound is being improved."),
-        (true, false) if solution.gap() > state.features.paths.finder.width() => {
-            remark(ui, &found.end.map_or_else(|| NO_PROOF.to_owned(), |end| end.to_string()));
+    remark(ui, &state_of(state, shown));
+}
+
+/// Returns a sentence that says how far the work on a path is.
+fn state_of(state: &FrameState<'_>, shown: &ShownPath) -> String {
+    let finder = &state.features.paths.finder;
+    let found = shown.found.as_ref();
+    match (finder.is_current(state.session), finder.is_proving()) {
+        (false, _) => "The path is being found.".to_owned(),
+        _ if shown.problem.is_some() => "The figures are those of the outdated path.".to_owned(),
+        (true, true) => "The bound is being improved.".to_owned(),
+        (true, false) if found.is_some_and(|found| found.solution.gap() > finder.width()) => {
+            let end = found.and_then(|found| found.end);
+            end.map_or_else(|| NO_PROOF.to_owned(), |end| end.to_string())
         }
-        (true, false) => remark(ui, "Path and bound are up to date."),
+        (true, false) => "Path and bound are up to date.".to_owned(),
     }
+}
+
+fn profile_view(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let distance = plot_view(ui, "Risk along the path", &profile(state, found), HEIGHT);
     if distance != state.features.paths.tool.shown_distance {

@@ -6,6 +6,7 @@ mod export;
 mod keep_out;
 mod names;
 mod others;
+mod truth;
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers};

@@ -1,0 +1,113 @@
+//! The panel of a path says what is so: about outdated paths, proofs, digits, and coasts.
+
+use std::sync::Arc;
+
+use eframe::egui::Modifiers;
+use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
+
+use super::{GOAL, Window, row, shown, wait_for_paths, window_with_path};
+use crate::app::command::{Command, EditCommand};
+use crate::app::features::paths::PathCommand;
+use crate::app::tests::{
+    click, click_button, entries, move_to, notice, press, release, send, set, settings, wait_until,
+};
+use crate::app::widgets::format;
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
+use meshbrush_core::path::Solution;
+use meshbrush_mesh::geometry::Rect;
+
+fn says(window: &Window, text: &str) -> bool {
+    window.query_by_label_contains(text).is_some()
+}
+
+#[test]
+fn a_path_with_an_error_is_not_called_up_to_date() {
+    let mut window = window_with_path();
+    assert!(says(&window, "Path and bound are up to date."));
+    press(&mut window, GOAL, Modifiers::NONE);
+    move_to(&mut window, dvec2(0.9, 1.05));
+    release(&mut window, dvec2(0.9, 1.05));
+    wait_until(&mut window, |window| shown(window)[0].problem.is_some());
+    window.run();
+    assert!(says(&window, "The path that is shown is outdated."));
+    assert!(!says(&window, "up to date") && says(&window, "The figures are those of the outdated path."));
+    let problem = shown(&window)[0].problem.clone().unwrap().to_string();
+    let longest = problem.split([' ', '(', ')', ',']).map(str::len).max();
+    assert!(longest < Some(13), "digits that nobody reads: {problem}");
+}
+
+#[test]
+fn the_highest_risk_is_the_top_of_the_plot_and_the_interval_has_two_ends() {
+    let window = window_with_path();
+    let found = shown(&window)[0].found.as_ref().unwrap();
+    let top = found.profile.iter().map(|sample| sample.risk).fold(0.0, f64::max);
+    assert!(top >= found.solution.highest_risk);
+    assert_eq!(row(&window, "Highest risk"), format::significant(top, 4));
+    let interval = row(&window, "Least possible cost");
+    let (lower, upper) = interval.split_once(" … ").unwrap();
+    assert_ne!(lower, upper);
+}
+
+/// Puts another path in the place of the one that was shown before a proof.
+fn exchange(window: &mut Window, former: Solution) {
+    let paths = &mut window.state_mut().features.paths;
+    paths.finder.set_former(0, former);
+    window.run();
+}
+
+#[test]
+fn a_proof_that_exchanges_the_path_says_so_and_the_former_one_can_be_kept() {
+    let way = dvec2(0.12, 0.88);
+    let former = {
+        let mut window = window_with_path();
+        click(&mut window, way, Modifiers::COMMAND);
+        wait_for_paths(&mut window);
+        shown(&window)[0].found.clone().unwrap().solution
+    };
+    for by_message in [true, false] {
+        let mut window = window_with_path();
+        assert!(!says(&window, "Path before the proof"));
+        let places = settings(&window).paths.routes[0].clone();
+        let cost = shown(&window)[0].found.as_ref().unwrap().solution.cost;
+        let mut direct = former.clone();
+        direct.stops = vec![0, former.points.len() - 1];
+        exchange(&mut window, direct);
+        let less = format::percent_above(1.0 - cost / former.cost);
+        let text = format!("The proof of Path 1 found a path that costs {less} less, and shows that one.");
+        assert_eq!(notice(&window), text);
+        let gestures = entries(&window);
+        match by_message {
+            true => click_button(&mut window, "Keep the former"),
+            false => click_button(&mut window, "Path before the proof"),
+        }
+        let kept = settings(&window).paths.routes[0].clone();
+        assert_eq!((kept.len(), kept[0], kept[2]), (3, places[0], places[1]));
+        assert!(kept[1].distance(way) < 0.1, "{}", kept[1]);
+        assert_eq!(entries(&window), gestures + 1);
+        send(&mut window, Command::Edit(EditCommand::Undo));
+        assert_eq!(settings(&window).paths.routes[0], places);
+    }
+}
+
+#[test]
+fn on_a_coast_the_panel_says_how_far_the_path_can_cut_capes() {
+    let mut window = window_with_path();
+    assert!(!says(&window, "capes"));
+    let ring = vec![dvec2(0.01, 0.01), dvec2(0.99, 0.02), dvec2(0.98, 0.99), dvec2(0.02, 0.98)];
+    let region = Arc::new(Region::new(&[vec![ring]], Rect::UNIT));
+    set(&mut window, Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region) }));
+    set(&mut window, Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 0.04 }));
+    wait_for_paths(&mut window);
+    assert!(says(&window, "Along the outline the path can cut capes by up to 0.04, the boundary diameter."));
+}
+
+#[test]
+fn what_lacks_a_path_names_the_key_that_works() {
+    let mut window = window_with_path();
+    send(&mut window, Command::Path(PathCommand::DeleteAll));
+    send(&mut window, Command::Path(PathCommand::AddCorridor));
+    let text = notice(&window);
+    assert_eq!(text, "There is no path: set its start and goal with the path tool (P).");
+}
