@@ -155,7 +155,7 @@ fn question(need: Need, before: Option<usize>, budget: u64) -> String {
     let now = before
         .map_or(String::new(), |before| format!(" The mesh has {} and waits.", format::count(before as u64)));
     let over = match need.triangles() > budget {
-        true => format!(" The budgets allow {}: the edit would be taken back there.", format::count(budget)),
+        true => format!(" The budgets allow {}, so the edit would be taken back.", format::count(budget)),
         false => String::new(),
     };
     format!("This edit needs {triangles} triangles.{now}{over} Apply it?")

@@ -121,6 +121,7 @@ fn update_text(state: &FrameState<'_>) -> String {
     match session.stage() {
         // Also during work: which glyphs it needed would depend on the machine's speed.
         _ if state.reproducible => NONE.into(),
+        _ if session.question().is_some() => "waits".into(),
         Stage::InStep => time(session.last_update()),
         // How far it is, the canvas says.
         Stage::Indexing | Stage::Checking | Stage::Copying { .. } | Stage::Refining { .. } => {

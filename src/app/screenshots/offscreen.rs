@@ -99,7 +99,7 @@ impl OffscreenWindow {
         while quiet < SETTLING_FRAMES {
             self.frame();
             let session = &self.app.session;
-            let is_settled = session.stage().is_settled()
+            let is_settled = (session.stage().is_settled() || session.question().is_some())
                 && session.pricer().progress() == Progress::Done
                 && !session.is_cutting()
                 && !self.works_on_files();
