@@ -153,7 +153,7 @@ fn question(need: Need, before: Option<usize>, budget: u64) -> String {
         Need::MoreThan(triangles) => format!("more than {}", format::about(triangles)),
     };
     let now = before
-        .map_or(String::new(), |before| format!(" The mesh has {} and waits.", format::count(before as u64)));
+        .map_or(String::new(), |before| format!(" The mesh had {} and waits.", format::count(before as u64)));
     let over = match need.triangles() > budget {
         true => format!(" The budgets allow {}, so the edit would be taken back.", format::count(budget)),
         false => String::new(),
