@@ -10,7 +10,7 @@ use glam::dvec2;
 
 use super::{
     FREE, PAINTED_RISK, Window, button_event, fingerprint, key, level_at, notice, on_screen, painted,
-    release_at, set, stroke, triangles, value_of, window, window_with,
+    release_at, send, set, stroke, triangles, value_of, window, window_with,
 };
 use crate::app::busy::MOMENT;
 use crate::app::command::{Command, EditCommand};
@@ -24,6 +24,17 @@ fn at_60_frames_a_second(size: Vec2) -> Window {
     window_with(Harness::builder().with_size(size).with_step_dt(1.0 / 60.0))
 }
 
+/// Makes the first example's mesh have about two million triangles, which is asked for first.
+fn set_two_millions(window: &mut Window) {
+    set(window, Setting::DiameterAtRiskOne(TWO_MILLIONS));
+    agree(window);
+}
+
+fn agree(window: &mut Window) {
+    assert!(window.state().session().question().is_some(), "so many triangles are asked for");
+    send(window, Command::Edit(EditCommand::ApplyAnyway));
+}
+
 /// Runs as few frames as possible until the progress of long work is shown.
 fn show_progress(window: &mut Window) {
     window.step();
@@ -35,7 +46,7 @@ fn show_progress(window: &mut Window) {
 #[test]
 fn the_former_mesh_is_shown_until_the_new_one_is_whole() {
     let mut window = at_60_frames_a_second(vec2(1440.0, 900.0));
-    set(&mut window, Setting::DiameterAtRiskOne(TWO_MILLIONS));
+    set_two_millions(&mut window);
     let (before, generation) = (fingerprint(&window), window.state().session().follower().revision());
     // Layers and limits are followed in place; another grid is another mesh.
     window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
@@ -63,7 +74,7 @@ fn in_a_small_window_nothing_covers_the_button_that_cancels() {
 #[test]
 fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
     let mut window = at_60_frames_a_second(vec2(1440.0, 900.0));
-    set(&mut window, Setting::DiameterAtRiskOne(TWO_MILLIONS));
+    set_two_millions(&mut window);
     let before = fingerprint(&window);
     window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Spacing(1.0 / 23.0))));
     show_progress(&mut window);
@@ -127,6 +138,7 @@ fn a_long_stroke_never_waits_for_the_mesh() {
     assert!(document.stroke().is_some());
     assert!(painted(&window, PAINTED_RISK, FREE - dvec2(0.05, 0.0)) > 0.1, "paint does not wait");
     release_at(&mut window, from, PointerButton::Primary);
+    agree(&mut window);
     assert!(level_at(&window, FREE) > 10);
 }
 
@@ -143,6 +155,8 @@ fn the_time_of_an_update_is_that_on_the_clock_with_a_unit() {
     // What is drawn between the slices takes time, too.
     std::thread::sleep(Duration::from_millis(300));
     window.run();
+    assert_eq!(update(&window), "waits");
+    agree(&mut window);
     assert!(has_unit(&update(&window)), "{}", update(&window));
     let measured = window.state().session().last_update().unwrap();
     assert!(measured >= Duration::from_millis(300) && measured <= began.elapsed(), "{measured:?}");
