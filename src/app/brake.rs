@@ -188,6 +188,15 @@ impl Brake {
         matches!(self.state, State::Estimating(_) | State::Asking { .. })
     }
 
+    /// Returns whether the mesh of other settings waits.
+    fn holds_other(&self, settings: &Settings) -> bool {
+        match &self.state {
+            State::Asking { settings: held, .. } => **held != *settings,
+            State::Estimating(work) => work.0 != *settings,
+            State::Free | State::Agreed { .. } => false,
+        }
+    }
+
     /// Returns what the settings need, while that is asked.
     pub fn question(&self) -> Option<Need> {
         if let State::Asking { need, .. } = self.state { Some(need) } else { None }
@@ -226,6 +235,10 @@ impl Session {
     /// Returns whether work is left that can be done now.
     pub(super) fn follow_as_agreed(&mut self, threads: &Threads, deadline: Instant) -> bool {
         let (document, follower, brake) = (&mut self.document, &mut self.follower, &mut self.brake);
+        if brake.holds_other(document.settings()) {
+            // Or the follower would complete the mesh that is held, before that of the document.
+            follower.drop_update();
+        }
         let Some(most) = brake.most(document, follower) else {
             draw_stroke(document, deadline);
             let estimates = threads.run(|| brake.advance(document, follower, deadline));

@@ -62,9 +62,12 @@ fn a_smaller_edit_answers_the_question_and_paint_is_kept_with_the_mesh() {
     let largest = settings(&window).transfer.h_max;
     set(&mut window, FAR_TOO_FINE);
     assert!(has_button(&window, KEEP));
-    set(&mut window, Setting::LargestDiameter(0.1));
-    assert!(!has_button(&window, KEEP) && triangles(&window) < 100_000, "{}", triangles(&window));
+    let transfer = settings(&window).transfer;
+    assert!(transfer.h_risk < 0.001, "the largest diameter takes the others along");
     set(&mut window, Setting::LargestDiameter(largest));
+    set(&mut window, Setting::DiameterAtRiskOne(0.003));
+    assert!(!has_button(&window, KEEP) && triangles(&window) < 100_000, "{}", triangles(&window));
+    let largest = settings(&window).transfer.h_max;
     set(&mut window, FAR_TOO_FINE);
     let paint = window.state().session().document().paint().clone();
     stroke(&mut window, FREE, FREE);

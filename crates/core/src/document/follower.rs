@@ -179,6 +179,15 @@ impl Follower {
         }
     }
 
+    /// Drops the update of the mesh that is left: it is for former settings, and nobody wants its mesh. The
+    /// next slice begins to make that of the document.
+    pub fn drop_update(&mut self) {
+        if matches!(self.state, FollowState::Updating { .. }) {
+            self.shown.cancel();
+            self.state = FollowState::InStep;
+        }
+    }
+
     /// Takes over what changed in the document, and does one slice of work: about `budget` edges, pixels or
     /// triangles.
     ///
