@@ -442,10 +442,19 @@ fn archives_packed_by_other_tools_are_opened() {
     assert!(opened(&rewritten(str::to_owned)).unwrap() == small());
 }
 
+/// The version that the program writes.
+const VERSION: &str = "\"version\": 5";
+
+/// Returns the settings as if an older program had written them.
+fn of_version(text: &str, version: u32) -> String {
+    assert!(text.contains(VERSION), "{text}");
+    text.replace(VERSION, &format!("\"version\": {version}"))
+}
+
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace("\"version\": 4", "\"version\": 7, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
     refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 5"]);
@@ -454,7 +463,7 @@ fn a_newer_version_is_named() {
 /// The curve from risk to diameter ended at the smallest diameter.
 #[test]
 fn in_a_project_of_version_3_the_diameter_at_risk_1_is_the_smallest() {
-    let older = rewritten(|text| text.replace("\"version\": 4", "\"version\": 3"));
+    let older = rewritten(|text| of_version(text, 3));
     let transfer = opened(&older).unwrap().settings.transfer;
     assert_eq!(transfer.h_risk, transfer.h_min);
     let newer = rewritten(|text| text.replace("\"h_max\":", "\"h_risk\": 0.01, \"h_max\":"));
@@ -464,15 +473,17 @@ fn in_a_project_of_version_3_the_diameter_at_risk_1_is_the_smallest() {
 }
 
 #[test]
-fn a_project_of_version_2_opens() {
-    let older = rewritten(|text| text.replace("\"version\": 4", "\"version\": 2"));
-    assert!(opened(&older).unwrap() == small());
+fn projects_of_versions_2_and_4_open() {
+    for version in [2, 4] {
+        let older = rewritten(|text| of_version(text, version));
+        assert!(opened(&older).unwrap() == small(), "version {version}");
+    }
 }
 
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        ("\"version\": 4", "\"version\": 4, \"seasons\": 4", &["line 3", "seasons"]),
+        (VERSION, "\"version\": 5, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
@@ -514,7 +525,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        ["\"version\": 4", &format!("\"version\": 7, \"{long}\": 1")],
+        [VERSION, &format!("\"version\": 7, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -522,7 +533,7 @@ fn errors_stay_short_for_long_values() {
         let bytes = rewritten(|text| {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
-                "\"version\": 4",
+                VERSION,
                 "\"version\": 7",
                 usize::from(from.contains("written")),
             )

@@ -20,12 +20,14 @@ use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainToolMode;
 use super::features::paths::{AlternativesCommand, FrontCommand, PATH, PathCommand};
 use super::features::plots::{PlotKind, PlotsCommand};
+use super::features::regions::{RegionCommand, RegionShape, RegionTarget};
 use super::features::report::FigureCommand;
 use super::tools::PaintKind;
 use super::view::FieldOverlay;
 use crate::app::features::inspection::QUERY;
 pub use manual::write as write_manual;
-use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::document::{DrawnShape, Example, Setting};
+use meshbrush_core::domain::CutShape;
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_io::io;
@@ -43,7 +45,7 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 19] = [
+const SCENES: [Scene; 20] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
@@ -59,6 +61,7 @@ const SCENES: [Scene; 19] = [
     scene("path", path),
     Scene { name: "front", size: [1280.0, 1360.0], px_per_point: 1.0, act: front },
     scene("boundary", boundary),
+    scene("region", region),
     scene("light", light),
     scene("deep", deep),
     scene("palette", palette),
@@ -217,6 +220,27 @@ fn boundary(window: &mut OffscreenWindow) {
     window.send(Command::Boundary(BoundaryCommand::Mode(BoundaryToolMode::Select)));
     window.send(Command::Boundary(BoundaryCommand::Click(dvec2(24.9, 35.35), 0.3)));
     point_at(window, dvec2(26.0, 38.3));
+}
+
+/// A keep-out region that was drawn by hand, another one under way, and the mask of a layer.
+fn region(window: &mut OffscreenWindow) {
+    path(window);
+    let draw = |shape| Command::Region(RegionCommand::Draw(DrawnShape::Area(shape), true));
+    let end = || Command::Edit(EditCommand::EndGesture);
+    window.send(Command::Region(RegionCommand::Target(RegionTarget::KeepOut)));
+    let corners = vec![dvec2(64.0, 28.0), dvec2(77.0, 36.0), dvec2(72.0, 47.0), dvec2(62.0, 40.0)];
+    window.send(draw(CutShape::Polygon(corners)));
+    window.send(end());
+    window.send(Command::Region(RegionCommand::Target(RegionTarget::Mask)));
+    window.send(Command::Brush(BrushCommand::Radius(12.0)));
+    window.send(draw(CutShape::Stroke { path: vec![dvec2(20.0, 30.0), dvec2(40.0, 70.0)], radius: 12.0 }));
+    window.send(end());
+    window.send(Command::Region(RegionCommand::Target(RegionTarget::KeepOut)));
+    window.send(Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+    for corner in [dvec2(80.0, 50.0), dvec2(96.0, 52.0), dvec2(94.0, 62.0)] {
+        window.send(Command::Region(RegionCommand::AddCorner(corner)));
+    }
+    point_at(window, dvec2(84.0, 64.0));
 }
 
 /// The first example in the light theme.

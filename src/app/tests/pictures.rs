@@ -201,7 +201,7 @@ fn the_canvas_shows_the_mask_and_the_shapes_of_the_selected_layer() {
 }
 
 #[test]
-#[ignore = "draws all 19 twice: sh tests/long"]
+#[ignore = "draws all 20 twice: sh tests/long"]
 fn the_screenshots_are_the_same_every_time() {
     let take = |name: &str| {
         let folder = scratch(name);
@@ -212,6 +212,6 @@ fn the_screenshots_are_the_same_every_time() {
         let second = scope.spawn(|| take("screenshots-2"));
         (take("screenshots-1"), second.join().unwrap())
     });
-    assert_eq!(first.len(), 19);
+    assert_eq!(first.len(), 20);
     assert!(first == second, "the same commands, another picture");
 }

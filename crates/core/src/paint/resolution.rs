@@ -13,11 +13,6 @@ const LEAST_RADIUS_PX: f64 = 32.0;
 /// A segment is painted at most this many levels deeper than its widest point or the whole brush needs.
 const MOST_EXTRA_DEPTH: u8 = 3;
 
-/// Upper limit of the number of tiles of a segment, unless depth 0 has more. A tile is 4 KB, and less than 8
-/// with what is kept beside it, so a thin line across a large domain takes at most 32 MB. A line that is four
-/// thousand times as long as its radius still has 16 pixels for the radius.
-const MOST_TILES: f64 = 4096.0;
-
 /// Largest distance from any point to the nearest centre of a pixel, in pixels.
 const HALF_DIAGONAL_PX: f64 = 0.71;
 
@@ -36,12 +31,20 @@ pub(super) struct Segment {
 
 impl Segment {
     /// Creates a segment of the path of a stroke that reaches no further than `bounds`. Returns `None` if it
-    /// reaches no pixel within them.
-    pub fn new(brush: Brush, ends: [PathPoint; 2], bounds: &Rect, grid: &PixelGrid) -> Option<Self> {
+    /// reaches no pixel within them. It has at most about `most_tiles` tiles, unless depth 0 has more.
+    pub fn new(
+        brush: Brush,
+        ends: [PathPoint; 2],
+        bounds: &Rect,
+        grid: &PixelGrid,
+        most_tiles: usize,
+    ) -> Option<Self> {
         let widest = brush.radius * ends[0].size.max(ends[1].size);
         let reach = Rect::spanning(ends[0].at, ends[1].at).expanded(widest);
         let mut depth = wanted_depth(&brush, &ends, grid);
-        while depth > 0 && !is_affordable(depth, &ends, widest, &reach.intersection(bounds)?, grid) {
+        let reached = reach.intersection(bounds)?;
+        let is_affordable = |depth| tile_count(depth, &ends, widest, &reached, grid) <= most_tiles as f64;
+        while depth > 0 && !(is_affordable(depth) && tiles_touching(&reached, depth, grid).is_some()) {
             depth -= 1;
         }
         // A brush is narrower than a pixel only where the depth is limited. It is then widened until it
@@ -104,13 +107,12 @@ fn wanted_depth(brush: &Brush, ends: &[PathPoint; 2], grid: &PixelGrid) -> u8 {
     from.max(to).min(from.min(to).min(needed(1.0)) + MOST_EXTRA_DEPTH)
 }
 
-/// Returns whether the tiles of a depth are within the limits of [`TilePlace`] and not too many.
-fn is_affordable(depth: u8, ends: &[PathPoint; 2], radius: f64, area: &Rect, grid: &PixelGrid) -> bool {
+/// Returns about how many tiles of a depth a segment has in an area that it reaches.
+fn tile_count(depth: u8, ends: &[PathPoint; 2], radius: f64, area: &Rect, grid: &PixelGrid) -> f64 {
     let tile = grid.pixel * f64::from(TILE) * power_of_two(-i32::from(depth));
     let length = (ends[1].at - ends[0].at).length().min(area.size().length());
     let width = 2.0 * radius + tile.max_element();
-    let count = (length + width) * width / (tile.x * tile.y);
-    count <= MOST_TILES && tiles_touching(area, depth, grid).is_some()
+    (length + width) * width / (tile.x * tile.y)
 }
 
 /// Returns the tiles of a depth that touch a rectangle, row by row, or `None` if one is beyond the limits.

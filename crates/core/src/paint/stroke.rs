@@ -1,4 +1,5 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -35,6 +36,8 @@ pub struct Stroke {
     mirror: Mirror,
     /// The last point of the path.
     last: Option<PathPoint>,
+    /// The tiles of the raster before the stroke, and those of all segments so far.
+    tiles: usize,
     /// Segments that are not drawn yet, in order.
     pending: VecDeque<Segment>,
     /// The former tile at each place that the stroke changed.
@@ -61,6 +64,7 @@ impl Stroke {
             bounds,
             mirror: Mirror::default(),
             last: None,
+            tiles: 0,
             pending: VecDeque::new(),
             before: Patch::default(),
             covered: BTreeMap::new(),
@@ -82,10 +86,17 @@ impl Stroke {
     pub fn extend(&mut self, raster: &TiledRaster, point: impl Into<PathPoint>) {
         let point = point.into();
         if point.is_finite() {
+            if self.last.is_none() {
+                self.tiles = raster.tile_count();
+            }
             let from = self.last.replace(point).unwrap_or(point);
             let segments = self.mirror.segments([from, point]);
-            let (brush, bounds, grid) = (self.brush, &self.bounds, raster.grid());
-            self.pending.extend(segments.filter_map(|ends| Segment::new(brush, ends, bounds, grid)));
+            for ends in segments {
+                let most = most_tiles_beside(self.tiles);
+                let segment = Segment::new(self.brush, ends, &self.bounds, raster.grid(), most);
+                self.tiles += segment.as_ref().map_or(0, |segment| segment.places.len());
+                self.pending.extend(segment);
+            }
         }
     }
 
@@ -189,6 +200,17 @@ impl Stroke {
         });
         Some(range_of(&touched.before))
     }
+}
+
+/// Returns how many tiles the next segment of a stroke may have, where there are `tiles` already.
+///
+/// A line that is four thousand times as long as its radius has 16 pixels for the radius. Where a person paints
+/// on and on with a radius that is far below a pixel of the screen, pixels get coarser: a tile and what is kept
+/// of it above take 16 KB, and so a gigabyte is reached slowly. A dab always has as many pixels as it needs.
+fn most_tiles_beside(tiles: usize) -> usize {
+    const MANY: usize = 65_536;
+    const OF_A_SEGMENT: RangeInclusive<usize> = 16..=4096;
+    (MANY.saturating_sub(tiles) / 16).clamp(*OF_A_SEGMENT.start(), *OF_A_SEGMENT.end())
 }
 
 /// Returns the coverage of each pixel of a tile by a segment; `None` if it is 0 everywhere.

@@ -371,7 +371,7 @@ fn a_hair_across_everything_and_a_pen_that_touches_down_take_few_tiles() {
     let grid = PixelGrid::filling(&Rect::UNIT, [2048, 2048]);
     let end = |x: f64, size| PathPoint { at: dvec2(x, 0.3), size, strength: 1.0 };
     let count = |radius, ends| {
-        let segment = Segment::new(Brush { radius, ..RISK }, ends, &Rect::UNIT, &grid).unwrap();
+        let segment = Segment::new(Brush { radius, ..RISK }, ends, &Rect::UNIT, &grid, 4096).unwrap();
         let depth = segment.places.iter().map(|place| place.depth).max();
         (segment.places.len(), depth.unwrap())
     };
@@ -383,8 +383,24 @@ fn a_hair_across_everything_and_a_pen_that_touches_down_take_few_tiles() {
     assert!(tiles < 4000, "{tiles}");
     let (tiles, depth) = count(1e30, [end(0.5, 1.0), end(1e200, 1.0)]);
     assert_eq!((tiles, depth), (64 * 64, 0));
-    let far = Segment::new(RISK, [end(7.0, 1.0), end(1e300, 1.0)], &Rect::UNIT, &grid);
+    let far = Segment::new(RISK, [end(7.0, 1.0), end(1e300, 1.0)], &Rect::UNIT, &grid, 4096);
     assert!(far.is_none());
+}
+
+#[test]
+fn a_long_stroke_with_a_hair_takes_a_bounded_number_of_tiles() {
+    let mut raster = risks();
+    let mut stroke = Stroke::new(Brush { radius: 1e-6, ..RISK }, 1.0, Rect::UNIT);
+    for n in 0..200 {
+        stroke.extend(&raster, dvec2(f64::from(n % 2), f64::from(n) / 200.0));
+    }
+    assert!(stroke.tiles < 70_000, "{} tiles", stroke.tiles);
+    while stroke.advance(&mut raster, 1 << 20).is_some() {}
+    // Each segment crosses x = 0.5 in the middle of its rise, and a pixel is never wider than 1/200.
+    let is_painted = |y: f64| (-500..500).any(|n| raster.sample(dvec2(0.5, y + f64::from(n) * 1e-5)) > 0.0);
+    for n in 1..200 {
+        assert!(is_painted((f64::from(n) - 0.5) / 200.0), "segment {n}");
+    }
 }
 
 #[test]
