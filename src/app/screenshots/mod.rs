@@ -229,7 +229,7 @@ fn region(window: &mut OffscreenWindow) {
     let end = || Command::Edit(EditCommand::EndGesture);
     window.send(Command::Region(RegionCommand::Target(RegionTarget::KeepOut)));
     let corners = vec![dvec2(64.0, 28.0), dvec2(77.0, 36.0), dvec2(72.0, 47.0), dvec2(62.0, 40.0)];
-    window.send(draw(CutShape::Polygon(corners)));
+    window.send(draw(CutShape::Ring(corners)));
     window.send(end());
     window.send(Command::Region(RegionCommand::Target(RegionTarget::Mask)));
     window.send(Command::Brush(BrushCommand::Radius(12.0)));

@@ -320,6 +320,7 @@ pub fn area(window: &Window) -> f64 {
 }
 
 pub fn scratch(name: &str) -> PathBuf {
+    fs::create_dir_all(FOLDER).unwrap();
     PathBuf::from(FOLDER).join(name)
 }
 
