@@ -62,15 +62,15 @@ fn meshes(text: &str) -> Vec<Option<(String, usize)>> {
 }
 
 #[test]
-fn two_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
-    let mut random = fastrand::Rng::with_seed(7);
+fn three_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
+    let mut random = fastrand::Rng::with_seed(11);
     let scale = Scale { diameter: 0.03, smallest: 0.03, triangles: 100_000 };
     let mut document = recorded(Settings { spacing: 0.25, ..Settings::default() });
     let mut follower = Follower::new(&mut document).unwrap();
     let edits = |document: &Document| document.recording().unwrap().edits().len();
     let mut expected = vec![shown(&mut document, &mut follower)];
     let mut was_undone = false;
-    while edits(&document) < 200 {
+    while edits(&document) < 300 {
         // What was undone is often done again.
         let operation = match was_undone && random.bool() {
             true => Operation::Redo,
@@ -91,7 +91,12 @@ fn two_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
         assert!(new <= 2, "one gesture, or the end of a stroke and a gesture");
         (1..new).for_each(|_| expected.push(None));
         if new > 0 {
+            let is_stuck = mesh.is_none();
             expected.push(mesh);
+            // A document over a budget would stay there for many gestures.
+            if is_stuck && document.undo() {
+                expected.push(shown(&mut document, &mut follower));
+            }
         }
     }
     let text = exported(&document);
@@ -99,12 +104,14 @@ fn two_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
     assert_eq!(written.len(), expected.len());
     let compared = written.iter().zip(&expected).filter(|(_, expected)| expected.is_some());
     assert!(compared.clone().all(|(written, expected)| written == expected));
-    assert!(compared.count() > 150);
+    let (count, all) = (compared.count(), expected.len());
+    assert!(count > 250, "{count} meshes of {all}");
     let kinds = |kind: fn(&Edit) -> bool| {
         document.recording().unwrap().edits().iter().filter(|edit| kind(&edit.edit)).count()
     };
-    assert!(kinds(|edit| matches!(edit, Edit::Stroke(_))) > 30);
-    assert!(kinds(|edit| matches!(edit, Edit::Settings(_))) > 30);
+    let (strokes, settings) =
+        (kinds(|edit| matches!(edit, Edit::Stroke(_))), kinds(|edit| matches!(edit, Edit::Settings(_))));
+    assert!(strokes > 30 && settings > 30, "{strokes} {settings}");
     assert!(kinds(|edit| matches!(edit, Edit::Undo)) > 5 && kinds(|edit| matches!(edit, Edit::Redo)) > 0);
     let replayed = replayed(&text).unwrap();
     assert_eq!((replayed.edits, replayed.difference), (edits(&document), None));
