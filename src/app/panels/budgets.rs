@@ -61,13 +61,10 @@ fn needs(ui: &mut Ui, state: &FrameState<'_>) {
     let (mesh, limits) = (session.mesh(), session.document().settings().limits());
     let most = limits.most_triangles();
     let share = 100.0 * mesh.raw_triangle_count() as f64 / most as f64;
-    let used = format!(
-        "{} of {} ({} %)",
-        format::count(mesh.raw_triangle_count() as u64),
-        format::about(most as u64),
-        format::digits(share, 2)
-    );
-    let help = "The triangles of the mesh, of those that the smaller of the two budgets allows.";
+    let count = format::count(mesh.raw_triangle_count() as u64);
+    let used = format!("{count} ({} %)", format::digits(share, 2));
+    let help =
+        "The triangles of the mesh, and their share of those that the smaller of the two budgets allows.";
     ValueRow::new("Triangles in use", &used).help(help).show(ui);
     value_row(ui, "Memory in use", &format!("{} MB", format::fixed(mesh.bytes() as f64 / MEGABYTE, 1)));
     let (text, over) = match session.need() {

@@ -15,8 +15,9 @@ use meshbrush_render::render::Image;
 const WINDOW: Vec2 = vec2(980.0, 640.0);
 /// Size of a window of which a picture shows the canvas only.
 const SQUARE: Vec2 = vec2(360.0, 460.0);
-/// Height of the lower dock of a window that is 900 points high, in points.
-const LOWER_DOCK: f32 = 452.0;
+/// Height of a window whose lower dock shows all of the tab *Size*, and of that dock, in points.
+const TALL: f32 = 1140.0;
+const LOWER_DOCK: f32 = 582.0;
 /// Height of the hint at the bottom of the canvas, in points.
 const HINT: f32 = 56.0;
 /// A level beyond those of the first example.
@@ -51,7 +52,7 @@ fn window() -> Result<Image, String> {
 
 /// Returns the lower dock of the first example: the transfer curve, gradation and budgets.
 fn panel() -> Result<Image, String> {
-    let mut window = OffscreenWindow::open(vec2(WINDOW.x, 900.0), 1.0)?;
+    let mut window = OffscreenWindow::open(vec2(WINDOW.x, TALL), 1.0)?;
     let picture = window.picture()?;
     let canvas = window.canvas_rect().ok_or("The window has no canvas.")?;
     let corner = canvas.right_bottom() - vec2(0.0, LOWER_DOCK);

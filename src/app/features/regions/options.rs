@@ -13,7 +13,9 @@ pub static REGION_OPTIONS: [StripItem; 6] = [
     StripItem::new(248.0, 1, shape_row),
     StripItem::new(112.0, 2, cuts_row),
     StripItem::new(136.0, 3, radius_row).only(|state| state.tools.region.shape() == RegionShape::Brush),
-    StripItem::new(208.0, 4, keep_out_row).only(|state| state.tools.region.target == RegionTarget::KeepOut),
+    StripItem::new(224.0, 4, keep_out_row)
+        .stretching()
+        .only(|state| state.tools.region.target == RegionTarget::KeepOut),
     StripItem::new(208.0, 5, name_row).only(|state| keep_out(state).is_some()),
 ];
 
