@@ -5,7 +5,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::notices::{Notice, Notices};
 use super::session::Session;
 
-/// Environment variable that asks for the lines. `tests/frame_times.py` and `tests/random_events.py` read them.
+/// Environment variable that asks for the lines. `tests/frame_times.py` and `tests/random_events.py` read
+/// them.
 const VARIABLE: &str = "MESHBRUSH_FRAMES";
 
 /// Tells when frames were drawn, and what the mesh was.

@@ -40,7 +40,7 @@ pub struct Session {
     pub(super) size_change: SizeChange,
     /// Holds updates that need very many triangles.
     pub(super) brake: Brake,
-    cuts: CutQueue,
+    pub(super) cuts: CutQueue,
     queried: Option<DVec2>,
     /// The middles of the triangles on the way to the queried one, in world units.
     trail: Vec<DVec2>,
@@ -230,7 +230,7 @@ impl Session {
     }
 
     /// Shows that an edit failed. The next edit dismisses the message.
-    fn report_edit(&mut self, failure: impl std::fmt::Display) {
+    pub(super) fn report_edit(&mut self, failure: impl std::fmt::Display) {
         self.notices.report_edit(self.document.version(), failure);
     }
 
@@ -285,18 +285,6 @@ impl Session {
         self.cuts.areas(counts)
     }
 
-    /// Takes finished cuts into the document, waiting for them as long as the frame may. Returns whether any
-    /// are left.
-    pub fn advance_cuts(&mut self, jobs: &Jobs) -> bool {
-        match self.cuts.advance(&mut self.document, jobs) {
-            Ok(left) => left,
-            Err(error) => {
-                self.report_edit(error);
-                self.is_cutting()
-            }
-        }
-    }
-
     /// Returns whether there is a gesture to take back, including one in progress.
     pub fn can_undo(&self) -> bool {
         let document = &self.document;
@@ -319,15 +307,6 @@ impl Session {
     pub fn redo(&mut self) {
         self.cuts.discard(&mut self.document);
         self.document.redo();
-    }
-
-    /// Drops the cut in progress: all of it, where the brush is still down.
-    pub fn drop_cut(&mut self) {
-        let begun = self.document.is_in_gesture();
-        self.cuts.discard(&mut self.document);
-        if begun {
-            self.document.undo();
-        }
     }
 
     /// Replaces the document by another one. This cannot be undone.

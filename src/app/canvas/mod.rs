@@ -16,7 +16,7 @@ mod way_back;
 use eframe::egui::{
     self, Context, CursorIcon, Event, Id, Key, PointerButton, Popup, Rect, Response, Sense, TouchPhase, Ui,
 };
-use glam::{DVec2, dvec2};
+use glam::DVec2;
 
 pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
@@ -115,15 +115,6 @@ impl Canvas {
     /// Returns the widget of the canvas, once it was shown.
     pub fn id(&self) -> Option<Id> {
         self.shown.map(|(id, _)| id)
-    }
-
-    /// Opens the menu for the point under the pointer, or else for the middle of the view.
-    pub fn open_menu(&self, ctx: &Context, view: &View) {
-        let (Some((id, rect)), Some(camera)) = (self.shown, view.camera) else { return };
-        let under_pointer = ctx.pointer_latest_pos().filter(|at| rect.contains(*at));
-        let at = under_pointer.unwrap_or(rect.center());
-        let px = at - rect.min;
-        menu::open_by_key(ctx, id, at, camera.world_from_screen(dvec2(px.x.into(), px.y.into())));
     }
 
     /// Says what a key did, for a moment.

@@ -9,7 +9,8 @@ use crate::app::command::Command;
 pub struct StripItem {
     /// Its least width on the strip, in points.
     pub width: f32,
-    /// Whether it gets wider where the strip has room: it shows a number that can have many digits and a unit.
+    /// Whether it gets wider where the strip has room: it shows a number with many digits and a unit, or a
+    /// name.
     pub stretches: bool,
     /// Its importance: where the strip is too narrow for all, those with the highest numbers are in the popup
     /// at the end of the strip. Items without a place on the strip are always there.

@@ -295,8 +295,7 @@ fn on_screen(window: &OffscreenWindow, world: DVec2) -> Pos2 {
 mod tests {
     use super::*;
 
-    /// Sizes of windows in points, with pixels for a point: small and large screens, and 2160 and 1080 pixels at
-    /// 200 %.
+    /// Sizes of windows in points, with pixels for a point: small and large screens, and some at 200 %.
     const SCREENS: [([f32; 2], f32); 5] = [
         ([1280.0, 720.0], 1.0),
         ([1440.0, 900.0], 1.0),

@@ -1,5 +1,5 @@
-//! A walk through all controls without a pointer: each has a role and a name for screen readers, and Tab leads to
-//! it. `MESHBRUSH_LONG=1` lets Tab go through every state.
+//! A walk through all controls without a pointer: each has a role and a name for screen readers, and Tab
+//! leads to it. `MESHBRUSH_LONG=1` lets Tab go through every state.
 
 use std::collections::BTreeSet;
 

@@ -10,10 +10,7 @@ const EDGE: f32 = 2.0;
 /// choice is that of its group and its own. A key is written as the id of its entry in braces, and what to
 /// leave out where there is none, in brackets: `[; {undo}]`.
 static SENTENCES: &[(&str, &str)] = &[
-    (
-        "Open background…",
-        "Reads a picture that is shown behind the mesh; a world file beside it says where it lies.",
-    ),
+    ("Open background…", "Reads a picture to show behind the mesh; a world file beside it says where."),
     ("Tab/Size", "The target diameter: its limits, the curve from risk, gradation and budgets."),
     ("Tab/Inspect", "The queried triangle, pins, and why the triangle is in the mesh."),
     ("Tab/Paths", "Paths of least cost, other paths beside them, and what paths cost."),

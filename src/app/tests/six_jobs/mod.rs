@@ -1,6 +1,6 @@
 //! Six jobs done by the pointer at 1440 × 900: no control must be scrolled to, and the clicks are counted.
-//! With one column of sections at the right, the same jobs took 64 clicks and 20 scrolls; now they take 65 and none.
-//! `MESHBRUSH_SCREENS=/tmp/screens` leaves a picture of each there.
+//! With one column of sections at the right, the same jobs took 64 clicks and 20 scrolls; now they take 65
+//! and none. `MESHBRUSH_SCREENS=/tmp/screens` leaves a picture of each there.
 
 mod hands;
 

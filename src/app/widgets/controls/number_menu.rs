@@ -10,9 +10,9 @@ pub(super) const WAYS: &str = "Type it, drag it, or hold Ctrl and turn the wheel
 /// Seconds that the window waits for the contents of the clipboard.
 const PATIENCE: f64 = 1.0;
 
-/// Shows the menu of a number after a secondary click on `response`, or after Shift+F10 while it has the focus.
-/// Returns the default if it was chosen. What is pasted goes into the cell `cell`; without one, nothing can be
-/// pasted.
+/// Shows the menu of a number after a secondary click on `response`, or after Shift+F10 while it has the
+/// focus. Returns the default if it was chosen. What is pasted goes into the cell `cell`; without one,
+/// nothing can be pasted.
 pub(super) fn number_menu(
     ui: &Ui,
     response: &Response,
