@@ -1,12 +1,13 @@
 //! The menu of a point on the canvas, opened by the secondary button or by keyboard.
 
 use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
-use glam::{DVec2, dvec2};
+use glam::DVec2;
 
 use super::Canvas;
 use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
-use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
+use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
+use crate::app::tools::Tools;
 use crate::app::view::View;
 use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
@@ -24,19 +25,14 @@ pub fn open(ctx: &Context, at: Pos2, world: DVec2) {
 
 impl Canvas {
     /// Opens the menu for the point under the pointer, or else for the middle of the view.
-    pub fn open_menu(&self, ctx: &Context, view: &View) {
-        let (Some((id, rect)), Some(camera)) = (self.shown, view.camera) else { return };
+    pub fn open_menu(&self, ctx: &Context, view: &View, tools: &Tools) {
+        let (Some((canvas, rect)), Some(camera)) = (self.shown, view.camera) else { return };
+        let pointer = Pointer { rect, camera, tools, px_per_point: f64::from(ctx.pixels_per_point()) };
         let under_pointer = ctx.pointer_latest_pos().filter(|at| rect.contains(*at));
         let at = under_pointer.unwrap_or(rect.center());
-        let px = at - rect.min;
-        open_by_key(ctx, id, at, camera.world_from_screen(dvec2(px.x.into(), px.y.into())));
+        ctx.data_mut(|data| data.insert_temp(id(), (at, pointer.world(at))));
+        open_menu_from(ctx, id(), canvas);
     }
-}
-
-/// Opens the menu by keyboard, while the canvas has the focus or nothing has.
-fn open_by_key(ctx: &Context, canvas: Id, at: Pos2, world: DVec2) {
-    ctx.data_mut(|data| data.insert_temp(id(), (at, world)));
-    open_menu_from(ctx, id(), canvas);
 }
 
 /// Shows the menu while it is open.

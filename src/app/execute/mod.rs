@@ -95,7 +95,7 @@ impl App {
                 self.dialogs.open(Dialog::GoTo);
             }
             ShellCommand::AskRole(file) => self.dialogs.ask_role(file),
-            ShellCommand::MenuOfCanvas => self.canvas.open_menu(ctx, &self.view),
+            ShellCommand::MenuOfCanvas => self.canvas.open_menu(ctx, &self.view, &self.tools),
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => {
                 stop_editing_keys(ctx);

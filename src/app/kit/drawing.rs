@@ -22,6 +22,15 @@ pub struct DrawingCommands {
     pub close: fn() -> Command,
 }
 
+impl DrawingCommands {
+    /// Closes the polygon with these `corners` so far. Returns whether one was begun.
+    pub fn close_if_begun(&self, corners: &[DVec2], sent: &mut Vec<Command>) -> bool {
+        let is_begun = !corners.is_empty();
+        sent.extend(is_begun.then(self.close));
+        is_begun
+    }
+}
+
 /// Begins a stroke of the brush, which adds or cuts away.
 pub fn press_brush(
     commands: &'static DrawingCommands,

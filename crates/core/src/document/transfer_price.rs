@@ -130,7 +130,7 @@ impl SizePricer {
     /// Asks for the price of other settings, or for none. Asking the same again keeps the price.
     ///
     /// There is a price only while the follower is in step with its document, no stroke is being painted, and
-    /// the settings leave the coarse grid as it is; and none under the vertex rule.
+    /// the settings leave the coarse grid as it is. Under the vertex rule there is none.
     pub fn ask(&mut self, settings: Option<&Settings>, document: &Document, follower: &Follower) {
         let settings = settings.filter(|_| is_answerable(document, follower));
         let revisions = [document.revision(), follower.revision()];

@@ -11,7 +11,8 @@ pub struct LabelSize {
     pub gap: f64,
 }
 
-/// Shortest edge of a triangle that a label may cover the middle of: the rest of it is still seen.
+/// A label stands in the middle of a triangle whose edges are at least this long: the triangle is still seen
+/// around it.
 const ROOMY: f64 = 48.0;
 /// The distance of a label from a node or an edge.
 const BESIDE_NODE: f64 = 5.0;

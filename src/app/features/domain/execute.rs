@@ -50,9 +50,7 @@ impl Feature for DomainEditor {
     }
 
     fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        let had_corners = !ctx.tools.domain.corners.is_empty();
-        ctx.tools.domain.corners.clear();
-        had_corners
+        !std::mem::take(&mut ctx.tools.domain.corners).is_empty()
     }
 }
 

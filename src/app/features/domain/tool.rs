@@ -110,13 +110,9 @@ static COMMANDS: DrawingCommands = DrawingCommands {
     close: || Command::Domain(DomainCommand::ClosePolygon),
 };
 
-/// Returns the secondary button closes the polygon.
+/// The secondary button closes the polygon.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    let has_polygon = !tools.domain.corners.is_empty();
-    if has_polygon {
-        commands.push(Command::Domain(DomainCommand::ClosePolygon));
-    }
-    has_polygon
+    COMMANDS.close_if_begun(&tools.domain.corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {

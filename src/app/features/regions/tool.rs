@@ -146,11 +146,7 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The secondary button closes the polygon, or ends the line.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    let has_corners = !tools.region.corners.is_empty();
-    if has_corners {
-        commands.push(Command::Region(RegionCommand::Close));
-    }
-    has_corners
+    COMMANDS.close_if_begun(&tools.region.corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
