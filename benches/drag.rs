@@ -9,7 +9,7 @@
 
 use std::time::Instant;
 
-use meshbrush_benches::window::{FRAME_BUDGET, MESH_SLICE, wave};
+use meshbrush_benches::window::{FRAME_BUDGET, Slices, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings};
 use meshbrush_core::layers::Layer;
 
@@ -26,13 +26,15 @@ fn document(h_min: f64) -> Document {
 
 /// Drags one setting and returns how often another mesh was shown.
 fn drag(document: &mut Document, follower: &mut Follower, setting: impl Fn(f64) -> Setting) -> usize {
-    let mut updates = 0;
+    let (mut updates, mut slices) = (0, Slices::default());
     follower.take_change();
     for step in 1..=MOVES {
         document.set(setting(step as f64 / MOVES as f64)).expect("it can be met");
         let deadline = Instant::now() + FRAME_BUDGET;
         while Instant::now() < deadline {
-            if follower.advance(document, MESH_SLICE).expect("the budget is far").is_settled() {
+            if slices
+                .one(|visits| follower.advance(document, visits).expect("the budget is far").is_settled())
+            {
                 break;
             }
         }

@@ -21,7 +21,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, MESH_SLICE, wave};
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, Slices, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::Layer;
@@ -95,6 +95,7 @@ struct Bench {
     follower: Follower,
     pieces: PatchPieces,
     screen: Screen,
+    slices: Slices,
 }
 
 impl Bench {
@@ -109,7 +110,8 @@ impl Bench {
         let (triangles, count) = (follower.mesh().raw_triangle_count(), pieces.triangles().len());
         eprintln!("A mesh of {triangles} triangles; {count} pieces derived in {:.2?}", began.elapsed());
         drop(extract);
-        let mut bench = Self { document, follower, pieces, screen: Screen::open() };
+        let mut bench =
+            Self { document, follower, pieces, screen: Screen::open(), slices: Slices::default() };
         bench.frame(std::iter::empty(), FRAME_BUDGET);
         let began = Instant::now();
         bench.screen.set_pieces(&bench.pieces);
@@ -140,7 +142,12 @@ impl Bench {
     /// Follows the document as `Session::follow` does.
     fn follow(&mut self, deadline: Instant) -> Stage {
         loop {
-            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
+            let Self { document, follower, slices, .. } = self;
+            let mut stage = Stage::InStep;
+            slices.one(|visits| {
+                stage = follower.advance(document, visits).expect("the budget is far");
+                stage == Stage::InStep
+            });
             if stage == Stage::InStep || Instant::now() >= deadline {
                 return stage;
             }

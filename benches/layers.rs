@@ -16,80 +16,19 @@
 //! are not waited for.
 
 use std::hint::black_box;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, MESH_SLICE, wave};
-use meshbrush_core::document::{Document, Follower, Readings, Setting, Settings, Stage};
-use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, Threat, ThreatLaw, Threats, ValueCurve,
-};
-use meshbrush_core::raster::{Raster, RasterPyramid};
-use meshbrush_mesh::geometry::Rect;
+use meshbrush_benches::documents::{THREATS, layered, moved_threat};
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, Slices};
+use meshbrush_core::document::{Document, Follower, Readings, Setting, Stage};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind};
 
 const FRAMES: usize = 120;
 /// The points that the pointer rests on.
 const HOVERS: usize = 2_000;
 /// How often each edit is repeated.
 const ROUNDS: usize = 5;
-/// The layer of threats.
-const THREATS: LayerId = LayerId(4);
-/// Pixels along a side of the raster.
-const RASTER_SIDE: u32 = 2048;
-
-/// Eight layers, of which the first determines the size of the mesh.
-fn layers() -> Vec<Layer> {
-    let source = RasterSource { name: "hills".into(), raster: Arc::new(RasterPyramid::new(hills())) };
-    let curve = ValueCurve::new(vec![[0.5, 0.2], [1.0, 0.01]]).expect("values that increase");
-    let line = [dvec2(0.05, 0.9), dvec2(0.4, 0.7), dvec2(0.95, 0.85)];
-    let lines = ShapeList { lines: vec![line.to_vec()], ..ShapeList::default() };
-    let shapes = Shapes::new(lines, false).expect("a line");
-    let to = DistanceTo::Shapes { name: "road".into(), shapes };
-    let mut layers = Layer::stack([
-        wave(0.45, 0.0011),
-        LayerKind::Raster { source: source.clone(), reading: RasterReading::Curve(Arc::new(curve)) },
-        LayerKind::Band { source, between: [0.9, 0.95], diameter: 0.02 },
-        LayerKind::Distance { to, at_zero: 0.005, slope: 0.3, range: 0.2 },
-        LayerKind::Threats(threats()),
-        LayerKind::constant(0.01),
-        LayerKind::Paint(Quantity::Diameter),
-        LayerKind::Paint(Quantity::Risk),
-    ]);
-    let corners = [dvec2(0.7, 0.1), dvec2(0.9, 0.12), dvec2(0.85, 0.3), dvec2(0.72, 0.25)];
-    layers[5].mask = Some(Mask::new(&[vec![corners.to_vec()]]).expect("a polygon"));
-    layers[5].combine = Combine::Floor;
-    layers
-}
-
-fn hills() -> Raster {
-    let share = |n: u32| f64::from(n) / f64::from(RASTER_SIDE);
-    let height =
-        |x: f64, y: f64| 0.5 + 0.25 * (9.0 * x + 2.0 * y).sin() + 0.25 * (11.0 * y - 3.0 * x * x).cos();
-    let pixel = |n: u32| height(share(n % RASTER_SIDE), share(n / RASTER_SIDE)) as f32;
-    let values = (0..RASTER_SIDE * RASTER_SIDE).map(pixel).collect();
-    Raster::from_values(Rect::UNIT, [RASTER_SIDE; 2], values)
-}
-
-/// Returns shapes of which the first is large and lies above the wave; the others are small and spread over
-/// the square.
-fn threats() -> Threats {
-    let mut random = fastrand::Rng::with_seed(12);
-    let mut threats = vec![moved_threat(0.0)];
-    threats.extend((1..100).map(|n| Threat {
-        at: dvec2(random.f64(), random.f64()),
-        range: 0.01 + 0.02 * random.f64(),
-        peak: 0.7,
-        law: ThreatLaw::ALL[n % 3].0,
-    }));
-    Threats::new(threats).expect("valid threats")
-}
-
-/// Returns the first threat, after a share of the way along which it is dragged.
-fn moved_threat(share: f64) -> Threat {
-    Threat { at: dvec2(0.3 + 0.4 * share, 0.75), range: 0.08, peak: 0.75, law: ThreatLaw::Radar }
-}
 
 /// Returns the most of a figure eight, 2.4 units long.
 fn stroke_at(share: f64) -> DVec2 {
@@ -108,18 +47,17 @@ struct Times {
 struct Bench {
     document: Document,
     follower: Follower,
+    slices: Slices,
 }
 
 impl Bench {
     fn new(gradation: Option<f64>) -> Self {
-        let mut settings = Settings { layers: layers(), gradation, ..Settings::default() };
-        (settings.transfer.h_min, settings.transfer.h_risk) = (0.0011, 0.0011);
-        let mut document = Document::new(settings, None).expect("valid settings");
+        let mut document = layered(0.0011, gradation);
         let began = Instant::now();
         let follower = Follower::new(&mut document).expect("it has a mesh");
         let triangles = follower.mesh().raw_triangle_count();
         eprintln!("Gradation {gradation:?}: {triangles} triangles, from scratch in {:.2?}", began.elapsed());
-        Self { document, follower }
+        Self { document, follower, slices: Slices::default() }
     }
 
     /// Makes an edit and follows it until the mesh is up to date.
@@ -128,32 +66,37 @@ impl Bench {
         self.follower.take_change();
         let began = Instant::now();
         edit(&mut self.document);
+        self.slices.longest = Duration::ZERO;
         loop {
-            let slice = Instant::now();
-            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
-            times.slice = times.slice.max(slice.elapsed());
+            let is_done = self.slice();
             if !has_changed && self.follower.take_change().is_some() {
                 (times.first, has_changed) = (began.elapsed(), true);
             }
-            if stage == Stage::InStep {
+            if is_done {
                 assert!(has_changed, "an edit that changes nothing measures nothing");
-                times.rest = began.elapsed();
+                (times.rest, times.slice) = (began.elapsed(), self.slices.longest);
                 return times;
             }
         }
     }
 
+    /// Does one slice, and returns whether the mesh is up to date.
+    fn slice(&mut self) -> bool {
+        let Self { document, follower, slices } = self;
+        slices.one(|visits| follower.advance(document, visits).expect("the budget is far") == Stage::InStep)
+    }
+
     /// Returns the work of one frame: an edit, and slices until the mesh is up to date or the budget is
-    /// spent.
-    fn frame(&mut self, edit: impl FnOnce(&mut Document)) -> (Duration, Stage) {
+    /// spent; and whether it is up to date.
+    fn frame(&mut self, edit: impl FnOnce(&mut Document)) -> (Duration, bool) {
         let began = Instant::now();
         edit(&mut self.document);
         let deadline = Instant::now() + FRAME_BUDGET;
         loop {
-            let stage = self.follower.advance(&mut self.document, MESH_SLICE).expect("the budget is far");
-            if stage == Stage::InStep || Instant::now() >= deadline {
+            let is_done = self.slice();
+            if is_done || Instant::now() >= deadline {
                 self.follower.take_change();
-                return (began.elapsed(), stage);
+                return (began.elapsed(), is_done);
             }
         }
     }
@@ -161,17 +104,17 @@ impl Bench {
     /// A gesture with one move per frame, then undone.
     fn gesture(&mut self, name: &str, mut step: impl FnMut(&mut Document, f64)) {
         let mut frames = Vec::new();
-        let mut stage = Stage::InStep;
+        let mut is_done = true;
         for n in 0..FRAMES {
-            let (time, reached) = self.frame(|document| step(document, n as f64 / (FRAMES - 1) as f64));
+            let (time, is_followed) = self.frame(|document| step(document, n as f64 / (FRAMES - 1) as f64));
             frames.push(time);
-            stage = reached;
+            is_done = is_followed;
         }
         self.document.end_stroke();
         self.document.end_gesture();
         let began = Instant::now();
-        while stage != Stage::InStep {
-            stage = self.frame(|_| ()).1;
+        while !is_done {
+            is_done = self.frame(|_| ()).1;
         }
         let behind = began.elapsed();
         frames.sort();

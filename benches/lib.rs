@@ -1,5 +1,6 @@
 //! Code that several benches share.
 
 pub mod diamond;
+pub mod documents;
 pub mod field;
 pub mod window;

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use meshbrush_benches::window::{FRAME_BUDGET, MESH_SLICE};
+use meshbrush_benches::window::{FRAME_BUDGET, Slices};
 use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -50,22 +50,22 @@ fn change(document: &Document, follower: &Follower, setting: &Setting) -> Times 
     let (mut document, mut follower) = (document.clone(), follower.clone());
     let revision = follower.revision();
     document.set(setting.clone()).expect("a valid setting");
-    let (began, mut first, mut longest_slice) = (Instant::now(), None, Duration::ZERO);
+    let (began, mut first, mut slices) = (Instant::now(), None, Slices::default());
     loop {
         let deadline = Instant::now() + FRAME_BUDGET;
-        let stage = loop {
-            let slice = Instant::now();
-            let stage = follower.advance(&mut document, MESH_SLICE).expect("the budget is far");
-            longest_slice = longest_slice.max(slice.elapsed());
-            if stage == Stage::InStep || Instant::now() >= deadline {
-                break stage;
+        let is_done = loop {
+            let is_done = slices.one(|visits| {
+                follower.advance(&mut document, visits).expect("the budget is far") == Stage::InStep
+            });
+            if is_done || Instant::now() >= deadline {
+                break is_done;
             }
         };
         follower.take_change();
         if follower.revision() > revision {
             first.get_or_insert(began.elapsed());
         }
-        if stage == Stage::InStep {
+        if is_done {
             break;
         }
     }
@@ -75,6 +75,7 @@ fn change(document: &Document, follower: &Follower, setting: &Setting) -> Times 
     let from_scratch = began.elapsed();
     assert_eq!(scratch.mesh().fingerprint(), follower.mesh().fingerprint());
     let triangles = follower.mesh().raw_triangle_count();
+    let longest_slice = slices.longest;
     Times { first: first.unwrap_or(rest), rest, longest_slice, from_scratch, triangles }
 }
 

@@ -7,7 +7,7 @@
 use std::time::{Duration, Instant};
 
 use glam::dvec2;
-use meshbrush_benches::window::{BRUSH, MESH_SLICE, SLICE, wave};
+use meshbrush_benches::window::{BRUSH, SLICE, Slices, wave};
 use meshbrush_core::document::{Document, Follower, Settings};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::Layer;
@@ -37,9 +37,11 @@ fn paint(document: &mut Document, height: f64) {
 /// Returns the time until the mesh is in step with the document.
 fn settle(document: &mut Document, follower: &mut Follower) -> Duration {
     let start = Instant::now();
+    let mut slices = Slices::default();
     loop {
         if document.advance_stroke(SLICE) == Progress::Done
-            && follower.advance(document, MESH_SLICE).expect("the budget is far").is_settled()
+            && slices
+                .one(|visits| follower.advance(document, visits).expect("the budget is far").is_settled())
         {
             return start.elapsed();
         }

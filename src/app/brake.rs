@@ -234,7 +234,7 @@ impl Session {
     /// Brings the mesh closer to the document, up to the number of triangles for which a question is asked.
     /// Returns whether work is left that can be done now.
     pub(super) fn follow_as_agreed(&mut self, threads: &Threads, deadline: Instant) -> bool {
-        let (document, follower, brake) = (&mut self.document, &mut self.follower, &mut self.brake);
+        let Self { document, follower, brake, pace, .. } = self;
         if brake.holds_other(document.settings()) {
             // Or the follower would complete the mesh that is held, before that of the document.
             follower.drop_update();
@@ -245,7 +245,7 @@ impl Session {
             self.ask_first();
             return estimates || !self.brake.holds();
         };
-        match threads.run(|| follow_document(document, follower, most, deadline)) {
+        match threads.run(|| follow_document(document, follower, pace, most, deadline)) {
             Ok(Followed::Wholly) => false,
             Ok(Followed::Partly) => true,
             Ok(Followed::TooFar) => {

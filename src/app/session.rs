@@ -19,7 +19,7 @@ use super::slices::SLICE;
 use super::threads::Threads;
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{
-    Document, DrawnPart, DrawnShape, Follower, MeshChange, Pricer, Readings, Setting, Stage,
+    Document, DrawnPart, DrawnShape, Follower, MeshChange, Pace, Pricer, Readings, Setting, Stage,
 };
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, CutShape};
 use meshbrush_core::explain::AgesNow;
@@ -33,6 +33,8 @@ pub struct Session {
     pub(super) document: Document,
     document_id: DocumentId,
     pub(super) follower: Follower,
+    /// The size of the slices in which the follower works.
+    pub(super) pace: Pace,
     /// A cache of values at points. It changes no result.
     readings: RefCell<Readings>,
     pricer: Pricer,
@@ -68,6 +70,7 @@ impl Session {
             document,
             document_id: DocumentId::default(),
             follower,
+            pace: Pace::default(),
             readings: RefCell::default(),
             pricer: Pricer::default(),
             size_change: SizeChange::default(),

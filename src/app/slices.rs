@@ -3,15 +3,11 @@
 use std::time::Instant;
 
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower, Stage};
+use meshbrush_core::document::{Document, Follower, Pace, Stage};
 use meshbrush_mesh::mesh::Progress;
 
 /// Pixels of a stroke, or triangles of its price, in one slice of work: well below a millisecond.
 pub const SLICE: usize = 2048;
-
-/// Triangles in one slice of work on the mesh. Few, because a question to a stack of layers with a limit of
-/// gradation can take 20 µs.
-const MESH_SLICE: usize = 256;
 
 /// How far the mesh followed the document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,10 +20,12 @@ pub enum Followed {
     TooFar,
 }
 
-/// Draws the current stroke and brings the follower closer to the document, up to `most` triangles.
+/// Draws the current stroke and brings the follower closer to the document, up to `most` triangles, in slices
+/// of the given pace.
 pub fn follow_document(
     document: &mut Document,
     follower: &mut Follower,
+    pace: &mut Pace,
     most: usize,
     deadline: Instant,
 ) -> Result<Followed, BuildError> {
@@ -35,7 +33,9 @@ pub fn follow_document(
         if document.advance_stroke(SLICE) == Progress::More && Instant::now() < deadline {
             continue;
         }
-        let stage = follower.advance(document, MESH_SLICE)?;
+        let began = Instant::now();
+        let stage = follower.advance(document, pace.visits())?;
+        pace.took(began.elapsed().as_secs_f64());
         if stage.is_settled() {
             return Ok(Followed::Wholly);
         }

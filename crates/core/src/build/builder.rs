@@ -4,7 +4,7 @@ use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::GridError;
-use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SizeField};
+use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SettledPool, SizeField};
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
 };
@@ -59,7 +59,8 @@ struct Refinement {
 
 #[derive(Clone, Debug)]
 enum RefinerByRule {
-    Area(BlockRefiner),
+    /// With what the rule has answered.
+    Area(BlockRefiner, SettledPool),
     /// The vertex rule is not monotone, so that blocks would not fit together.
     Vertex(Refiner, VertexRule),
 }
@@ -254,7 +255,9 @@ impl MeshBuilder {
     fn begin_refinement(&self, domain: DomainOnLattice, field: Arc<SizeField>, mesh: Mesh) -> BuildStep {
         let MeshSpec { limits, rule, .. } = self.spec;
         let refiner = match rule {
-            RefinementRule::Area => RefinerByRule::Area(BlockRefiner::new(&mesh, limits)),
+            RefinementRule::Area => {
+                RefinerByRule::Area(BlockRefiner::new(&mesh, limits), SettledPool::default())
+            }
             RefinementRule::Vertex => {
                 RefinerByRule::Vertex(Refiner::new(&mesh, limits), VertexRule::default())
             }
@@ -288,8 +291,8 @@ impl Refinement {
         let BuiltMesh { domain, field, rule, mesh, .. } = &mut self.built;
         let criterion = RefinementCriterion::new(domain, field, *rule, paint);
         match &mut self.refiner {
-            RefinerByRule::Area(refiner) => refiner
-                .advance(mesh, &criterion.shared(), budget)
+            RefinerByRule::Area(refiner, known) => refiner
+                .advance(mesh, &criterion.shared_with(known), budget)
                 .map_err(|error| error.map_rule(|never| match never {})),
             RefinerByRule::Vertex(refiner, vertex_rule) => {
                 let mut criterion = criterion.resumed(std::mem::take(vertex_rule));
@@ -304,14 +307,14 @@ impl Refinement {
     fn triangles(&self) -> usize {
         let so_far = self.built.mesh.raw_triangle_count();
         match &self.refiner {
-            RefinerByRule::Area(refiner) => refiner.triangles().max(so_far),
+            RefinerByRule::Area(refiner, _) => refiner.triangles().max(so_far),
             RefinerByRule::Vertex(..) => so_far,
         }
     }
 
     fn capped(&self) -> usize {
         match &self.refiner {
-            RefinerByRule::Area(refiner) => refiner.capped(),
+            RefinerByRule::Area(refiner, _) => refiner.capped(),
             RefinerByRule::Vertex(refiner, _) => refiner.capped(),
         }
     }

@@ -1,9 +1,10 @@
+use std::borrow::Borrow;
 use std::convert::Infallible;
 
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
-use crate::layers::{Decision, LeastTarget, PaintLayers, SettledSquares, SizeField};
+use crate::layers::{Decision, LeastTarget, PaintLayers, SettledPool, SettledSquares, SizeField};
 use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule, bisection_edge_length};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, combined
@@ -44,17 +45,6 @@ impl<'a> RefinementCriterion<'a> {
         Self { vertex_rule, ..self }
     }
 
-    /// Returns the same criterion with what an earlier slice of the same work has found out
-    /// ([`Self::into_squares`]).
-    pub(crate) fn with_squares(self, squares: Option<SettledSquares>) -> Self {
-        Self { squares, ..self }
-    }
-
-    /// Returns what the area rule has found out so far.
-    pub(crate) fn into_squares(self) -> Option<SettledSquares> {
-        self.squares
-    }
-
     /// Returns the nodes that the vertex rule has evaluated so far.
     pub fn into_vertex_rule(self) -> VertexRule {
         self.vertex_rule
@@ -81,7 +71,13 @@ impl<'a> RefinementCriterion<'a> {
 
     /// Returns the area rule in a form that several threads can share.
     pub fn shared(&self) -> impl SharedRule<Error = Infallible> {
-        || AreaAnswers { criterion: self, squares: SettledSquares::default() }
+        SharedArea { criterion: self, known: SettledPool::default() }
+    }
+
+    /// Returns the area rule as [`Self::shared`] does. `known` keeps what the threads find out: it must have
+    /// been used for this field and these pixels only.
+    pub(crate) fn shared_with<'b>(&'b self, known: &'b SettledPool) -> impl SharedRule<Error = Infallible> {
+        SharedArea { criterion: self, known }
     }
 
     /// Returns whether a triangle, by its corners and level, exceeds its target by the area rule.
@@ -134,18 +130,52 @@ impl<'a> RefinementCriterion<'a> {
     }
 }
 
+/// The area rule, for several threads.
+struct SharedArea<'a, K> {
+    criterion: &'a RefinementCriterion<'a>,
+    known: K,
+}
+
+impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
+    type Error = Infallible;
+
+    fn answers(&self) -> impl RuleAnswers<Error = Infallible> {
+        let (criterion, known) = (self.criterion, self.known.borrow());
+        AreaAnswers { criterion, known, squares: known.take() }
+    }
+
+    fn questions_per_thread(&self) -> usize {
+        self.criterion.field.questions_per_thread()
+    }
+}
+
 /// The answers of the area rule for one thread.
 struct AreaAnswers<'a> {
     criterion: &'a RefinementCriterion<'a>,
+    known: &'a SettledPool,
     squares: SettledSquares,
+}
+
+impl Drop for AreaAnswers<'_> {
+    fn drop(&mut self) {
+        self.known.put_back(std::mem::take(&mut self.squares));
+    }
 }
 
 impl RuleAnswers for AreaAnswers<'_> {
     type Error = Infallible;
 
+    #[inline]
     fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Infallible> {
         let RefinementCriterion { domain, field, paint, .. } = self.criterion;
         let by_field = || field.levels_within(&mut self.squares, paint, corners, level);
         Ok(domain.levels_within(corners, level, by_field))
+    }
+
+    #[inline]
+    fn exceeds(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<bool, Infallible> {
+        let RefinementCriterion { domain, field, paint, .. } = self.criterion;
+        let by_field = || Ok(field.asks_for_more_nearby(&mut self.squares, paint, corners, level));
+        domain.exceeds_at(corners, level, by_field)
     }
 }

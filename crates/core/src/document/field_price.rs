@@ -4,7 +4,7 @@ use super::pricer::{Price, price_of};
 use super::{Document, Follower, Settings};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
-use crate::layers::{SizeField, SizeFieldSpec};
+use crate::layers::{SettledPool, SizeField, SizeFieldSpec};
 use crate::mesh::{Census, Forecast, Mesh, Progress};
 
 /// Counts in slices how another size field on the lattice of a mesh would change the number of triangles, in
@@ -12,6 +12,8 @@ use crate::mesh::{Census, Forecast, Mesh, Progress};
 #[derive(Clone, Debug)]
 pub(super) struct FieldPrice {
     field: Arc<SizeField>,
+    /// What the field has answered.
+    known: SettledPool,
     forecast: Forecast,
 }
 
@@ -21,7 +23,7 @@ impl FieldPrice {
     pub(super) fn new(field: Arc<SizeField>, area: &Rect, follower: &Follower) -> Option<Self> {
         let area = follower.field().lattice().rect_around(area)?;
         let forecast = Forecast::new(follower.mesh(), area, &follower.settings().limits());
-        Some(Self { field, forecast })
+        Some(Self { field, known: SettledPool::default(), forecast })
     }
 
     /// Looks at up to `visits` more triangles. Returns the price once it is known.
@@ -33,9 +35,9 @@ impl FieldPrice {
     ) -> Option<Price> {
         let domain = follower.domain();
         let criterion = RefinementCriterion::by_area(domain, &self.field, document.paint());
-        let exceeds = |corners, level| criterion.exceeds_at(corners, level);
         let is_in_domain = |corners, _| !domain.excludes_at(corners);
-        let progress = self.forecast.advance(follower.mesh(), exceeds, is_in_domain, visits);
+        let rule = criterion.shared_with(&self.known);
+        let progress = self.forecast.advance(follower.mesh(), &rule, is_in_domain, visits);
         price_of(progress, &self.forecast)
     }
 }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::layers::{LayerId, PaintChange, SettledSquares, SizeField};
+use crate::layers::{LayerId, PaintChange, SettledPool, SizeField};
 use crate::mesh::TargetChange;
 
 /// The changes since the shown mesh was up to date, and the answers of the fields that decide about them.
@@ -14,8 +14,8 @@ pub(super) struct Pending {
     finer: Option<Vec<LayerId>>,
     /// [`SizeField::of_layers_alone`] of the layers that asked for less the last time.
     alone: Option<Alone>,
-    /// The squares settled by the field of all layers.
-    squares: Option<SettledSquares>,
+    /// What the field of all layers has answered.
+    known: SettledPool,
 }
 
 /// A field of some layers of another one.
@@ -24,16 +24,16 @@ struct Alone {
     layers: Vec<LayerId>,
     whole: Arc<SizeField>,
     field: SizeField,
-    squares: Option<SettledSquares>,
+    known: SettledPool,
 }
 
 impl Pending {
     /// Notes that paint has changed; `was_in_step` says whether the mesh was in step before.
     pub(super) fn paint(&mut self, was_in_step: bool, changes: &[PaintChange], field: &Arc<SizeField>) {
         let areas = || changes.iter().map(|change| change.area);
-        self.squares.iter_mut().for_each(|squares| field.forget(squares, areas()));
-        if let Some(Alone { field, squares: Some(squares), .. }) = &mut self.alone {
-            field.forget(squares, areas());
+        self.known.all_mut().iter_mut().for_each(|squares| field.forget(squares, areas()));
+        if let Some(Alone { field, known, .. }) = &mut self.alone {
+            known.all_mut().iter_mut().for_each(|squares| field.forget(squares, areas()));
         }
         let is_finer = changes.iter().all(|change| change.change == TargetChange::Finer);
         let layers = is_finer.then(|| changes.iter().map(|change| change.layer).collect());
@@ -48,7 +48,7 @@ impl Pending {
         layers: Option<Vec<LayerId>>,
         field: &Arc<SizeField>,
     ) {
-        (self.alone, self.squares) = (None, None);
+        (self.alone, self.known) = (None, SettledPool::default());
         self.finer(was_in_step, layers, field);
     }
 
@@ -70,25 +70,22 @@ impl Pending {
         if !self.alone.as_ref().is_some_and(is_known) {
             let field = whole.of_layers_alone(&layers);
             let (whole, layers) = (whole.clone(), layers.clone());
-            self.alone = field.map(|field| Alone { layers, whole, field, squares: None });
+            self.alone = field.map(|field| Alone { layers, whole, field, known: SettledPool::default() });
         }
         self.finer = self.alone.is_some().then_some(layers);
     }
 
     /// Returns what the field of all layers has answered.
-    pub(super) fn squares(&mut self) -> &mut SettledSquares {
-        self.squares.get_or_insert_default()
+    pub(super) fn known(&self) -> &SettledPool {
+        &self.known
     }
 
     /// Returns the field that says which triangles of the shown mesh exceed their targets, and what it has
     /// answered; `whole` is the field of all layers.
-    pub(super) fn field<'a>(
-        &'a mut self,
-        whole: &'a SizeField,
-    ) -> (&'a SizeField, &'a mut Option<SettledSquares>) {
-        match (&self.finer, &mut self.alone) {
-            (Some(_), Some(Alone { field, squares, .. })) => (field, squares),
-            _ => (whole, &mut self.squares),
+    pub(super) fn field<'a>(&'a self, whole: &'a SizeField) -> (&'a SizeField, &'a SettledPool) {
+        match (&self.finer, &self.alone) {
+            (Some(_), Some(Alone { field, known, .. })) => (field, known),
+            _ => (whole, &self.known),
         }
     }
 }

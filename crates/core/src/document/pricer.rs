@@ -2,7 +2,7 @@ use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::field::RefinementRule;
 use crate::geometry::{LatticeRect, Rect};
-use crate::layers::{LayerId, PaintChange, PaintLayers, SettledSquares, SizeField};
+use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SettledSquares, SizeField};
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Preview, Repaint, StrokePlan};
 
@@ -33,11 +33,16 @@ enum Work {
     /// The stroke is painted.
     Painting(Box<Preview>),
     /// The triangles are counted, `paint` being what would be painted.
-    Counting {
-        forecast: Box<Forecast>,
-        paint: PaintLayers,
-    },
+    Counting(Box<Counting>),
     Known(Price),
+}
+
+#[derive(Clone, Debug)]
+struct Counting {
+    forecast: Forecast,
+    paint: PaintLayers,
+    /// What the field has answered with this paint.
+    known: SettledPool,
 }
 
 /// The effect of a stroke on the number of triangles.
@@ -116,7 +121,7 @@ impl Pricer {
     pub fn progress(&self) -> Progress {
         match self.work {
             Work::Idle | Work::Known(_) => Progress::Done,
-            Work::Painting(_) | Work::Counting { .. } => Progress::More,
+            Work::Painting(_) | Work::Counting(_) => Progress::More,
         }
     }
 
@@ -126,7 +131,7 @@ impl Pricer {
         let Some(question) = self.question else { return Progress::Done };
         self.work = match std::mem::take(&mut self.work) {
             Work::Painting(painting) => paint_more(painting, question, document, follower, budget),
-            Work::Counting { forecast, paint } => count_more(forecast, paint, question, follower, budget),
+            Work::Counting(counting) => count_more(counting, question, follower, budget),
             settled @ (Work::Idle | Work::Known(_)) => settled,
         };
         self.progress()
@@ -183,8 +188,8 @@ fn paint_more(
         None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
         Some(area) => {
             let limits = follower.settings().limits();
-            let forecast = Box::new(Forecast::new(follower.mesh(), area, &limits));
-            Work::Counting { forecast, paint }
+            let forecast = Forecast::new(follower.mesh(), area, &limits);
+            Work::Counting(Box::new(Counting { forecast, paint, known: SettledPool::default() }))
         }
     }
 }
@@ -202,22 +207,16 @@ fn union(a: &LatticeRect, b: &LatticeRect) -> LatticeRect {
     }
 }
 
-fn count_more(
-    mut forecast: Box<Forecast>,
-    paint: PaintLayers,
-    question: Question,
-    follower: &Follower,
-    budget: usize,
-) -> Work {
+fn count_more(mut counting: Box<Counting>, question: Question, follower: &Follower, budget: usize) -> Work {
+    let Counting { forecast, paint, known } = &mut *counting;
     let domain = follower.domain();
-    let criterion = RefinementCriterion::by_area(domain, follower.field(), &paint);
-    let exceeds = |corners, level| criterion.exceeds_at(corners, level);
+    let criterion = RefinementCriterion::by_area(domain, follower.field(), paint);
     let is_in_domain = |corners, _| !domain.excludes_at(corners);
-    let progress = forecast.advance(follower.mesh(), exceeds, is_in_domain, budget);
-    match price_of(progress, &forecast) {
-        None => Work::Counting { forecast, paint },
+    let progress = forecast.advance(follower.mesh(), &criterion.shared_with(known), is_in_domain, budget);
+    match price_of(progress, forecast) {
+        None => Work::Counting(counting),
         Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {
-            Work::Known(Price::Nothing(why_nothing(question, &paint, follower)))
+            Work::Known(Price::Nothing(why_nothing(question, paint, follower)))
         }
         Some(price) => Work::Known(price),
     }

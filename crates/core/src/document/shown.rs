@@ -11,7 +11,10 @@ use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
 use crate::layers::{PaintChange, PaintLayers, SizeField};
-use crate::mesh::{ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, Updater};
+use crate::mesh::{
+    ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
+    TriangleId, Updater,
+};
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -39,25 +42,37 @@ enum Upkeep {
     NewMesh,
 }
 
-/// Number of triangles from which a mesh is made again on all cores, rather than updated for the most part on
-/// one core. For smaller meshes both take a few frames, and an update keeps the numbers of triangles.
+/// Number of triangles from which a mesh is made again rather than updated where most of it changes. Smaller
+/// meshes take a few frames either way, and an update keeps the numbers of triangles.
 const LARGE: usize = 250_000;
 
-/// Triangles that are looked up to estimate a share of them.
-const SAMPLE: usize = 4096;
+/// Triangles that are looked at to estimate a share of them.
+const SAMPLE: usize = 256;
 
-/// Returns whether some areas concern more than half of the triangles of a mesh, by a sample at equal steps.
-fn hold_most(areas: &[ChangedArea], mesh: &Mesh) -> bool {
-    let triangles = mesh.raw_triangles();
-    let sampled = triangles.iter().step_by(triangles.len().div_ceil(SAMPLE).max(1));
-    let count = sampled.len();
-    let inside = sampled.filter(|triangle| {
-        let corners = triangle.edge_nodes().map(|(from, _)| mesh.node(from));
-        areas.iter().any(|area| {
-            area.rect.touches(corners) && area.concerns(mesh, corners, triangle.level()).contains(&true)
-        })
-    });
-    2 * inside.count() > count
+/// A mesh is made again where more than one in so many triangles changes: to bisect a triangle or to put a
+/// parent back takes about so many times as long as to write a triangle of a block.
+const DEARER: usize = 8;
+
+/// Returns whether an update of a mesh in some areas would take longer than another mesh, by a sample of the
+/// triangles that would be bisected or removed.
+fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
+    let rule = criterion.shared();
+    let mut answers = rule.answers();
+    let mut exceeds = |corners, level| answers.exceeds(corners, level).unwrap_or(false);
+    let mut changes = |triangle: TreeTriangle| {
+        let (corners, level) = (triangle.corners(), triangle.level());
+        let concerned = areas.iter().filter(|area| area.rect.touches(corners));
+        let [asks, loosens] = concerned
+            .map(|area| area.concerns(mesh, corners, level))
+            .fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]]);
+        let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
+        (asks && exceeds(corners, level))
+            || parent.is_some_and(|parent| !exceeds(parent.corners(), parent.level()))
+    };
+    let count = mesh.raw_triangle_count();
+    let sampled = (0..count).step_by(count.div_ceil(SAMPLE).max(1)).map(TriangleId::from_index);
+    let changed = sampled.filter(|&id| changes(TreeTriangle::of(mesh, id))).count();
+    DEARER * changed > SAMPLE
 }
 
 impl Shown {
@@ -84,7 +99,9 @@ impl Shown {
         match self.settings.rule {
             RefinementRule::Area => {
                 self.pending.paint(self.updater.is_done(), changes, &self.field);
-                let areas = self.field.changes_by_paint(self.pending.squares(), changes, paint);
+                let mut squares = self.pending.known().take();
+                let areas = self.field.changes_by_paint(&mut squares, changes, paint);
+                self.pending.known().put_back(squares);
                 areas.into_iter().for_each(|area| self.updater.add_area(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,
@@ -142,14 +159,20 @@ impl Shown {
     }
 
     /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or made again where that is
-    /// most of a large mesh.
+    /// faster for a large mesh.
     pub(super) fn take(&mut self, followed: Followed, paint: &PaintLayers) {
         let Followed { settings, outline, field } = followed;
         let outline_areas = outline.as_ref().map(|(_, areas)| areas.as_slice());
         let changes = field
             .as_ref()
             .map_or_else(Vec::new, |field| field.changes_since(&self.field, paint, outline_areas));
-        if self.mesh.raw_triangle_count() >= LARGE && hold_most(&changes, &self.mesh) {
+        let criterion = RefinementCriterion::by_area(
+            outline.as_ref().map_or(&self.domain, |(domain, _)| domain),
+            field.as_deref().unwrap_or(&self.field),
+            paint,
+        );
+        if self.mesh.raw_triangle_count() >= LARGE && is_dearer_than_another(&changes, &self.mesh, &criterion)
+        {
             self.upkeep = Upkeep::NewMesh;
             if outline.is_some() {
                 // Until the other mesh is shown, this one has the former outline.
@@ -206,12 +229,10 @@ impl Shown {
         }
         let Self { domain, field, mesh, updater, pending, .. } = self;
         let mesh = Arc::get_mut(mesh).expect("it is not shared, see above");
-        let (field, squares) = pending.field(field);
+        let (field, known) = pending.field(field);
         let criterion = RefinementCriterion::by_area(domain, field, paint);
-        let mut criterion = criterion.with_squares(squares.take());
-        let result = updater.advance(mesh, |element| criterion.exceeds(element), budget);
-        *squares = criterion.into_squares();
-        result.map(|_| ())
+        let result = updater.advance(mesh, &criterion.shared_with(known), budget);
+        result.map(|_| ()).map_err(|error| error.map_rule(|never| match never {}))
     }
 
     /// Returns the changes by updates since the last call, or `None` if there are none.

@@ -117,7 +117,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-    use crate::mesh::{Element, InvalidTarget, Limits, Updater};
+    use crate::mesh::{Limits, Updater};
 
     /// Returns the corners of each triangle in the order of its entry.
     fn triangles(mesh: &Mesh) -> Vec<[LatticePoint; 3]> {
@@ -147,14 +147,14 @@ mod tests {
             let min = extent * dvec2(random.f64(), random.f64());
             let (max, level) = (min + 0.15 * extent, random.u32(0..9));
             updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: lattice.extent() });
-            let rule = |element: &Element| -> Result<bool, InvalidTarget> {
-                let corners = element.corners.map(LatticePoint::as_dvec2);
+            let exceeds = |corners: [LatticePoint; 3], of_level: u32| {
+                let corners = corners.map(LatticePoint::as_dvec2);
                 let low = corners.into_iter().reduce(DVec2::min).unwrap();
                 let high = corners.into_iter().reduce(DVec2::max).unwrap();
                 let meets = low.cmple(max).all() && high.cmpge(min).all();
-                Ok(meets && element.triangle.level() < level)
+                meets && of_level < level
             };
-            while updater.advance(&mut mesh, rule, 40).unwrap() == Progress::More {
+            while updater.advance(&mut mesh, &|| exceeds, 40).unwrap() == Progress::More {
                 if let Some(changes) = updater.take_changes() {
                     ages.note(&changes, &mesh);
                 }

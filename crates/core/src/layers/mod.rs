@@ -37,7 +37,7 @@ pub use least::LeastTarget;
 pub use mask::{Coverage, Mask};
 pub use paint_layers::PaintLayers;
 pub use risk::RiskField;
-pub use settled::SettledSquares;
+pub use settled::{SettledPool, SettledSquares};
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use targets::{Decision, DiameterLimit};
 pub use targets_in_order::NODES_AT_A_TIME;

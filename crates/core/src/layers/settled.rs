@@ -1,9 +1,11 @@
 //! Answers of the area rule for whole squares of triangles.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 use super::engine::cells::Cells;
 use super::engine::gradation::{GradedBounds, graded_bounds};
 use super::engine::parts::{PartId, Square};
-use super::engine::{KnownParts, LEVELS};
+use super::engine::{CompiledLayer, KnownParts, LEVELS};
 use super::size_field::Nearby;
 use super::{PaintLayers, SizeField};
 use crate::field::Transfer;
@@ -73,7 +75,49 @@ impl SettledSquares {
     }
 }
 
+/// Caches for the threads that ask a size field at the same time. A thread takes one and puts it back, so
+/// that what was found out serves the next questions.
+#[derive(Debug, Default)]
+pub struct SettledPool(Mutex<Vec<SettledSquares>>);
+
+impl SettledPool {
+    /// Returns a cache, an empty one where all are in use.
+    pub(crate) fn take(&self) -> SettledSquares {
+        self.squares().pop().unwrap_or_default()
+    }
+
+    /// Puts a cache back.
+    pub(crate) fn put_back(&self, squares: SettledSquares) {
+        self.squares().push(squares);
+    }
+
+    /// Returns all caches, while no thread uses one.
+    pub(crate) fn all_mut(&mut self) -> &mut [SettledSquares] {
+        self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn squares(&self) -> MutexGuard<'_, Vec<SettledSquares>> {
+        // A thread that panicked left the list as it was.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Clone for SettledPool {
+    fn clone(&self) -> Self {
+        Self(Mutex::new(self.squares().clone()))
+    }
+}
+
 impl SizeField {
+    /// Returns how many questions to the field are worth another thread: with gradation or formulas, a few.
+    pub(crate) fn questions_per_thread(&self) -> usize {
+        match self.spec().gradation {
+            Some(_) => 16,
+            None if self.compiled().iter().all(CompiledLayer::has_pixels) => 1024,
+            None => 128,
+        }
+    }
+
     /// Lets squares that were used for this field forget what they know of places at which pixels have
     /// changed: `areas` are rectangles in world units.
     pub(crate) fn forget(&self, squares: &mut SettledSquares, areas: impl Iterator<Item = Rect>) {

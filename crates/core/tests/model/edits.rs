@@ -8,6 +8,7 @@ use crate::runs::{prints_table, runs, seeds};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::BoundaryTreatment;
 use meshbrush_core::field::Transfer;
+use meshbrush_mesh::mesh::Fingerprint;
 
 impl Choices for fastrand::Rng {
     fn below(&mut self, count: usize) -> usize {
@@ -33,7 +34,8 @@ struct Seen {
 }
 
 /// Edits a document: one to three edits between two slices of the follower, which is stopped anywhere.
-fn edit(seed: u64, scale: Scale, seen: &mut Seen) {
+/// Returns the settings and the mesh at each rest.
+fn edit(seed: u64, scale: Scale, seen: &mut Seen) -> Vec<(Settings, Fingerprint)> {
     let mut random = fastrand::Rng::with_seed(seed);
     let transfer = Transfer::between(scale.smallest, Settings::default().transfer.h_max);
     let domain = domains()[random.usize(..4)].clone();
@@ -66,6 +68,32 @@ fn edit(seed: u64, scale: Scale, seen: &mut Seen) {
     seen.edits += edits;
     seen.changes_within += driver.changes_within;
     seen.compared += driver.compared;
+    driver.rests
+}
+
+/// The same edits, followed in the same slices by several numbers of threads. What cannot be met is taken
+/// back when that is found, which may be before or after the next edit: only equal documents are compared.
+#[test]
+fn the_mesh_does_not_depend_on_the_number_of_threads() {
+    let pools = [1, 2, 3, 8]
+        .map(|threads| (threads, rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()));
+    let (mut equal, mut all) = (0, 0);
+    for seed in seeds(4) {
+        let [(_, alone), others @ ..] = &pools;
+        let expected = alone.install(|| edit(seed, SMALL, &mut Seen::default()));
+        for (threads, pool) in others {
+            let found = pool.install(|| edit(seed, SMALL, &mut Seen::default()));
+            for (place, (found, expected)) in found.iter().zip(&expected).enumerate() {
+                all += 1;
+                if found.0 == expected.0 {
+                    assert_eq!(found.1, expected.1, "document {seed}, rest {place}, {threads} threads");
+                    equal += 1;
+                }
+            }
+        }
+    }
+    eprintln!("{equal} of {all} meshes compared");
+    assert!(equal > 30 && 10 * equal > 9 * all, "{equal} of {all}");
 }
 
 fn run(scale: Scale, usual: u64) {
@@ -73,7 +101,7 @@ fn run(scale: Scale, usual: u64) {
     let mut seen = Seen::default();
     for seed in seeds(1).start.. {
         eprintln!("document {seed}");
-        edit(seed, scale, &mut seen);
+        _ = edit(seed, scale, &mut seen);
         if seen.edits >= edits {
             break;
         }

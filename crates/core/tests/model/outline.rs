@@ -16,8 +16,8 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::geojson;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{
-    Changes, Cleaning, Element, Extract, InvalidTarget, Limits, Location, Mesh, NodeId, PatchPieces,
-    PatchedLocator, Progress, TriangleId, Updater,
+    Changes, Cleaning, Extract, Limits, Location, Mesh, NodeId, PatchPieces, PatchedLocator, Progress,
+    TriangleId, Updater,
 };
 
 fn built(domain: &Domain, spacing: f64, diameter: f64, target: &str) -> BuiltMesh {
@@ -356,12 +356,12 @@ fn the_result_does_not_depend_on_the_order_of_edits() {
             };
             updater.add(if step == 0 || step == 5 { all } else { area });
             fine.extend((step > 0).then_some(if step == 5 { all } else { area }));
-            let mut criterion = built.criterion(None);
-            let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
-                let is_fine = fine.iter().any(|area| area.touches(element.corners));
-                Ok((is_fine || element.triangle.level() < 5) && criterion.exceeds(element)?)
+            let criterion = built.criterion(None);
+            let exceeds = |corners: [LatticePoint; 3], level: u32| {
+                let is_fine = fine.iter().any(|area| area.touches(corners));
+                (is_fine || level < 5) && criterion.exceeds_at(corners, level)
             };
-            while updater.advance(&mut mesh, &mut exceeds, 1000).unwrap() == Progress::More {}
+            while updater.advance(&mut mesh, &|| exceeds, 1000).unwrap() == Progress::More {}
         }
         mesh.classify(0..mesh.raw_triangle_count(), |element| built.domain.excludes(element));
         assert_eq!(mesh.fingerprint(), built.mesh.fingerprint(), "seed {seed}");

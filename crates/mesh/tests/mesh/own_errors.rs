@@ -55,7 +55,7 @@ fn an_error_of_the_rule_passes_through_an_update() {
     let answer = answer(&mesh);
     let mut updater = Updater::new(Limits::default());
     updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() });
-    let refused = updater.advance(&mut mesh, by_element(answer), usize::MAX);
+    let refused = updater.advance(&mut mesh, &|| answer, usize::MAX);
     assert!(matches!(refused, Err(RefineError::Rule(NoMap { .. }))), "{refused:?}");
     assert_eq!(mesh.violations(), []);
 }

@@ -1,16 +1,16 @@
 //! After any edits, cut into slices anywhere, the updated mesh is the one made from scratch.
 
-use std::cell::Cell;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::runs::runs;
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush_mesh::mesh::{
-    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError,
-    TargetChange, Updater,
+    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, RuleAnswers,
+    SharedRule, TargetChange, Updater,
 };
 
 type Answer = Result<bool, InvalidTarget>;
@@ -73,6 +73,11 @@ fn rule(spots: &[Spot]) -> impl Fn(&Element) -> Answer {
         let level = element.triangle.level();
         Ok(spots.iter().any(|spot| level < spot.level && spot.meets(element.corners)))
     }
+}
+
+/// [`rule`], for updates.
+fn shared(spots: &[Spot]) -> impl SharedRule<Error = InvalidTarget> {
+    || |corners, level| -> Answer { Ok(spots.iter().any(|spot| level < spot.level && spot.meets(corners))) }
 }
 
 /// Squares, a rectangle and domains in which diagonals and sides are on inner and outer boundaries, that fall
@@ -198,7 +203,7 @@ impl Mirror {
 }
 
 fn settle(updater: &mut Updater, mesh: &mut Mesh, spots: &[Spot]) {
-    while updater.advance(mesh, rule(spots), 1000).unwrap() == Progress::More {}
+    while updater.advance(mesh, &shared(spots), 1000).unwrap() == Progress::More {}
     assert!(updater.is_done());
 }
 
@@ -220,7 +225,7 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
             let slice = 1 << random.u32(..8);
             let mut progress = Progress::More;
             for _ in 0..if random.bool() { random.usize(..8) } else { usize::MAX } {
-                progress = updater.advance(&mut mesh, rule(&spots), slice).unwrap();
+                progress = updater.advance(&mut mesh, &shared(&spots), slice).unwrap();
                 if random.u8(..8) == 0 {
                     assert_eq!(mesh.violations(), [], "seed {seed}, edit {count}");
                     let changes = updater.take_changes();
@@ -257,6 +262,50 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
     assert!(rests > edits / 20 && changed > edits / 20);
 }
 
+/// The arrays, and not only the mesh, are the same for any number of threads.
+#[test]
+fn an_update_gives_the_same_arrays_on_any_number_of_threads() {
+    let pools =
+        [1, 2, 3, 8].map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap());
+    let mut largest = 0;
+    for (seed, coarse) in domains().into_iter().enumerate() {
+        let meshes = pools.each_ref().map(|pool| {
+            let mut random = Rng::with_seed(200 + seed as u64);
+            let (mut mesh, mut updater) = (coarse.clone(), Updater::new(Limits::default()));
+            let mut spots = Vec::new();
+            for _ in 0..40 {
+                for (area, change) in edit(&mut random, &mut spots, &mesh) {
+                    updater.add_change(area, change);
+                }
+                let visits = random.usize(1..20_000);
+                pool.install(|| updater.advance(&mut mesh, &Eager(&spots), visits).unwrap());
+            }
+            mesh
+        });
+        for mesh in &meshes[1..] {
+            assert!(mesh.raw_triangles() == meshes[0].raw_triangles(), "seed {seed}");
+            assert!(mesh.raw_nodes() == meshes[0].raw_nodes(), "seed {seed}");
+        }
+        largest = largest.max(meshes[0].raw_triangle_count());
+    }
+    assert!(largest > 1000, "{largest} triangles");
+}
+
+/// [`shared`], for which two questions are worth another thread.
+struct Eager<'a>(&'a [Spot]);
+
+impl SharedRule for Eager<'_> {
+    type Error = InvalidTarget;
+
+    fn answers(&self) -> impl RuleAnswers<Error = InvalidTarget> {
+        |corners, level| -> Answer { Ok(self.0.iter().any(|spot| level < spot.level && spot.meets(corners))) }
+    }
+
+    fn questions_per_thread(&self) -> usize {
+        2
+    }
+}
+
 /// Returns the smallest rectangle that holds all of `areas`, of which there is at least one.
 fn hull(areas: &[LatticeRect]) -> LatticeRect {
     let low = |of: fn(&LatticeRect) -> u32| areas.iter().map(of).min().unwrap();
@@ -282,7 +331,7 @@ fn a_forecast_is_what_the_update_then_does() {
             let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
-            while forecast.advance(&mesh, asks, |_, _| true, slice).unwrap() == Progress::More {}
+            while forecast.advance(&mesh, &|| asks, |_, _| true, slice).unwrap() == Progress::More {}
             areas.into_iter().for_each(|area| updater.add(area));
             settle(&mut updater, &mut mesh, &spots);
             let (added, removed) = (forecast.added(), forecast.removed());
@@ -302,13 +351,14 @@ fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
     let (mesh, ..) = with_a_far_corner(3);
     let corner = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(0, 0) };
     let mut forecast = Forecast::new(&mesh, corner, &Limits::default());
-    let error =
-        forecast.advance(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX).unwrap_err();
+    let error = forecast
+        .advance(&mesh, &|| |corners, _| corner.touches(corners), |_, _| true, usize::MAX)
+        .unwrap_err();
     assert!(matches!(error, RefineError::TooFine { .. }), "{error}");
     let limits = Limits { max_level: Some(9), ..Limits::default() };
     let mut forecast = Forecast::new(&mesh, corner, &limits);
     assert_eq!(
-        forecast.advance(&mesh, |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
+        forecast.advance(&mesh, &|| |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
         Ok(Progress::Done)
     );
     let mut mesh = mesh;
@@ -345,7 +395,7 @@ fn the_work_goes_with_the_change_and_not_with_the_mesh() {
         let mut visits = [0, 0];
         for (i, spots) in [vec![corner, dab], vec![corner]].into_iter().enumerate() {
             updater.add(dab.area(&mesh));
-            while updater.advance(&mut mesh, rule(&spots), 1).unwrap() == Progress::More {
+            while updater.advance(&mut mesh, &shared(&spots), 1).unwrap() == Progress::More {
                 visits[i] += 1;
             }
         }
@@ -364,14 +414,16 @@ fn erasing_asks_no_more_than_painting_where_the_direction_is_known() {
         let before = mesh.fingerprint();
         let mut updater = Updater::new(Limits::default());
         let counts = [(painting, vec![corner, dab]), (erasing, vec![corner])].map(|(change, spots)| {
-            let (asked, answer) = (Cell::new(0), rule(&spots));
+            let asked = AtomicUsize::new(0);
             updater.add_change(dab.area(&mesh), change);
-            let count = |element: &Element| {
-                asked.set(asked.get() + 1);
-                answer(element)
+            let count = || {
+                |corners, level| {
+                    asked.fetch_add(1, Ordering::Relaxed);
+                    spots.iter().any(|spot| level < spot.level && spot.meets(corners))
+                }
             };
-            assert_eq!(updater.advance(&mut mesh, count, usize::MAX), Ok(Progress::Done));
-            asked.get()
+            assert_eq!(updater.advance(&mut mesh, &count, usize::MAX), Ok(Progress::Done));
+            asked.into_inner()
         });
         assert_eq!(mesh.fingerprint(), before);
         counts
@@ -391,7 +443,7 @@ fn at_the_budget_the_mesh_is_conforming_and_the_work_can_go_on() {
     let limit = from_scratch(&coarse_of(&mesh), &[corner, dab]).raw_triangle_count() - 1;
     let mut updater = Updater::new(Limits { max_triangles: limit, ..Limits::default() });
     updater.add(dab.area(&mesh));
-    let refused = updater.advance(&mut mesh, rule(&[corner, dab]), usize::MAX);
+    let refused = updater.advance(&mut mesh, &shared(&[corner, dab]), usize::MAX);
     assert_eq!(refused, Err(RefineError::TooManyTriangles { limit }));
     assert!(mesh.raw_triangle_count() <= limit && mesh.raw_triangle_count() > before.1);
     assert_eq!(mesh.violations(), []);
@@ -416,7 +468,7 @@ fn whatever_fits_the_budget_is_reached_though_old_and_new_together_do_not_fit() 
         let mut updater = Updater::new(Limits { max_triangles: limit, ..Limits::default() });
         updater.add(dab.area(&mesh));
         updater.add(moved.area(&mesh));
-        while updater.advance(&mut mesh, rule(&[corner, moved]), 100).unwrap() == Progress::More {
+        while updater.advance(&mut mesh, &shared(&[corner, moved]), 100).unwrap() == Progress::More {
             assert!(mesh.raw_triangle_count() <= limit);
         }
         assert_eq!(mesh.fingerprint(), rebuilt.fingerprint());
@@ -431,14 +483,18 @@ fn a_bad_target_or_too_small_a_one_is_refused_and_can_be_taken_back() {
     let mut updater = Updater::new(Limits::default());
     let bad = InvalidTarget { at: DVec2::ONE, value: f64::NAN };
     updater.add(dab.area(&mesh));
-    let within_dab = |e: &Element| if dab.meets(e.corners) { Err(bad) } else { rule(&[corner])(e) };
-    let refused = updater.advance(&mut mesh, within_dab, usize::MAX);
+    let within_dab = || {
+        |corners, level| -> Answer {
+            if dab.meets(corners) { Err(bad) } else { Ok(level < corner.level && corner.meets(corners)) }
+        }
+    };
+    let refused = updater.advance(&mut mesh, &within_dab, usize::MAX);
     assert!(matches!(refused, Err(RefineError::Rule(_))), "{refused:?}");
     assert_eq!(mesh.violations(), []);
 
     let point = Spot { radius: 0, level: u32::MAX, ..dab };
     updater.add(point.area(&mesh));
-    let refused = updater.advance(&mut mesh, rule(&[corner, point]), usize::MAX);
+    let refused = updater.advance(&mut mesh, &shared(&[corner, point]), usize::MAX);
     assert!(matches!(refused, Err(RefineError::TooFine { .. })), "{refused:?}");
     assert_eq!(mesh.level_counts().len() as u32, mesh.lattice().deepest_level() + 1);
     assert_eq!(mesh.violations(), []);
@@ -470,10 +526,10 @@ fn cancelled_work_leaves_a_conforming_mesh_and_nothing_to_do() {
     let mut updater = Updater::new(Limits::default());
     for visits in [0, 1, 10, 40, 100, 400, 1000] {
         updater.add(dab.area(&mesh));
-        updater.advance(&mut cut, rule(&[corner, dab]), visits).unwrap();
+        updater.advance(&mut cut, &shared(&[corner, dab]), visits).unwrap();
         updater.cancel();
         assert!(updater.is_done() && cut.violations().is_empty());
-        assert_eq!(updater.advance(&mut cut, rule(&[corner]), 1), Ok(Progress::Done));
+        assert_eq!(updater.advance(&mut cut, &shared(&[corner]), 1), Ok(Progress::Done));
     }
     // Work on the same place, later, mends it.
     updater.add(dab.area(&mesh));

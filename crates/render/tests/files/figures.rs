@@ -20,7 +20,7 @@ use meshbrush_io::io::png::{self as pictures, Behind};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_mesh::geometry::Rect;
 
-/// The window's own values: `FRAME_BUDGET` in `app/frame.rs` and `MESH_SLICE` in `app/slices.rs`.
+/// The window's own value in `app/frame.rs`, and a slice.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);
 const MESH_SLICE: usize = 256;
 /// The window's default brush on the unit square.

@@ -9,7 +9,7 @@ use crate::kept_picture::keep;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::BuiltMesh;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
-use meshbrush_mesh::mesh::{Changes, Element, InvalidTarget, Limits, Mesh, PatchPieces, Progress, Updater};
+use meshbrush_mesh::mesh::{Changes, Limits, Mesh, PatchPieces, Progress, Updater};
 use meshbrush_render::colormap::{LEVELS, LevelColors};
 use meshbrush_render::render::gpu::{ChunkLimits, GpuError, GpuRenderer, Offscreen, ShownImage, read_back};
 use meshbrush_render::render::software::PxRect;
@@ -342,9 +342,9 @@ fn changed<T: PartialEq>(before: &[T], after: &[T]) -> Vec<std::ops::Range<usize
 }
 
 /// Returns whether an element exceeds level 13 where it touches one of the squares, or level 7 elsewhere.
-fn exceeds(element: &Element, squares: &[LatticeRect]) -> bool {
-    let fine = squares.iter().any(|square| square.touches(element.corners));
-    element.triangle.level() < if fine { 13 } else { 7 }
+fn exceeds(corners: [LatticePoint; 3], level: u32, squares: &[LatticeRect]) -> bool {
+    let fine = squares.iter().any(|square| square.touches(corners));
+    level < if fine { 13 } else { 7 }
 }
 
 #[test]
@@ -362,7 +362,7 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
     let square = |x, y, half| coarse.lattice().rect_around(&Rect::around(dvec2(x, y), half)).unwrap();
     let [first, second, third] = [(0.3, 0.3), (0.7, 0.6), (0.3, 0.75)].map(|(x, y)| square(x, y, 0.12));
     let mut squares = vec![first, second];
-    mesh.refine(&Limits::default(), |element| exceeds(element, &squares)).unwrap();
+    mesh.refine(&Limits::default(), |e| exceeds(e.corners, e.triangle.level(), &squares)).unwrap();
     let mut updater = Updater::new(Limits::default());
     gpu.show(&coarse, 0).unwrap();
     gpu.renderer().mirror_mut().begin_upload(&mesh, 1).unwrap();
@@ -386,7 +386,8 @@ fn edits_during_an_upload_do_not_hold_it_up_and_get_there() {
         }
         revision += 1;
         updater.add(edited);
-        while updater.advance(&mut mesh, |e| exceeds(e, &squares), usize::MAX) != Ok(Progress::Done) {}
+        let rule = || |corners: [LatticePoint; 3], level: u32| exceeds(corners, level, &squares);
+        while updater.advance(&mut mesh, &rule, usize::MAX) != Ok(Progress::Done) {}
         let Some(changes) = updater.take_changes() else { continue };
         gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         assert_eq!(gpu.renderer().mirror().uploading(), Some(revision));
@@ -576,13 +577,13 @@ fn edit(mesh: &mut Mesh, built: &BuiltMesh, fine: Option<DVec2>) -> Changes {
     let before = mesh.clone();
     let mut updater = Updater::new(Limits::default());
     updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() });
-    let mut criterion = built.criterion(None);
+    let criterion = built.criterion(None);
     let fine = fine.map(|at| mesh.lattice().rect_around(&Rect::around(at, 0.1)).unwrap());
-    let mut exceeds = |element: &Element| -> Result<bool, InvalidTarget> {
-        let is_fine = fine.is_some_and(|square| square.touches(element.corners));
-        Ok((is_fine && element.triangle.level() < 11) || criterion.exceeds(element)?)
+    let exceeds = |corners: [LatticePoint; 3], level: u32| {
+        let is_fine = fine.is_some_and(|square| square.touches(corners));
+        (is_fine && level < 11) || criterion.exceeds_at(corners, level)
     };
-    while updater.advance(mesh, &mut exceeds, usize::MAX).unwrap() == Progress::More {}
+    while updater.advance(mesh, &|| exceeds, usize::MAX).unwrap() == Progress::More {}
     mesh.classify(0..mesh.raw_triangle_count(), |element| built.domain.excludes(element));
     differences(&before, mesh)
 }

@@ -1,6 +1,6 @@
 //! One layer on a lattice.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
@@ -39,7 +39,7 @@ enum Values {
     /// One value everywhere.
     Constant(Analytic),
     /// Painted pixels, which are passed with each question.
-    Paint,
+    Paint(PaintGrid),
     /// The pixels of a raster.
     Raster { raster: Arc<RasterPyramid>, gap: f32, grid: GridOnLattice },
     /// A function of the point.
@@ -56,7 +56,7 @@ impl CompiledLayer {
         };
         const NO_RISK: f32 = f32::NEG_INFINITY;
         let (reading, values) = match &layer.kind {
-            LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint),
+            LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint(PaintGrid::default())),
             LayerKind::Formula { quantity, formula } => {
                 (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula))
             }
@@ -128,7 +128,7 @@ impl CompiledLayer {
     pub fn analytic(&self) -> Option<&Analytic> {
         match &self.values {
             Values::Constant(analytic) | Values::Analytic(analytic) => Some(analytic),
-            Values::Nothing | Values::Paint | Values::Raster { .. } => None,
+            Values::Nothing | Values::Paint(_) | Values::Raster { .. } => None,
         }
     }
 
@@ -152,8 +152,8 @@ impl CompiledLayer {
                 self.reading.answer(value, level).asks == Share::All
             }
             Values::Nothing => false,
-            Values::Paint => paint.get(self.id).is_some_and(|raster| {
-                let grid = GridOnLattice::new(raster.grid(), lattice);
+            Values::Paint(grid) => paint.get(self.id).is_some_and(|raster| {
+                let grid = grid.on_lattice(raster.grid(), lattice);
                 let search = RasterSearch { raster, grid: &grid, question: self.reading.question(level) };
                 search.any(triangle, &around)
             }),
@@ -246,7 +246,7 @@ impl CompiledLayer {
 
     /// Returns whether the values are those of pixels.
     pub fn has_pixels(&self) -> bool {
-        matches!(self.values, Values::Paint | Values::Raster { .. })
+        matches!(self.values, Values::Paint(_) | Values::Raster { .. })
     }
 
     /// Returns the diameters that the values of a range ask for.
@@ -265,9 +265,9 @@ impl CompiledLayer {
         let (range, cut) = match &self.values {
             Values::Constant(constant) => (ValueRange::one(constant.at(lattice.bounds().min)), None),
             Values::Nothing => return (None, None),
-            Values::Paint => {
+            Values::Paint(grid) => {
                 let Some(raster) = paint.get(self.id) else { return (None, None) };
-                GridOnLattice::new(raster.grid(), lattice).range(raster, cells)
+                grid.on_lattice(raster.grid(), lattice).range(raster, cells)
             }
             Values::Raster { raster, gap, grid } => grid.range(&WithGaps { raster, gap: *gap }, cells),
             Values::Analytic(analytic) => self.graded.as_ref().unwrap_or(analytic).range(cells, lattice),
@@ -279,7 +279,7 @@ impl CompiledLayer {
     /// any.
     pub fn pixel_bits(&self, paint: &PaintLayers, lattice: &Lattice) -> Option<u32> {
         let log_steps = match &self.values {
-            Values::Paint => GridOnLattice::new(paint.get(self.id)?.grid(), lattice).log_steps(),
+            Values::Paint(grid) => grid.on_lattice(paint.get(self.id)?.grid(), lattice).log_steps(),
             Values::Raster { grid, .. } => grid.log_steps(),
             Values::Nothing | Values::Constant(_) | Values::Analytic(_) => return None,
         };
@@ -300,7 +300,7 @@ impl CompiledLayer {
         }
         match &self.values {
             Values::Nothing | Values::Constant(_) => Slopes::FLAT,
-            Values::Paint | Values::Raster { .. } => Slopes::UNKNOWN,
+            Values::Paint(_) | Values::Raster { .. } => Slopes::UNKNOWN,
             Values::Analytic(analytic) => {
                 let analytic = self.graded.as_ref().unwrap_or(analytic);
                 let of_values = analytic.function.slopes(&cells.world_rect(lattice));
@@ -345,13 +345,25 @@ impl CompiledLayer {
                 self.reading.diameter_of(analytic.raw(point))
             }
             Values::Nothing => f64::INFINITY,
-            Values::Paint => paint
+            Values::Paint(_) => paint
                 .get(self.id)
                 .map_or(f64::INFINITY, |raster| self.reading.diameter_of(raster.sample(point).into())),
             Values::Raster { raster, gap, .. } => {
                 self.reading.diameter_of(raster.sample(point).unwrap_or(*gap).into())
             }
         }
+    }
+}
+
+/// The grid of the painted pixels on the lattice, as of the first question: it hardly ever changes.
+#[derive(Clone, Debug, Default)]
+struct PaintGrid(OnceLock<(PixelGrid, GridOnLattice)>);
+
+impl PaintGrid {
+    #[inline]
+    fn on_lattice(&self, grid: &PixelGrid, lattice: &Lattice) -> GridOnLattice {
+        let (of, on_lattice) = self.0.get_or_init(|| (*grid, GridOnLattice::new(grid, lattice)));
+        if of == grid { *on_lattice } else { GridOnLattice::new(grid, lattice) }
     }
 }
 

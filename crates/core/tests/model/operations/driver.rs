@@ -9,7 +9,7 @@ use meshbrush_core::document::{Document, Follower, MeshChange, Readings, Setting
 use meshbrush_core::layers::SettledSquares;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::{Mesh, NodeId, Progress, Triangle, TriangleId};
+use meshbrush_mesh::mesh::{Fingerprint, Mesh, NodeId, Progress, Triangle, TriangleId};
 
 use super::Operation;
 
@@ -27,6 +27,8 @@ pub struct Driver {
     pub changes_within: usize,
     /// How often the mesh was compared with one made from scratch.
     pub compared: usize,
+    /// The settings and the mesh at each rest.
+    pub rests: Vec<(Settings, Fingerprint)>,
 }
 
 impl Driver {
@@ -44,6 +46,7 @@ impl Driver {
             given_up: None,
             changes_within: 0,
             compared: 0,
+            rests: Vec::new(),
         }
     }
 
@@ -152,6 +155,7 @@ impl Driver {
             );
             assert!(derived(&self.follower) == derived(&rebuilt), "the derived mesh is another");
             self.compared += 1;
+            self.rests.push((self.document.settings().clone(), rebuilt.mesh().fingerprint()));
         }
     }
 }

@@ -7,7 +7,9 @@
 
 use std::ops::Range;
 
-use super::{Diameters, Element, Mesh, Neighbour, TriangleId};
+use rayon::prelude::*;
+
+use super::{Diameters, Element, Kind, Mesh, Neighbour, Triangle, TriangleId};
 
 impl Mesh {
     /// Returns how many triangles belong to the domain.
@@ -50,16 +52,32 @@ impl Mesh {
         self.level_counts().iter().enumerate().map(|(level, &count)| count as f64 * share(level)).sum()
     }
 
-    /// Classifies the entries `ids` as inside or outside the domain. New triangles have the class of their
-    /// parent until then.
-    pub fn classify(&mut self, ids: Range<usize>, mut is_outside: impl FnMut(&Element) -> bool) {
+    /// Classifies the entries `ids` as inside or outside the domain, on the threads of the current pool of
+    /// rayon where they are many. New triangles have the class of their parent until then.
+    pub fn classify(&mut self, ids: Range<usize>, is_outside: impl Fn(&Element) -> bool + Sync) {
         let diameters = Diameters::of(self);
-        for index in ids {
-            let outside = is_outside(&self.element_with(TriangleId::from_index(index), &diameters));
-            let triangle = &mut self.triangles[index];
-            let before = triangle.kind();
-            triangle.set_outside(outside);
-            self.counts.moved(before, triangle.kind());
-        }
+        let Self { lattice, nodes, triangles, .. } = self;
+        let classify = |part: &mut [Triangle]| {
+            let mut moves = [0i32; Kind::COUNT];
+            for triangle in part {
+                let corners = triangle.vertices.map(|node| nodes[node.index()]);
+                let element = Element::new(triangle, corners, lattice, &diameters);
+                let (before, outside) = (triangle.kind(), is_outside(&element));
+                triangle.set_outside(outside);
+                moves[before.index()] -= 1;
+                moves[triangle.kind().index()] += 1;
+            }
+            moves
+        };
+        let ids = &mut triangles[ids];
+        let moves = if ids.len() <= PART {
+            vec![classify(ids)]
+        } else {
+            ids.par_chunks_mut(PART).map(classify).collect()
+        };
+        moves.iter().for_each(|moves| self.counts.add_moves(moves));
     }
 }
+
+/// Triangles that one thread classifies at a time.
+const PART: usize = 1 << 14;

@@ -26,6 +26,18 @@ impl Diameters {
     }
 }
 
+impl<'a> Element<'a> {
+    #[inline]
+    pub(super) fn new(
+        triangle: &'a Triangle,
+        corners: [LatticePoint; 3],
+        lattice: &'a Lattice,
+        diameters: &Diameters,
+    ) -> Self {
+        Self { triangle, corners, lattice, diameter: diameters.0[triangle.level() as usize] }
+    }
+}
+
 impl Element<'_> {
     /// Returns the length of the bisection edge in world units (Eq. 1): what a rule compares with the target
     /// diameter.
@@ -77,13 +89,7 @@ impl Mesh {
         triangle: &'a Triangle,
         diameters: &Diameters,
     ) -> Element<'a> {
-        let corners = triangle.vertices.map(|v| self.node(v));
-        Element {
-            triangle,
-            corners,
-            lattice: &self.lattice,
-            diameter: diameters.0[triangle.level() as usize],
-        }
+        Element::new(triangle, triangle.vertices.map(|v| self.node(v)), &self.lattice, diameters)
     }
 }
 

@@ -14,6 +14,7 @@ mod errors;
 mod ids;
 mod limits;
 mod memory;
+mod questions;
 mod refine;
 mod search;
 mod tree;
@@ -48,6 +49,7 @@ use coarse::CoarseIndex;
 pub(in crate::mesh) use bitset::Bitset;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::{append_pieces, make_room};
+pub(in crate::mesh) use questions::{Questions, ask_all};
 pub(in crate::mesh) use search::RectSearch;
 pub(in crate::mesh) use triangle::Kind;
 pub(in crate::mesh) use walk::WalkEnd;
@@ -236,10 +238,11 @@ impl KindCounts {
         self.0[kind.index()] += count;
     }
 
-    /// Counts a triangle that changed its class.
-    fn moved(&mut self, from: Kind, to: Kind) {
-        self.0[from.index()] -= 1;
-        self.0[to.index()] += 1;
+    /// Counts triangles that changed their class: by how much there are more of each kind.
+    fn add_moves(&mut self, moves: &[i32; Kind::COUNT]) {
+        for (count, moves) in self.0.iter_mut().zip(moves) {
+            *count = count.wrapping_add_signed(*moves);
+        }
     }
 }
 

@@ -16,12 +16,16 @@
 //! ```
 
 use std::collections::HashMap;
-use std::convert::Infallible;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
-    Bitset, Limits, Mesh, Progress, RectSearch, RefineError, TreeTriangle, TriangleId, WalkEnd,
+    Bitset, LevelsWithin, Limits, Mesh, Progress, Questions, RectSearch, RefineError, RuleAnswers,
+    SharedRule, TreeTriangle, TriangleId, WalkEnd, ask_all,
 };
+
+/// Triangles of a batch, unless a slice is smaller.
+const BATCH: usize = 4096;
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.
@@ -39,7 +43,7 @@ use crate::mesh::kernel::{
 /// let square = mesh.lattice().rect_around(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
 /// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);
-/// assert_eq!(forecast.advance(&mesh, exceeds, |_, _| true, usize::MAX)?, Progress::Done);
+/// assert_eq!(forecast.advance(&mesh, &|| exceeds, |_, _| true, usize::MAX)?, Progress::Done);
 ///
 /// let before = mesh.raw_triangle_count() as i64;
 /// mesh.refine(&Limits::default(), |element| exceeds(element.corners, element.triangle.level()))?;
@@ -48,24 +52,34 @@ use crate::mesh::kernel::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct Forecast {
-    max_level: u32,
+    level_cap: u32,
     search: RectSearch,
-    searching: bool,
+    is_searching: bool,
     /// Triangles found by the search.
     reached: Bitset,
-    /// Triangles that may exceed their target.
-    asked: Vec<TreeTriangle>,
+    /// Triangles that may exceed their target: entries of the mesh, or parts of such.
+    open: Vec<Asked>,
     /// Entries whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
     loose: Vec<TriangleId>,
     /// Triangles that coarsening would restore and whose newest vertex can perhaps be removed.
-    put_back: Vec<TreeTriangle>,
+    restored: Vec<TreeTriangle>,
     chain: Vec<TreeTriangle>,
-    fates: HashMap<LatticePoint, Fate>,
+    fates: HashMap<LatticePoint, Fate, BuildHasherDefault<PlaceHasher>>,
     /// For each coarse triangle, by number, the end of the last walk in it, where the next walk begins.
-    near: HashMap<usize, TriangleId>,
+    near: HashMap<usize, TriangleId, BuildHasherDefault<PlaceHasher>>,
     added: usize,
     removed: usize,
     change: i64,
+    /// Memory that is used again, empty between calls.
+    batch: Vec<Asked>,
+}
+
+/// A triangle that may exceed its target.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    triangle: TreeTriangle,
+    /// The known answers for it and for all triangles within it.
+    known: LevelsWithin,
 }
 
 /// The change of a node.
@@ -75,6 +89,99 @@ enum Fate {
     Goes,
     /// A triangle that was cut there would exceed its target.
     Stays,
+}
+
+/// The newest vertex of triangles that coarsening would remove.
+struct Loose {
+    at: LatticePoint,
+    parents: [Option<TreeTriangle>; 2],
+    /// Whether a parent exceeds its target.
+    is_needed: bool,
+}
+
+/// Asks about triangles of the tree, and about those within them.
+struct OfTree {
+    level_cap: u32,
+}
+
+impl Questions for OfTree {
+    type Question = Asked;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+        let (corners, level) = (asked.triangle.corners(), asked.triangle.level());
+        if level < self.level_cap && asked.known.exceeds(level).is_none() {
+            asked.known = asked.known.and(answers.levels_within(corners, level)?);
+        }
+        Ok(())
+    }
+}
+
+/// Asks about entries of the mesh, most of which satisfy their target.
+struct OfMesh {
+    level_cap: u32,
+}
+
+impl Questions for OfMesh {
+    type Question = Asked;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+        let level = asked.triangle.level();
+        let exceeds = level < self.level_cap && answers.exceeds(asked.triangle.corners(), level)?;
+        asked.known = LevelsWithin::of_one(level, exceeds);
+        Ok(())
+    }
+}
+
+/// Asks whether parents exceed their targets.
+struct OfParents {
+    level_cap: u32,
+}
+
+impl Questions for OfParents {
+    type Question = Loose;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
+        for parent in loose.parents.iter().flatten() {
+            let level = parent.level();
+            loose.is_needed =
+                loose.is_needed || (level < self.level_cap && answers.exceeds(parent.corners(), level)?);
+        }
+        Ok(())
+    }
+}
+
+/// A hash of lattice points and small numbers: their coordinates differ in high bits too, and a product
+/// brings all of them into the bits that a table uses.
+#[derive(Clone, Copy, Debug, Default)]
+struct PlaceHasher(u64);
+
+impl Hasher for PlaceHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+    }
+
+    #[inline]
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(number.into());
+    }
+
+    #[inline]
+    fn write_usize(&mut self, number: usize) {
+        self.write_u64(number as u64);
+    }
+
+    #[inline]
+    fn write_u64(&mut self, number: u64) {
+        self.0 = (self.0.rotate_left(32) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    #[inline]
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
 }
 
 /// Returns how many triangles of the domain come when one is bisected, or go below zero.
@@ -87,19 +194,20 @@ impl Forecast {
     /// Creates a forecast without counts. `area` contains all points where the rule has changed.
     pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
         Self {
-            max_level: limits.level_cap(),
+            level_cap: limits.level_cap(),
             search: RectSearch::new(mesh, area),
-            searching: true,
+            is_searching: true,
             reached: Bitset::default(),
-            asked: Vec::new(),
+            open: Vec::new(),
             loose: Vec::new(),
-            put_back: Vec::new(),
+            restored: Vec::new(),
             chain: Vec::new(),
-            fates: HashMap::new(),
-            near: HashMap::new(),
+            fates: HashMap::default(),
+            near: HashMap::default(),
             added: 0,
             removed: 0,
             change: 0,
+            batch: Vec::new(),
         }
     }
 
@@ -120,71 +228,111 @@ impl Forecast {
 
     /// Counts until done or until `visits` triangles were looked at.
     ///
-    /// `exceeds` is the new rule, by corners and level. It must be monotone, and equal to the former rule
-    /// outside the area. `is_in_domain` returns whether a triangle, by corners and level, lies in the domain.
+    /// `rule` is the new rule, which is asked on the threads of the current pool of rayon. It must be
+    /// monotone, and equal to the former rule outside the area. `is_in_domain` returns whether a triangle, by
+    /// corners and level, lies in the domain.
     ///
     /// # Errors
-    /// Fails when a target is finer than the lattice. The triangle budget is not checked; that is up to the
-    /// caller.
-    pub fn advance(
+    /// Fails when the rule fails, or a target is finer than the lattice. The triangle budget is not checked;
+    /// that is up to the caller.
+    pub fn advance<R: SharedRule>(
         &mut self,
         mesh: &Mesh,
-        exceeds: impl Fn([LatticePoint; 3], u32) -> bool,
+        rule: &R,
         is_in_domain: impl Fn([LatticePoint; 3], u32) -> bool,
         visits: usize,
-    ) -> Result<Progress, RefineError<Infallible>> {
+    ) -> Result<Progress, RefineError<R::Error>> {
         let gain = |triangle: &TreeTriangle| gain(triangle, &is_in_domain);
-        let max_level = self.max_level;
-        let exceeds = |triangle: &TreeTriangle| {
-            triangle.level() < max_level && exceeds(triangle.corners(), triangle.level())
-        };
-        let deepest = mesh.lattice().deepest_level();
-        // Ends: as the update does, see the head of `update.rs`.
-        for _ in 0..visits {
-            if let Some(triangle) = self.asked.pop() {
-                if !exceeds(&triangle) {
-                    continue;
-                }
-                if triangle.level() >= deepest {
-                    return Err(RefineError::too_fine(mesh.lattice(), triangle.apex()));
-                }
-                self.bisect(mesh, triangle, gain);
-                self.asked.extend(triangle.children());
-            } else if self.searching {
-                self.search_on(mesh);
-            } else if let Some(triangle) = self.put_back.pop() {
-                self.loosen(mesh, &triangle, exceeds, gain);
-            } else if let Some(id) = self.loose.pop() {
-                self.loosen(mesh, &TreeTriangle::of(mesh, id), exceeds, gain);
+        let mut left = visits;
+        // Ends: as the update does, see the head of `update/mod.rs`.
+        while left > 0 {
+            let most = left.min(BATCH);
+            let looked = if !self.open.is_empty() {
+                self.bisect_on(mesh, rule, gain, most)?
+            } else if self.is_searching {
+                self.search_on(mesh, rule, most).map_err(RefineError::Rule)?
+            } else if !self.restored.is_empty() || !self.loose.is_empty() {
+                self.coarsen_on(mesh, rule, gain, most).map_err(RefineError::Rule)?
             } else {
                 return Ok(Progress::Done);
-            }
+            };
+            left -= looked.clamp(1, left);
         }
         Ok(Progress::More)
     }
 
-    /// One step of the search: a triangle or half a coarse cell.
-    fn search_on(&mut self, mesh: &Mesh) {
-        if let Some(id) = self.search.found() {
+    /// Looks at up to `most` triangles of the area. Returns how many.
+    fn search_on<R: SharedRule>(&mut self, mesh: &Mesh, rule: &R, most: usize) -> Result<usize, R::Error> {
+        let mut found = std::mem::take(&mut self.batch);
+        let mut looked = 0;
+        while looked < most && self.is_searching {
+            looked += 1;
+            let Some(id) = self.search.found() else {
+                self.is_searching = self.search.enter_next(mesh, &mut self.reached);
+                continue;
+            };
             self.search.spread_from(mesh, id, &mut self.reached);
-            self.asked.push(TreeTriangle::of(mesh, id));
-            // Where a triangle around it was bisected, the newest vertex is looked at once that one is put
-            // back.
+            found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            // Where a triangle around it was bisected, the newest vertex is looked at once that one is
+            // restored.
             if mesh.star_of(id).is_some() {
                 self.loose.push(id);
             }
-        } else {
-            self.searching = self.search.enter_next(mesh, &mut self.reached);
         }
+        let asked = ask_all(&OfMesh { level_cap: self.level_cap }, &mut found, rule);
+        if asked.is_ok() {
+            self.open.extend(found.iter().filter(|asked| asked.exceeds()));
+        }
+        found.clear();
+        self.batch = found;
+        asked.map(|()| looked)
+    }
+
+    /// Asks about up to `most` triangles, and notes that those are bisected that exceed their target.
+    fn bisect_on<R: SharedRule>(
+        &mut self,
+        mesh: &Mesh,
+        rule: &R,
+        gain: impl Fn(&TreeTriangle) -> i64,
+        most: usize,
+    ) -> Result<usize, RefineError<R::Error>> {
+        let mut batch = std::mem::take(&mut self.batch);
+        batch.extend(self.open.drain(self.open.len().saturating_sub(most)..));
+        ask_all(&OfTree { level_cap: self.level_cap }, &mut batch, rule).map_err(RefineError::Rule)?;
+        for asked in batch.iter().filter(|asked| asked.exceeds()) {
+            let &Asked { triangle, known } = asked;
+            if triangle.level() >= self.level_cap {
+                continue;
+            }
+            if triangle.level() >= mesh.lattice().deepest_level() {
+                return Err(RefineError::too_fine(mesh.lattice(), triangle.apex()));
+            }
+            self.bisect(mesh, triangle, &gain);
+            let children = triangle.children().map(|triangle| Asked { triangle, known });
+            self.open
+                .extend(children.iter().filter(|child| child.known.exceeds(child.level()) != Some(false)));
+        }
+        let looked = batch.len();
+        batch.clear();
+        self.batch = batch;
+        Ok(looked)
     }
 
     /// Notes that a triangle is bisected, and before it those that must be to keep the mesh compatible. Each
     /// of the chain is one level above the one before.
+    ///
+    /// The triangle is an entry of the mesh, or part of one: no node of the mesh lies in the middle of its
+    /// edges.
     fn bisect(&mut self, mesh: &Mesh, triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
+        let is_first = |chain: &[TreeTriangle]| chain.len() == 1;
         self.chain.push(triangle);
         while let Some(&triangle) = self.chain.last() {
             let midpoint = triangle.midpoint();
-            if self.is_node(mesh, midpoint, &triangle) {
+            let is_node = match self.fate(midpoint) {
+                Some(is_node) => is_node,
+                None => !is_first(&self.chain) && self.was_node(mesh, midpoint, &triangle),
+            };
+            if is_node {
                 self.chain.pop();
                 continue;
             }
@@ -203,43 +351,73 @@ impl Forecast {
         }
     }
 
-    /// Notes that the newest vertex of a triangle goes, if it can.
-    fn loosen(
+    /// Looks at up to `most` triangles, and notes that the newest vertices go that can.
+    fn coarsen_on<R: SharedRule>(
         &mut self,
         mesh: &Mesh,
-        triangle: &TreeTriangle,
-        exceeds: impl Fn(&TreeTriangle) -> bool,
+        rule: &R,
         gain: impl Fn(&TreeTriangle) -> i64,
-    ) {
-        if self.fates.contains_key(&triangle.apex()) {
-            return;
+        most: usize,
+    ) -> Result<usize, R::Error> {
+        let mut stars = Vec::new();
+        let mut looked = 0;
+        while looked < most {
+            looked += 1;
+            if let Some(triangle) = self.restored.pop() {
+                stars.extend(self.star(mesh, &triangle, false));
+            } else if let Some(id) = self.loose.pop() {
+                stars.extend(self.star(mesh, &TreeTriangle::of(mesh, id), true));
+            } else {
+                break;
+            }
         }
-        let Some(parent) = triangle.parent(mesh.lattice()) else { return };
-        let parents = [Some(parent), parent.across(mesh)];
-        let parents = || parents.iter().flatten();
-        if parents().any(|parent| parent.children().iter().any(|child| self.is_bisected(mesh, child))) {
-            return;
+        ask_all(&OfParents { level_cap: self.level_cap }, &mut stars, rule)?;
+        for Loose { at, parents, .. } in stars.into_iter().filter(|loose| !loose.is_needed) {
+            self.fates.insert(at, Fate::Goes);
+            self.removed += parents.iter().flatten().count();
+            self.change -= parents.iter().flatten().map(&gain).sum::<i64>();
+            self.restored.extend(parents.into_iter().flatten());
         }
-        let fate = if parents().any(exceeds) { Fate::Stays } else { Fate::Goes };
-        self.fates.insert(triangle.apex(), fate);
-        if fate == Fate::Goes {
-            self.removed += parents().count();
-            self.change -= parents().map(gain).sum::<i64>();
-            self.put_back.extend(parents());
-        }
+        Ok(looked)
     }
 
-    fn is_bisected(&mut self, mesh: &Mesh, triangle: &TreeTriangle) -> bool {
-        triangle.level() < mesh.lattice().deepest_level() && self.is_node(mesh, triangle.midpoint(), triangle)
+    /// Returns the newest vertex of a triangle and the parents around it, if all of them could be restored;
+    /// `None` where its fate is known. Until the parents are asked about, it stays. `are_entries` says that
+    /// all triangles around the vertex are entries of the mesh.
+    fn star(&mut self, mesh: &Mesh, triangle: &TreeTriangle, are_entries: bool) -> Option<Loose> {
+        let at = triangle.apex();
+        if self.fates.contains_key(&at) {
+            return None;
+        }
+        let parent = triangle.parent(mesh.lattice())?;
+        let parents = [Some(parent), parent.across(mesh)];
+        let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
+        if children.any(|child| self.is_bisected(mesh, &child, are_entries)) {
+            return None;
+        }
+        self.fates.insert(at, Fate::Stays);
+        Some(Loose { at, parents, is_needed: false })
+    }
+
+    fn is_bisected(&mut self, mesh: &Mesh, triangle: &TreeTriangle, is_entry: bool) -> bool {
+        if triangle.level() >= mesh.lattice().deepest_level() {
+            return false;
+        }
+        let midpoint = triangle.midpoint();
+        self.fate(midpoint).unwrap_or_else(|| !is_entry && self.was_node(mesh, midpoint, triangle))
     }
 
     /// Returns whether a point of a triangle, which may lie on its rim, is a node as far as counted.
+    #[inline]
     fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
-        match self.fates.get(&point) {
-            Some(Fate::Comes | Fate::Stays) => true,
-            Some(Fate::Goes) => false,
-            None => self.was_node(mesh, point, of),
-        }
+        self.fate(point).unwrap_or_else(|| self.was_node(mesh, point, of))
+    }
+
+    /// Returns whether a point is a node as far as counted, where that differs from the mesh or was found
+    /// out.
+    #[inline]
+    fn fate(&self, point: LatticePoint) -> Option<bool> {
+        self.fates.get(&point).map(|fate| *fate != Fate::Goes)
     }
 
     fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
@@ -250,5 +428,16 @@ impl Forecast {
         };
         *near = id;
         mesh.corners(id).contains(&point)
+    }
+}
+
+impl Asked {
+    fn level(&self) -> u32 {
+        self.triangle.level()
+    }
+
+    /// Returns whether the triangle is known to exceed its target.
+    fn exceeds(&self) -> bool {
+        self.known.exceeds(self.level()) == Some(true)
     }
 }

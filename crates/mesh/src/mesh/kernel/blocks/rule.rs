@@ -11,6 +11,12 @@ pub trait SharedRule: Sync {
 
     /// Returns the answers for one thread, which may keep what helps with the next triangles nearby.
     fn answers(&self) -> impl RuleAnswers<Error = Self::Error>;
+
+    /// Returns how many questions are worth another thread: they should take longer than the hundredth of a
+    /// millisecond in which it wakes.
+    fn questions_per_thread(&self) -> usize {
+        1024
+    }
 }
 
 impl<F, A> SharedRule for F
@@ -36,6 +42,15 @@ pub trait RuleAnswers {
     /// # Errors
     /// Fails when the rule cannot answer.
     fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Self::Error>;
+
+    /// Returns whether a triangle exceeds its target, where nothing needs to be known of those within it.
+    ///
+    /// # Errors
+    /// Fails when the rule cannot answer.
+    #[inline]
+    fn exceeds(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<bool, Self::Error> {
+        Ok(self.levels_within(corners, level)?.exceeds(level) == Some(true))
+    }
 }
 
 impl<F, A> RuleAnswers for F

@@ -1,0 +1,395 @@
+//! The speed of the program on one machine, as a page: `cargo bench -p meshbrush-benches --bench speed` writes
+//! `docs/speed.md`.
+//!
+//! Everything goes through the types of the window: document, follower and pricer, in slices of its pace. With
+//! the words `--bench speed -- short` only small meshes are measured, and nothing is written.
+//!
+//! Where a C compiler and the library ALBERTA are installed, it refines the same mesh (`alberta.c`).
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use glam::{DVec2, dvec2};
+use meshbrush_benches::documents::{SIDE, THREATS, diameter, layered, moved_threat, painted};
+use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, Pool, Slices, median_ms, pools};
+use meshbrush_benches::{diamond, field};
+use meshbrush_core::document::{Document, Follower, Pricer, Setting};
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium, StrokePlan};
+use meshbrush_mesh::mesh::{Limits, Mesh, Progress, Refiner, SharedRule, bisection_edge_length};
+use rayon::prelude::*;
+
+/// Bytes of a triangle and its share of the nodes.
+const BYTES: f64 = 38.0;
+
+fn main() {
+    let is_short = std::env::args().any(|argument| argument == "short");
+    let pools = pools();
+    let mut page = String::new();
+    heading(&mut page, &pools);
+    generation(&mut page, &pools, if is_short { &[5, 9] } else { &[5, 13, 17] });
+    dabs(&mut page, &pools, is_short);
+    large_edits(&mut page, &pools, is_short);
+    print!("{page}");
+    if !is_short {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/speed.md");
+        std::fs::write(path, page).expect("the page can be written");
+    }
+}
+
+fn heading(page: &mut String, pools: &[Pool]) {
+    let output = |program: &str, arguments: &[&str]| {
+        let output = Command::new(program).args(arguments).output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let commit = output("git", &["rev-parse", "--short", "HEAD"]).unwrap_or_default();
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let all = pools.last().map_or(1, |pool| pool.threads);
+    *page += "# Speed\n\nWritten by `cargo bench -p meshbrush-benches --bench speed`; times are medians.\n\n";
+    let cpu = cpu.map_or("an unknown processor", |(_, name)| name);
+    write_line(page, format_args!("Commit {commit} on {cpu}, {all} threads.\n"));
+}
+
+fn write_line(page: &mut String, line: std::fmt::Arguments<'_>) {
+    writeln!(page, "{line}").expect("a string can always be written");
+}
+
+/// Returns the median time of some rounds, in seconds.
+fn median(rounds: usize, mut once: impl FnMut() -> Duration) -> f64 {
+    median_ms((0..rounds).map(|_| once()).collect()) / 1e3
+}
+
+/// Meshes from scratch: the diamond of the report, in millions of triangles a second.
+fn generation(page: &mut String, pools: &[Pool], levels: &[u32]) {
+    *page += "## Meshes from scratch\n\nThe diamond of the report, in millions of triangles a second. *In order* is \
+        Algorithm 12, one triangle after the other; *blocks* the way of the program; *pixels* the same, asked by the \
+        area rule on a raster. *New* and *used* memory. *Writes* is the same number of bytes and nothing else: the limit \
+        of this machine.\n\n";
+    *page += "| triangles | threads | in order, used | blocks, new | blocks, used | pixels, used | writes, new | writes, used | ALBERTA |\n";
+    *page += "|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    let alberta = alberta();
+    for &level in levels {
+        let published =
+            alberta.as_deref().filter(|_| level <= 13).and_then(|program| alberta_rate(program, level));
+        for pool in pools {
+            generation_row(page, pool, level, published);
+        }
+    }
+    page.push('\n');
+}
+
+fn generation_row(page: &mut String, pool: &Pool, level: u32, alberta: Option<f64>) {
+    let coarse = diamond::coarse();
+    let within = diamond::rule_within(&coarse, level);
+    let pixels = field::diamond(bisection_edge_length(1.0, level));
+    let rounds = if level > 14 { 3 } else { 15 };
+    let mut mesh = coarse.clone();
+    in_blocks(&mut mesh, &within);
+    let triangles = mesh.raw_triangle_count();
+    let rate = |seconds: f64| format!("{:.1}", triangles as f64 / seconds / 1e6);
+    let fresh = pool.run(|| {
+        median(rounds, || {
+            let began = Instant::now();
+            let mut mesh = coarse.clone();
+            in_blocks(&mut mesh, &within);
+            began.elapsed()
+        })
+    });
+    let reused = pool.run(|| again(rounds, &mut mesh, &coarse, &within));
+    let by_pixels = pool.run(|| again(rounds, &mut mesh, &coarse, &field::rule(&pixels)));
+    let one_by_one = (pool.threads == 1).then(|| {
+        let mut refiner = Refiner::new(&coarse, Limits::default());
+        let rule = diamond::rule(&coarse, level);
+        median(rounds, || {
+            let began = Instant::now();
+            mesh.clone_from(&coarse);
+            refiner.restart(&mesh);
+            refiner.advance(&mut mesh, &rule, usize::MAX).expect("within the default limits");
+            began.elapsed()
+        })
+    });
+    let [write_new, write_used] = pool.run(|| writes(rounds, triangles, pool.threads));
+    let optional = |seconds: Option<f64>| seconds.map_or(String::new(), rate);
+    write_line(
+        page,
+        format_args!(
+            "| {triangles} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            pool.threads,
+            optional(one_by_one),
+            rate(fresh),
+            rate(reused),
+            rate(by_pixels),
+            rate(write_new),
+            rate(write_used),
+            alberta.filter(|_| pool.threads == 1).map_or(String::new(), |rate| format!("{rate:.2}")),
+        ),
+    );
+}
+
+fn in_blocks(mesh: &mut Mesh, rule: &impl SharedRule<Error: std::fmt::Debug>) {
+    mesh.refine_in_blocks(&Limits::default(), rule).expect("within the default limits");
+}
+
+/// Makes a mesh again in its own memory. Returns the seconds.
+fn again(
+    rounds: usize,
+    mesh: &mut Mesh,
+    coarse: &Mesh,
+    rule: &impl SharedRule<Error: std::fmt::Debug>,
+) -> f64 {
+    median(rounds, || {
+        let began = Instant::now();
+        mesh.clone_from(coarse);
+        in_blocks(mesh, rule);
+        began.elapsed()
+    })
+}
+
+/// Writes the bytes of a mesh, to new memory and again. Returns the seconds.
+fn writes(rounds: usize, triangles: usize, threads: usize) -> [f64; 2] {
+    let words = (triangles as f64 * BYTES / 8.0) as usize;
+    let write = |memory: &mut Vec<u64>| {
+        memory.par_chunks_mut(words.div_ceil(threads)).for_each(|part| part.fill(std::hint::black_box(7)));
+    };
+    let new = median(rounds, || {
+        let began = Instant::now();
+        // Zeros are mapped when they are written.
+        let mut memory = vec![0; words];
+        write(&mut memory);
+        let time = began.elapsed();
+        std::hint::black_box(memory);
+        time
+    });
+    let mut memory = vec![0; words];
+    write(&mut memory);
+    let used = median(rounds, || {
+        let began = Instant::now();
+        write(&mut memory);
+        began.elapsed()
+    });
+    [new, used]
+}
+
+/// Compiles the program for ALBERTA, if that is installed.
+fn alberta() -> Option<PathBuf> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("alberta.c");
+    let program = std::env::temp_dir().join("meshbrush-alberta");
+    let mut compiler = Command::new("cc");
+    compiler.args(["-O3", "-DDIM_OF_WORLD=2", "-DALBERTA_DEBUG=0", "-I/usr/include/alberta"]);
+    compiler.arg(source).args(["-lalberta_2d", "-lalberta_utilities", "-lm", "-o"]).arg(&program);
+    compiler.output().is_ok_and(|output| output.status.success()).then_some(program)
+}
+
+/// Returns the millions of triangles a second of ALBERTA.
+fn alberta_rate(program: &Path, level: u32) -> Option<f64> {
+    let output = Command::new(program).arg(level.to_string()).output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let (triangles, seconds) = text.lines().last()?.split_once(' ')?;
+    Some(triangles.parse::<f64>().ok()? / seconds.parse::<f64>().ok()? / 1e6)
+}
+
+/// A document that is followed as in the window.
+struct Scene {
+    document: Document,
+    follower: Follower,
+    slices: Slices,
+    /// Milliseconds to make it.
+    scratch: f64,
+}
+
+impl Scene {
+    fn new(mut document: Document) -> Self {
+        let began = Instant::now();
+        let follower = Follower::new(&mut document).expect("it has a mesh");
+        Self { document, follower, slices: Slices::default(), scratch: 1e3 * began.elapsed().as_secs_f64() }
+    }
+
+    fn triangles(&self) -> usize {
+        self.follower.mesh().raw_triangle_count()
+    }
+
+    fn follow(&mut self) -> Duration {
+        self.slices.follow(&mut self.document, &mut self.follower)
+    }
+
+    /// Makes an edit. Returns the times until the mesh begins to change and until it is up to date.
+    fn edit(&mut self, edit: impl FnOnce(&mut Document)) -> [Duration; 2] {
+        self.follower.take_change();
+        let began = Instant::now();
+        edit(&mut self.document);
+        let mut first = None;
+        loop {
+            let Self { document, follower, slices, .. } = self;
+            let is_done = slices
+                .one(|visits| follower.advance(document, visits).expect("the budget is far").is_settled());
+            if first.is_none() && self.follower.take_change().is_some() {
+                first = Some(began.elapsed());
+            }
+            if is_done {
+                let rest = began.elapsed();
+                return [first.unwrap_or(rest), rest];
+            }
+        }
+    }
+
+    fn dab(&mut self, brush: Brush, at: DVec2) -> Duration {
+        self.document.begin_stroke(brush);
+        self.document.draw_to(at);
+        self.document.end_stroke();
+        self.follow()
+    }
+
+    fn price(&mut self, brush: Brush, at: DVec2) -> Duration {
+        let mut pricer = Pricer::default();
+        pricer.ask(Some(StrokePlan::click(brush, at)), &self.document, &self.follower);
+        let Self { document, follower, slices, .. } = self;
+        slices.run(|visits| pricer.advance(document, follower, visits) == Progress::Done)
+    }
+}
+
+/// The dab of the bench *update*, and one of as many triangles on layers.
+fn dabs(page: &mut String, pools: &[Pool], is_short: bool) {
+    *page += "## A dab\n\nMilliseconds until the mesh is up to date after a dab is painted and erased at the same place, \
+        and until its price is known (the pixels of the dab included). *Scratch* is the whole mesh made again.\n\n";
+    *page += "| document | triangles | threads | changes | paint | erase | price of painting | price of erasing | scratch |\n";
+    *page += "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    let plain = |fine: f64| Brush {
+        medium: Medium::Diameter(fine * (1.0 + 1e-6), DiameterChange::Finer),
+        radius: 78.0 / f64::from(SIDE),
+        hardness: 1.0,
+        strength: 1.0,
+    };
+    let on_layers = |fine: f64| Brush { radius: 30.0 * fine, ..BRUSH };
+    let sizes: &[(u8, u32)] = if is_short { &[(5, 2048)] } else { &[(5, 2048), (12, 1950), (17, 1220)] };
+    for &(level, rows) in sizes {
+        let scene = Scene::new(painted(level, rows));
+        dab_rows(page, pools, "plain paint", scene, plain(diameter(12)), dvec2(0.39, 0.366));
+    }
+    let fines: &[f64] = if is_short { &[0.016] } else { &[0.016, 0.0011, 0.00035] };
+    for (name, gradation) in [("eight layers", None), ("eight layers, gradation 0.5", Some(0.5))] {
+        for &fine in fines {
+            let scene = Scene::new(layered(fine, gradation));
+            dab_rows(page, pools, name, scene, on_layers(fine), dvec2(0.5, 0.62));
+        }
+    }
+    page.push('\n');
+}
+
+fn dab_rows(page: &mut String, pools: &[Pool], name: &str, mut scene: Scene, brush: Brush, at: DVec2) {
+    let eraser = Brush { medium: Medium::Eraser, hardness: 1.0, strength: 1.0, radius: 1.01 * brush.radius };
+    let rounds = if scene.triangles() > 4_000_000 { 7 } else { 25 };
+    for pool in pools {
+        let count = scene.triangles();
+        let mut times: [Vec<Duration>; 4] = Default::default();
+        let mut changes = 0;
+        pool.run(|| {
+            for _ in 0..rounds {
+                times[2].push(scene.price(brush, at));
+                times[0].push(scene.dab(brush, at));
+                changes = scene.triangles().abs_diff(count);
+                times[3].push(scene.price(eraser, at));
+                times[1].push(scene.dab(eraser, at));
+            }
+        });
+        let [paint, erase, price, price_of_erasing] = times.map(median_ms);
+        write_line(
+            page,
+            format_args!(
+                "| {name} | {count} | {} | {changes} | {paint:.2} | {erase:.2} | {price:.2} | {price_of_erasing:.2} | {:.1} |",
+                pool.threads, scene.scratch
+            ),
+        );
+    }
+}
+
+/// Edits of eight layers that concern large parts of the mesh.
+fn large_edits(page: &mut String, pools: &[Pool], is_short: bool) {
+    *page += "## Large edits\n\nEight layers: milliseconds until the mesh begins to change, and until it is up to date. \
+        *Stroke* is the work of a frame in a stroke across the square at 60 frames a second, in the median and in 99 of \
+        100 frames, and how far the mesh is behind when the pointer is lifted.\n\n";
+    *page += "| gradation | triangles | threads | threat moved | layer hidden | layer shown | stroke, frame | behind | scratch |\n";
+    *page += "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    for gradation in [None, Some(0.5)] {
+        let mut scene = Scene::new(layered(if is_short { 0.016 } else { 0.0011 }, gradation));
+        for pool in pools {
+            pool.run(|| large_edits_row(page, &mut scene, pool.threads, gradation));
+        }
+    }
+    page.push('\n');
+}
+
+fn large_edits_row(page: &mut String, scene: &mut Scene, threads: usize, gradation: Option<f64>) {
+    let change = |document: &mut Document, change: &dyn Fn(&mut Layer)| {
+        let mut layers = document.settings().layers.clone();
+        layers.iter_mut().filter(|layer| layer.id == THREATS).for_each(change);
+        document.set(Setting::Layers(layers)).expect("valid layers");
+        document.end_gesture();
+    };
+    let move_to = |share: f64| {
+        move |layer: &mut Layer| {
+            if let LayerKind::Threats(threats) = &mut layer.kind {
+                threats.set(0, moved_threat(share)).expect("a valid threat");
+            }
+        }
+    };
+    let mut times: [[Vec<Duration>; 2]; 3] = Default::default();
+    for _ in 0..5 {
+        let edits: [(usize, &dyn Fn(&mut Layer)); 4] = [
+            (0, &move_to(0.5)),
+            (0, &move_to(0.0)),
+            (1, &|layer: &mut Layer| layer.visible = false),
+            (2, &|layer: &mut Layer| layer.visible = true),
+        ];
+        for (place, edit) in edits {
+            let [first, rest] = scene.edit(|document| change(document, edit));
+            times[place][0].push(first);
+            times[place][1].push(rest);
+        }
+    }
+    let [moved, hidden, shown] = times.map(|times| {
+        let [first, rest] = times.map(median_ms);
+        format!("{first:.1} / {rest:.1}")
+    });
+    let (mut frames, behind) = stroke(scene);
+    frames.sort();
+    let of = |share: usize| 1e3 * frames[frames.len() * share / 100].as_secs_f64();
+    let gradation = gradation.map_or("none".into(), |slope| slope.to_string());
+    write_line(
+        page,
+        format_args!(
+            "| {gradation} | {} | {threads} | {moved} | {hidden} | {shown} | {:.1} / {:.1} | {:.1} | {:.1} |",
+            scene.triangles(),
+            of(50),
+            of(99),
+            1e3 * behind.as_secs_f64(),
+            scene.scratch
+        ),
+    );
+}
+
+/// A stroke, and its undo. Returns the work of each frame, and the time to the mesh that is up to date after
+/// the last one.
+fn stroke(scene: &mut Scene) -> (Vec<Duration>, Duration) {
+    const FRAMES: usize = 120;
+    let mut frames = Vec::new();
+    scene.document.begin_stroke(BRUSH);
+    for frame in 0..FRAMES {
+        let angle = 0.4 + 5.6 * frame as f64 / (FRAMES - 1) as f64;
+        let began = Instant::now();
+        scene.document.draw_to(dvec2(0.5 + 0.36 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin()));
+        let deadline = Instant::now() + FRAME_BUDGET;
+        let Scene { document, follower, slices, .. } = scene;
+        let slice = |visits| follower.advance(document, visits).expect("the budget is far").is_settled();
+        let mut slice = slice;
+        while !slices.one(&mut slice) && Instant::now() < deadline {}
+        frames.push(began.elapsed());
+    }
+    scene.document.end_stroke();
+    let behind = scene.follow();
+    assert!(scene.document.undo());
+    scene.follow();
+    (frames, behind)
+}

@@ -1,0 +1,79 @@
+//! The areas in which a rule has changed, and what is known of the change.
+
+use glam::DVec2;
+
+use crate::geometry::{LatticePoint, LatticeRect};
+use crate::mesh::kernel::Mesh;
+
+/// How the target diameters of a rule change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TargetChange {
+    /// None becomes larger: no triangle that exceeded its target ceases to.
+    Finer,
+    /// None becomes smaller: no triangle that satisfied its target ceases to.
+    Coarser,
+    /// Any change.
+    Any,
+}
+
+/// A rectangle to be searched.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Area {
+    pub(super) changed: ChangedArea,
+    /// Whether all triangles that touch it count as changed.
+    pub(super) reports_all: bool,
+}
+
+/// A rectangle in which the target diameters of a rule have changed, and what is known of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChangedArea {
+    /// Triangles that touch it can get another answer.
+    pub rect: LatticeRect,
+    /// The change of the target diameters.
+    pub change: TargetChange,
+    /// A lower bound of the target diameters that changed; `None` if it is unknown.
+    pub falloff: Option<Falloff>,
+}
+
+/// A least diameter that grows with the distance from the cause of a change: no smaller target diameter is
+/// other than before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Falloff {
+    /// The rectangle that contains the cause of the change.
+    pub core: LatticeRect,
+    /// The least diameter there, in world units.
+    pub least: f64,
+    /// The growth of this diameter per unit of length.
+    pub slope: f64,
+}
+
+impl ChangedArea {
+    /// Returns whether a triangle can have begun to exceed its target, and whether its parent can have ceased
+    /// to.
+    #[inline]
+    pub fn concerns(&self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
+        let least = self.falloff.map_or(0.0, |falloff| falloff.least_at(mesh, corners));
+        // The answer for a triangle changes only if a changed target diameter is smaller than the triangle's.
+        let exceeds = |level: u32| mesh.diameter(level) > least;
+        let asks = self.change != TargetChange::Coarser && exceeds(level);
+        // A triangle without a parent has no node that could go.
+        let loosens = self.change != TargetChange::Finer && level > 0 && exceeds(level - 1);
+        [asks, loosens]
+    }
+}
+
+impl Falloff {
+    /// Returns the least diameter in a triangle, in world units.
+    #[inline]
+    fn least_at(&self, mesh: &Mesh, [a, b, c]: [LatticePoint; 3]) -> f64 {
+        let Self { core, least, slope } = self;
+        let gap =
+            |low: u32, high: u32, from: u32, to: u32| low.saturating_sub(to).max(from.saturating_sub(high));
+        let x = gap(core.min.x, core.max.x, a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
+        let y = gap(core.min.y, core.max.y, a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
+        let step = mesh.lattice().step();
+        let distance = (DVec2::new(f64::from(x), f64::from(y)) * step).length();
+        // A little less, for rounding errors here and where the target diameters are computed.
+        (least + slope * distance) * (1.0 - 1e-9)
+    }
+}

@@ -1,0 +1,99 @@
+//! Removes the nodes that are no longer needed.
+
+use super::Updater;
+use super::questions::{Loose, OfParents};
+use crate::mesh::kernel::coarsen::Star;
+use crate::mesh::kernel::{Mesh, NodeId, SharedRule, TriangleId, ask_all};
+
+/// Entries that nothing refers to any more.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Freed {
+    triangles: Vec<TriangleId>,
+    nodes: Vec<NodeId>,
+}
+
+impl Updater {
+    /// Looks at up to `most` triangles whose newest vertex may be free to go, and removes the nodes that are.
+    /// Returns at how many triangles it looked.
+    pub(super) fn coarsen_on<R: SharedRule>(
+        &mut self,
+        mesh: &mut Mesh,
+        rule: &R,
+        most: usize,
+    ) -> Result<usize, R::Error> {
+        // Entries will move: the marks move with them.
+        self.forget();
+        let (looked, mut stars) = self.take_stars(mesh, most);
+        if let Err(error) = ask_all(&OfParents { mesh, level_cap: self.limits.level_cap() }, &mut stars, rule)
+        {
+            for child in stars.iter().flat_map(|loose| loose.star.children()) {
+                self.loose.insert(child.index());
+            }
+            self.stars = emptied(stars);
+            return Err(error);
+        }
+        for loose in stars.iter().filter(|loose| !loose.is_needed) {
+            self.merge(mesh, &loose.star);
+        }
+        self.remove_freed(mesh);
+        self.stars = emptied(stars);
+        Ok(looked)
+    }
+
+    /// Takes marks until it has looked at `most` triangles. Returns at how many it looked, and the stars
+    /// found, each once.
+    fn take_stars(&mut self, mesh: &Mesh, most: usize) -> (usize, Vec<Loose>) {
+        let mut stars = std::mem::take(&mut self.stars);
+        for looked in 0..most {
+            let Some(last) = self.loose.last() else { return (looked, stars) };
+            match mesh.star_of(TriangleId::from_index(last)) {
+                None => {
+                    self.loose.remove(last);
+                }
+                Some(star) => {
+                    // They have the same newest vertex: one question answers for all of them.
+                    star.children().for_each(|child| {
+                        self.loose.remove(child.index());
+                    });
+                    stars.push(Loose { star, is_needed: false });
+                }
+            }
+        }
+        (most, stars)
+    }
+
+    /// Puts the parents of a star back. No triangle has two stars, so that others stay what they are; the
+    /// entries that become free are removed after all of them.
+    fn merge(&mut self, mesh: &mut Mesh, star: &Star) {
+        let parents = mesh.parents(star);
+        mesh.merge(star, &parents, &mut self.log);
+        for parent in star.places() {
+            self.exceeding.remove(parent.index());
+            self.loose.insert(parent.index());
+        }
+        self.freed.triangles.extend(star.freed());
+        self.freed.nodes.push(star.centre());
+    }
+
+    /// Removes the entries that became free, the highest first: then the last entry, which takes the place
+    /// of another, is never one to be removed later.
+    fn remove_freed(&mut self, mesh: &mut Mesh) {
+        let Freed { triangles, nodes } = &mut self.freed;
+        triangles.sort_unstable_by(|a, b| b.cmp(a));
+        for &freed in &*triangles {
+            let last = mesh.raw_triangle_count() - 1;
+            self.exceeding.swap_removed(last, freed.index());
+            self.loose.swap_removed(last, freed.index());
+            mesh.remove_triangle(freed, &mut self.log);
+        }
+        nodes.sort_unstable_by(|a, b| b.cmp(a));
+        nodes.iter().for_each(|&freed| mesh.remove_node(freed, &mut self.log));
+        triangles.clear();
+        nodes.clear();
+    }
+}
+
+fn emptied<T>(mut list: Vec<T>) -> Vec<T> {
+    list.clear();
+    list
+}
