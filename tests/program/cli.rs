@@ -11,7 +11,7 @@ use serde_json::Value;
 const DIAMOND: &str = "--domain -10,-10,10,10 --spacing 1 --target";
 
 fn diamond(target: f64) -> String {
-    format!("{DIAMOND} 'if(abs(x)+abs(y)<8, {target:?}, 20)'")
+    format!("{DIAMOND} 'if(abs(x)+abs(y)<8, {target:?}, 20)' --rule vertex")
 }
 
 #[test]
@@ -55,6 +55,17 @@ fn the_summary_says_all_that_a_program_asks() {
     // The same mesh by way of an even-level target has the same hash; another mesh has another.
     assert_eq!(folder.json("mesh", diamond(0.26))["hash"], hash);
     assert_ne!(folder.json("mesh", diamond(0.24))["hash"], hash);
+}
+
+#[test]
+fn without_a_rule_no_thin_feature_is_missed() {
+    let folder = Folder::new("cli-thin");
+    let options = "--spacing 0.25 --target 'if(abs(x - 0.3) < 0.001, 0.01, 1)'";
+    let usual = folder.json("mesh", options);
+    assert_eq!(usual["rule"], "area");
+    let missed = folder.json("mesh", format!("{options} --rule vertex"));
+    assert_eq!(missed["levels"], serde_json::json!([32]));
+    assert!(usual["triangles"].as_u64() > Some(1000), "{usual}");
 }
 
 #[test]
@@ -545,17 +556,22 @@ fn assert_fails(folder: &Folder, arguments: &str, status: i32, sentence: &str) {
 fn impossible_targets_fail_with_their_place() {
     let folder = Folder::new("cli-targets");
     for (options, sentence) in [
-        ("--target 0", "The target diameter is 0 at x = "),
-        ("--target -1", "The target diameter is -1 at x = "),
-        ("--target 'sqrt(x - 2)'", "The target diameter is NaN at x = "),
-        ("--target 'if(x < 0.5, 0.1, 0/0)'", "The target diameter is NaN at x = 0."),
+        ("--rule vertex --target 0", "The target diameter is 0 at x = "),
+        ("--rule vertex --target -1", "The target diameter is -1 at x = "),
+        ("--rule vertex --target 'sqrt(x - 2)'", "The target diameter is NaN at x = "),
+        ("--rule vertex --target 'if(x < 0.5, 0.1, 0/0)'", "The target diameter is NaN at x = 0."),
+        ("--rule vertex --target 1e-300", "nodes would leave the lattice"),
+        ("--rule vertex --target 1 --target -x", "The target diameter is 0 at x = 0"),
+        ("--rule vertex --target -1 --h-min 0.1", "The target diameter is -1 at x = "),
+        ("--rule vertex --risk 0/0 --h-min 0.01", "The target diameter is NaN at x = "),
+        ("--target 0", "gives 0 at x = "),
+        ("--target -1 --h-min 0.1", "gives -1 at x = "),
+        ("--target 1 --target -x", "a target diameter must be positive"),
+        ("--target 'x - 0.3'", "gives -0.00"),
+        ("--target 'sqrt(x - 2)'", "gives NaN at x = "),
+        ("--target 'if(x < 0.5, 0.1, 0/0)'", "gives NaN at x = "),
+        ("--risk 0/0 --h-min 0.01", "a risk must be a number from 0 to 1"),
         ("--target 1e-300", "nodes would leave the lattice"),
-        ("--target 1 --target -x", "The target diameter is 0 at x = 0"),
-        ("--target -1 --h-min 0.1", "The target diameter is -1 at x = "),
-        ("--risk 0/0 --h-min 0.01", "The target diameter is NaN at x = "),
-        ("--target 'x - 0.3' --rule area", "gives -0.00"),
-        ("--target 'sqrt(x - 2)' --rule area", "gives NaN at x = "),
-        ("--target 1e-300 --rule area", "nodes would leave the lattice"),
         ("--target 0.001 --max-triangles 1000", "more than 1,000 triangles, which is the limit"),
         (
             "--target 0.001 --max-memory 1MB",

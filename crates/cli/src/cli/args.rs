@@ -256,7 +256,7 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPONENT", allow_hyphen_values = true)]
     pub transfer_shape: Option<f64>,
 
-    /// Which points of a triangle decide its target diameter [default: area with rasters, else vertex]
+    /// Which points of a triangle decide its target diameter [default: area]
     #[arg(long)]
     pub rule: Option<RuleArgument>,
 

@@ -212,11 +212,6 @@ impl SavedLayer {
         self.kind == SavedKind::Paint
     }
 
-    /// Returns whether it is a formula.
-    pub fn is_formula(&self) -> bool {
-        self.kind == SavedKind::Formula
-    }
-
     /// Returns whether it needs both ends of the scale from the smallest to the largest target diameter.
     pub fn uses_scale(&self) -> bool {
         let format = || self.file.as_ref().and_then(|file| RasterFormat::of(file).ok());

@@ -133,7 +133,7 @@ impl<L> SavedSettings<L> {
             spacing,
             transfer,
             layers,
-            rule: self.usual_rule::<S>(),
+            rule: RefinementRule::Area,
             max_triangles: usual.max_triangles,
             max_memory: usual.max_memory,
             ..Settings::default()
@@ -163,14 +163,6 @@ impl<L> SavedSettings<L> {
         let widest = if uses_scale { coarse_diameter.max(h_risk) } else { f64::MAX };
         let h_max = self.limits.h_max.unwrap_or(widest);
         Transfer { h_min, h_risk, h_max, shape: self.limits.shape.unwrap_or(1.0) }
-    }
-
-    /// Returns which points of a triangle count where that is not given: the area rule misses no pixel.
-    fn usual_rule<S: Storage<Layer = L>>(&self) -> RefinementRule {
-        match self.layer.iter().all(|layer| S::keys(layer).is_formula()) {
-            true => RefinementRule::Vertex,
-            false => RefinementRule::Area,
-        }
     }
 
     /// Returns which triangles stay: the usual ones, unless the text says otherwise.
