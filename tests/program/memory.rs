@@ -44,12 +44,12 @@ fn memory(child: &Child) -> usize {
     most.map_or(0, |most| 1024 * most.trim().trim_end_matches(" kB").parse::<usize>().unwrap())
 }
 
-/// Returns diameters that differ from pixel to pixel.
-fn noise() -> String {
+/// Returns diameters from `finest` to six times that, which differ from pixel to pixel.
+fn noise(finest: f64) -> String {
     let mut random = fastrand::Rng::with_seed(1);
     let rows = (0..300).map(|_| {
         let row: Vec<String> =
-            (0..300).map(|_| format!("{:.5}", 0.002 + 0.01 * random.f64().powi(2))).collect();
+            (0..300).map(|_| format!("{:.5}", finest * (1.0 + 5.0 * random.f64().powi(2)))).collect();
         row.join(" ")
     });
     let head = "ncols 300\nnrows 300\nxllcorner 0\nyllcorner 0\ncellsize 0.0033333333333\n".to_owned();
@@ -61,7 +61,7 @@ fn the_memory_budget_is_kept_at_the_peak() {
     let folder = Folder::new("budget");
     let hole = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1],[0,0]],[[0.4,0.4],[0.6,0.4],[0.6,0.6],[0.4,0.4]]]}"#;
     fs::write(folder.0.join("hole.geojson"), hole).unwrap();
-    fs::write(folder.0.join("noise.asc"), noise()).unwrap();
+    fs::write(folder.0.join("noise.asc"), noise(0.002)).unwrap();
     let (_, base, _) = peak_of(&folder, "--domain 0,0,1,1 --spacing 0.1 --target 0.05");
     let fields = [
         "--domain 0,0,1,1 --target 0.0028+0.02*abs(sin(90*x)*sin(80*y)) --rule area",
@@ -76,6 +76,22 @@ fn the_memory_budget_is_kept_at_the_peak() {
             scope.spawn(move || is_kept(folder, field, base));
         }
     });
+}
+
+#[test]
+fn a_mesh_is_made_within_its_memory() {
+    let folder = Folder::new("made");
+    fs::write(folder.0.join("noise.asc"), noise(0.0008)).unwrap();
+    let (_, base, _) = peak_of(&folder, "--domain 0,0,1,1 --spacing 0.1 --target 0.05");
+    // Every triangle is a block of its own, or all are in the largest blocks.
+    for field in ["--target-raster noise.asc --rule area", "--target 0.0008 --rule area"] {
+        let (status, peak, triangles) = peak_of(&folder, &format!("--domain 0,0,1,1 --spacing 0.05 {field}"));
+        assert!(status == 0 && triangles > 1_000_000, "{field}: {triangles}");
+        let each = (peak - base) as f64 / triangles as f64;
+        eprintln!("{field}: {each:.1} bytes for each of {triangles} triangles");
+        let budget = triangles * MemoryLimit::ONE_MESH_MADE;
+        assert!(peak <= base + budget + ROUNDING, "{field}: {each} bytes for each of {triangles} triangles");
+    }
 }
 
 fn is_kept(folder: &Folder, field: &str, base: usize) {

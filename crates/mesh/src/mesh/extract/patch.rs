@@ -178,7 +178,7 @@ fn assemble(mesh: &Mesh, patch: &MeshPatch, chunks: &[Chunk], places: &[Neighbou
     let mut is_changed = vec![false; mesh.triangles.len()];
     patch.changed.iter().for_each(|(id, _)| is_changed[id.index()] = true);
     let (mut triangles, mut unjoined) = (Vec::new(), Vec::new());
-    append_pieces(&mut triangles, chunks.iter().map(|chunk| chunk.count), |parts| {
+    append_pieces(&mut triangles, chunks.iter().map(|chunk| chunk.count), |_, parts| {
         let parts = parts.par_iter_mut().zip(chunks);
         let assembled = parts.map(|(part, chunk)| {
             let assembly = Assembly::of(chunk, patch, places, &is_changed);

@@ -13,7 +13,7 @@ pub const MOST_TRIANGLES: usize = (1 << 31) - 1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Most triangles; refinement that would pass it stops with an error. A triangle and its share of the
-    /// nodes take 38 bytes, and up to 48 more while the mesh is refined from scratch.
+    /// nodes take 38 bytes, and up to 16 more while the mesh is refined from scratch.
     pub max_triangles: usize,
     /// Deepest level, or `None` for as deep as the lattice goes. Triangles at this level count as satisfied.
     pub max_level: Option<u32>,
@@ -63,10 +63,11 @@ pub struct MemoryLimit {
 
 /// A triangle and its share of the nodes, in bytes ([`Mesh::bytes`](crate::mesh::Mesh::bytes)).
 const IN_THE_MESH: usize = 38;
-/// While it is refined from scratch: the mesh of the blocks with their depths and numbers, where every
-/// triangle is a block because the target diameter changes everywhere. The vertex rule takes less: the order
-/// of visits and the values at nodes.
-const WHILE_MADE: usize = 48;
+/// While it is refined from scratch, where every triangle is a block because the target diameter changes
+/// everywhere: first the treatments of all triangles of the bisection tree, two for each of the mesh and four
+/// bytes each, then those of the mesh besides; later depths, shapes and numbers of the blocks. The vertex
+/// rule takes the order of visits and the values at nodes.
+const WHILE_MADE: usize = 16;
 /// Afterwards, for files and summaries: what lies in the domain, without gaps, and the numbers of its parts.
 const WHILE_WRITTEN: usize = 58;
 /// While it is updated in place: the marks, with room to double
@@ -74,6 +75,9 @@ const WHILE_WRITTEN: usize = 58;
 const WHILE_UPDATED: usize = 2;
 
 impl MemoryLimit {
+    /// The most bytes that a triangle takes while a mesh is made, and nothing else.
+    pub const ONE_MESH_MADE: usize = IN_THE_MESH + WHILE_MADE;
+
     /// The most bytes that a triangle of a mesh takes that is made once and written.
     pub const ONE_MESH: usize = IN_THE_MESH + WHILE_WRITTEN;
 

@@ -187,19 +187,21 @@ impl<T: Copy> Piece<'_, T> {
     }
 }
 
-/// Appends pieces of the given lengths to an array. `fill` must fill all of them, in any order and on any
-/// threads: memory that was not touched before is then mapped by all of them.
+/// Appends pieces of the given lengths to an array. `fill` gets the entries that are there already and the
+/// pieces; it must fill all of them, in any order and on any threads: memory that was not touched before is
+/// then mapped by all of them.
 ///
 /// # Panics
 /// Panics when a piece is not full in the end.
 pub(in crate::mesh) fn append_pieces<T: Copy>(
     array: &mut Vec<T>,
     lengths: impl Iterator<Item = usize> + Clone,
-    fill: impl FnOnce(&mut [Piece<T>]),
+    fill: impl FnOnce(&mut [T], &mut [Piece<T>]),
 ) {
     let total = lengths.clone().sum();
     array.reserve(total);
-    let mut room = &mut array.spare_capacity_mut()[..total];
+    let (present, room) = present_and_room(array);
+    let mut room = &mut room[..total];
     let mut pieces = Vec::new();
     for length in lengths {
         let (slots, rest) = room.split_at_mut(length);
@@ -207,7 +209,7 @@ pub(in crate::mesh) fn append_pieces<T: Copy>(
         room = rest;
     }
     assert!(room.is_empty(), "the lengths are the same each time");
-    fill(&mut pieces);
+    fill(present, &mut pieces);
     assert!(pieces.iter().all(|piece| piece.filled == piece.slots.len()), "all pieces are full");
     let length = array.len() + total;
     // SAFETY: the pieces were the first `total` places of the room behind the array, without gaps, and each
@@ -215,5 +217,17 @@ pub(in crate::mesh) fn append_pieces<T: Copy>(
     #[allow(unsafe_code, reason = "a safe append would write all of it twice, on one thread")]
     unsafe {
         array.set_len(length);
+    }
+}
+
+/// Returns the entries of an array and the room behind them.
+fn present_and_room<T>(array: &mut Vec<T>) -> (&mut [T], &mut [MaybeUninit<T>]) {
+    let (length, capacity, start) = (array.len(), array.capacity(), array.as_mut_ptr());
+    // SAFETY: both slices lie in the one allocation of `array`, which is borrowed exclusively as long as they
+    // live, and they do not overlap. The first `length` entries are initialized; the others need not be.
+    #[allow(unsafe_code, reason = "Vec::split_at_spare_mut is not stable")]
+    unsafe {
+        let room = std::slice::from_raw_parts_mut(start.add(length).cast(), capacity - length);
+        (std::slice::from_raw_parts_mut(start, length), room)
     }
 }

@@ -11,6 +11,10 @@
 //! bisection makes them, so that they have the vertices, orientations and neighbours that Algorithm 12 gives
 //! them.
 //!
+//! The skeleton is made in the arrays of the mesh itself, and the blocks are written around it: an entry of
+//! the skeleton is read until the block of that entry is written. What the neighbours of a block must know of
+//! it is kept in two bytes. So nothing is there twice.
+//!
 //! Every bisection is necessary: those of the survey, because a triangle exceeds its target; those of the
 //! skeleton besides, because the triangle across an edge has a node there. So the mesh is the smallest
 //! conforming refinement that satisfies the rule. The rule must be monotone: children of a triangle that
@@ -20,6 +24,7 @@
 //! Their order is not that of Algorithm 12, which [`Refiner`](super::Refiner) follows.
 
 mod rule;
+mod shape;
 mod skeleton;
 mod survey;
 mod template;
@@ -27,7 +32,7 @@ mod write;
 
 use super::{LimitError, Limits, Mesh, Progress, RefineError};
 pub use rule::{LevelsWithin, RuleAnswers, SharedRule};
-use skeleton::{Blocks, Skeleton};
+use skeleton::Skeleton;
 use survey::Survey;
 use write::Writer;
 
@@ -77,9 +82,11 @@ impl BlockRefiner {
                 }
             }
             Stage::Skeleton(mut skeleton) => {
-                match skeleton.advance(&self.limits, visits).map_err(LimitError::with_rule)? {
+                match skeleton.advance(mesh, &self.limits, visits).map_err(LimitError::with_rule)? {
                     Progress::More => Stage::Skeleton(skeleton),
-                    Progress::Done => self.begin_writing(skeleton.finish()).map_err(LimitError::with_rule)?,
+                    Progress::Done => {
+                        self.begin_writing(mesh, skeleton.finish()).map_err(LimitError::with_rule)?
+                    }
                 }
             }
             Stage::Write(mut writer) => {
@@ -93,12 +100,12 @@ impl BlockRefiner {
         Ok(if matches!(self.stage, Stage::Done) { Progress::Done } else { Progress::More })
     }
 
-    fn begin_writing(&mut self, blocks: Blocks) -> Result<Stage, LimitError> {
-        self.triangles = blocks.triangles();
+    fn begin_writing(&mut self, skeleton: &Mesh, depths: Vec<u8>) -> Result<Stage, LimitError> {
+        self.triangles = depths.iter().map(|&depth| 1 << depth).sum();
         if self.triangles > self.limits.most_triangles() {
             return Err(self.limits.passed());
         }
-        Ok(Stage::Write(Box::new(Writer::new(blocks))))
+        Ok(Stage::Write(Box::new(Writer::new(skeleton, depths))))
     }
 
     /// Returns how many triangles the mesh will have, as far as that is known.

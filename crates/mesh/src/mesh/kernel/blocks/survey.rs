@@ -44,9 +44,42 @@ pub(super) enum Wanted {
     Bisected(u32),
 }
 
+impl Wanted {
+    /// The number of [`Slot`] for an open triangle. Below it are those of uniform ones, by their depth.
+    const OPEN: u32 = u32::MAX;
+
+    /// Returns this treatment as one number: there can be two for each triangle of the mesh.
+    #[inline]
+    pub const fn packed(self) -> Slot {
+        Slot(match self {
+            Self::Open => Self::OPEN,
+            Self::Uniform(depth) => Self::OPEN - 1 - depth,
+            Self::Bisected(first) => first,
+        })
+    }
+}
+
+/// [`Wanted`] in four bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Slot(u32);
+
+impl Slot {
+    pub const OPEN: Self = Wanted::Open.packed();
+
+    /// Returns the treatment.
+    #[inline]
+    pub const fn wanted(self) -> Wanted {
+        match Wanted::OPEN - self.0 {
+            0 => Wanted::Open,
+            behind if behind <= MOST_DEPTH + 1 => Wanted::Uniform(behind - 1),
+            _ => Wanted::Bisected(self.0),
+        }
+    }
+}
+
 /// The planned treatment of the triangles of a mesh, which have the first slots, in the order of their ids,
 /// and of their descendants.
-pub(super) type Slots = Vec<Wanted>;
+pub(super) type Slots = Vec<Slot>;
 
 /// The survey of a mesh, in slices.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +111,7 @@ impl Survey {
             Subtree { slot: id.0, level: mesh.triangle(id).level(), corners: mesh.corners(id) }
         };
         let count = mesh.raw_triangle_count();
-        Self { slots: vec![Wanted::Open; count], round: (0..count).map(subtree).collect(), ..Self::default() }
+        Self { slots: vec![Slot::OPEN; count], round: (0..count).map(subtree).collect(), ..Self::default() }
     }
 
     /// Asks about `visits` triangles, or more where that occupies all threads.
@@ -124,13 +157,13 @@ impl Survey {
         self.triangles += triangles;
         self.capped += capped;
         let behind = self.slots.len() - subtrees;
-        let moved = |wanted| match wanted {
-            Wanted::Bisected(first) => Wanted::Bisected(first + behind as u32),
-            other => other,
+        let moved = |slot: Slot| match slot.wanted() {
+            Wanted::Bisected(first) => Wanted::Bisected(first + behind as u32).packed(),
+            _ => slot,
         };
         let round = &self.round[first..first + subtrees];
-        for (subtree, &wanted) in round.iter().zip(&slots) {
-            self.slots[subtree.slot as usize] = moved(wanted);
+        for (subtree, &slot) in round.iter().zip(&slots) {
+            self.slots[subtree.slot as usize] = moved(slot);
         }
         self.slots.extend(slots[subtrees..].iter().copied().map(moved));
         self.open.extend(open.into_iter().map(|subtree| {
@@ -156,8 +189,8 @@ impl Survey {
     pub fn finish(mut self) -> Slots {
         // Parents come before their children; tasks could not join what other tasks have found.
         for slot in (0..self.slots.len()).rev() {
-            if let Wanted::Bisected(first) = self.slots[slot] {
-                self.slots[slot] = joined(&self.slots, first);
+            if let Wanted::Bisected(first) = self.slots[slot].wanted() {
+                self.slots[slot] = joined(&self.slots, first).packed();
             }
         }
         self.slots
@@ -166,8 +199,8 @@ impl Survey {
 
 /// Returns the planned treatment of a bisected triangle from the treatments of its children.
 #[inline]
-fn joined(slots: &[Wanted], first: u32) -> Wanted {
-    match slots[first as usize..first as usize + 2] {
+fn joined(slots: &[Slot], first: u32) -> Wanted {
+    match [0, 1].map(|child| slots[first as usize + child].wanted()) {
         [Wanted::Uniform(a), Wanted::Uniform(b)] if a == b && a < MOST_DEPTH => Wanted::Uniform(a + 1),
         _ => Wanted::Bisected(first),
     }
@@ -204,11 +237,11 @@ impl<A: RuleAnswers> Task<A> {
 
     fn survey(mut self, subtrees: &[Subtree]) -> Result<Found, A::Error> {
         self.found.subtrees = subtrees.len();
-        self.found.slots = vec![Wanted::Open; subtrees.len()];
+        self.found.slots = vec![Slot::OPEN; subtrees.len()];
         for (slot, &subtree) in subtrees.iter().enumerate() {
             let subtree = Subtree { slot: slot as u32, ..subtree };
             let levels = self.ask(&subtree, LevelsWithin::UNKNOWN)?;
-            self.found.slots[slot] = self.wanted(&subtree, levels)?;
+            self.found.slots[slot] = self.wanted(&subtree, levels)?.packed();
         }
         Ok(self.found)
     }
@@ -235,10 +268,10 @@ impl<A: RuleAnswers> Task<A> {
         }
         self.visits -= 1;
         let first = self.found.slots.len() as u32;
-        self.found.slots.extend([Wanted::Open; 2]);
+        self.found.slots.extend([Slot::OPEN; 2]);
         for child in triangle.children(first) {
             let levels = self.ask(&child, levels)?;
-            self.found.slots[child.slot as usize] = self.wanted(&child, levels)?;
+            self.found.slots[child.slot as usize] = self.wanted(&child, levels)?.packed();
         }
         let joined = joined(&self.found.slots, first);
         if let Wanted::Uniform(_) = joined {

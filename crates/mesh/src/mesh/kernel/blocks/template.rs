@@ -66,11 +66,16 @@ pub(super) fn nodes_within(depth: u32, edge: usize) -> u32 {
 }
 
 impl Template {
-    /// Returns the template of a triangle that is refined by `depth` levels.
+    /// Returns the parity of the level and the orientation of a triangle, as a number below four.
     #[inline]
-    pub fn of(triangle: &Triangle, depth: u32) -> &'static Self {
-        let shape = 2 * (triangle.orientation() as usize) + (triangle.level() & 1) as usize;
-        &TEMPLATES[4 * depth as usize + shape]
+    pub fn form(triangle: &Triangle) -> usize {
+        2 * (triangle.orientation() as usize) + (triangle.level() & 1) as usize
+    }
+
+    /// Returns the template of triangles of this form that are refined by `depth` levels.
+    #[inline]
+    pub fn of_form(form: usize, depth: u32) -> &'static Self {
+        &TEMPLATES[4 * depth as usize + form]
     }
 
     /// Returns how many nodes lie within an edge of the block.

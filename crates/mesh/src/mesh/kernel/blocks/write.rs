@@ -12,7 +12,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::skeleton::{Blocks, edge_shared_with};
+use super::shape::Shape;
 use super::template::{Side, Template, nodes_within};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::memory::{Piece, append_pieces};
@@ -24,20 +24,23 @@ use crate::mesh::kernel::{
 const CHUNK_TRIANGLES: usize = 1 << 14;
 /// The fewest chunks of a slice for each thread.
 const CHUNKS_PER_THREAD: usize = 2;
-/// Entries of the skeleton that are copied in the time of a visit.
-const COPIES_PER_VISIT: usize = 8;
+/// Nodes of the skeleton that are looked at in the time of a visit.
+const NODES_PER_VISIT: usize = 8;
 
-/// Writes blocks to the arrays of a mesh, in slices.
+/// Writes blocks to the arrays of their skeleton, in slices.
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
-    blocks: Blocks,
+    depths: Vec<u8>,
+    /// The first blocks, as their neighbours see them, as far as numbers are assigned.
+    shapes: Vec<Shape>,
     /// The numbers of the first blocks, as far as they are assigned.
     numbers: Vec<Numbers>,
     /// The next numbers that are free.
     free: Free,
     counts: KindCounts,
-    /// How many entries of the skeleton are in the mesh.
-    copied: usize,
+    /// The number of nodes of the skeleton, and how many of them have a triangle of a block.
+    corners: usize,
+    settled_corners: usize,
     chunks: Vec<Chunk>,
     /// The first chunk that is not written.
     next: usize,
@@ -71,12 +74,21 @@ struct Chunk {
 }
 
 impl Writer {
-    /// Creates the work of writing blocks, with nothing written yet.
-    pub fn new(blocks: Blocks) -> Self {
-        let skeleton = &blocks.mesh;
-        let free = Free { triangle: skeleton.triangles.len() as u32, node: skeleton.nodes.len() as u32 };
-        let (numbers, counts, chunks) = Default::default();
-        Self { numbers, free, counts, copied: 0, chunks, next: 0, blocks }
+    /// Creates the work of refining each triangle of `skeleton` by so many levels, with nothing written yet.
+    pub fn new(skeleton: &Mesh, depths: Vec<u8>) -> Self {
+        let corners = skeleton.nodes.len();
+        let free = Free { triangle: skeleton.triangles.len() as u32, node: corners as u32 };
+        Self {
+            shapes: Vec::with_capacity(depths.len()),
+            numbers: Vec::with_capacity(depths.len()),
+            free,
+            counts: KindCounts::default(),
+            corners,
+            settled_corners: 0,
+            chunks: Vec::new(),
+            next: 0,
+            depths,
+        }
     }
 
     /// Numbers about `visits` blocks, or writes about as many triangles, or more to occupy all threads.
@@ -89,66 +101,68 @@ impl Writer {
         limits: &Limits,
         visits: usize,
     ) -> Result<Progress, LimitError> {
-        if self.numbers.len() < self.blocks.depths.len() {
-            self.number(visits);
+        if self.numbers.len() < self.depths.len() {
+            self.number(mesh, visits);
             return Ok(Progress::More);
         }
-        if self.copied < self.blocks.mesh.triangles.len().max(self.blocks.mesh.nodes.len()) {
-            self.copy_skeleton(mesh, limits, visits)?;
+        if self.settled_corners < self.corners {
+            if self.settled_corners == 0 {
+                let more = self.free.triangle as usize - mesh.triangles.len();
+                mesh.make_room(more, limits.most_triangles())?;
+                mesh.counts = self.counts;
+            }
+            self.settle_corners(mesh, visits);
             return Ok(Progress::More);
         }
         let count = (visits / CHUNK_TRIANGLES).max(CHUNKS_PER_THREAD * rayon::current_num_threads());
         let chunks = &self.chunks[self.next..];
-        self.write(mesh, &chunks[..count.min(chunks.len())]);
-        self.next += count.min(chunks.len());
+        let chunks = &chunks[..count.min(chunks.len())];
+        self.write(mesh, chunks);
+        self.next += chunks.len();
         Ok(if self.next == self.chunks.len() { Progress::Done } else { Progress::More })
     }
 
-    /// Puts the skeleton in place of the contents of `mesh`, and makes room for the triangles of all blocks.
-    fn copy_skeleton(&mut self, mesh: &mut Mesh, limits: &Limits, visits: usize) -> Result<(), LimitError> {
-        let skeleton = &self.blocks.mesh;
-        if self.copied == 0 {
-            mesh.triangles.clear();
-            mesh.nodes.clear();
-            mesh.triangle_at.clear();
-            mesh.make_room(self.free.triangle as usize, limits.most_triangles())?;
-            mesh.counts = self.counts;
-        }
-        let end = visits.max(1).saturating_mul(COPIES_PER_VISIT).saturating_add(self.copied);
-        let part = |length: usize| self.copied.min(length)..end.min(length);
-        let nodes = part(skeleton.nodes.len());
-        mesh.triangles.extend_from_slice(&skeleton.triangles[part(skeleton.triangles.len())]);
-        mesh.nodes.extend_from_slice(&skeleton.nodes[nodes.clone()]);
-        let nodes = nodes.into_par_iter().map(NodeId::from_index);
-        mesh.triangle_at.par_extend(nodes.map(|node| self.triangle_at_corner(node)));
-        self.copied = end;
-        Ok(())
+    /// Gives the next nodes of the skeleton a triangle of a block.
+    fn settle_corners(&mut self, mesh: &mut Mesh, visits: usize) {
+        let first = self.settled_corners;
+        let end = visits.max(1).saturating_mul(NODES_PER_VISIT).saturating_add(first).min(self.corners);
+        let triangles = &mesh.triangles;
+        let places = mesh.triangle_at[first..end].par_iter_mut().enumerate();
+        places.for_each(|(behind, place)| {
+            *place = self.triangle_at_corner(triangles, *place, NodeId::from_index(first + behind));
+        });
+        self.settled_corners = end;
     }
 
     fn write(&self, mesh: &mut Mesh, chunks: &[Chunk]) {
         let nodes = |chunk: &Chunk| chunk.nodes;
-        append_chunks(&mut mesh.nodes, chunks, nodes, |chunk, piece| self.write_nodes(chunk, piece));
-        let places = &mut mesh.triangle_at;
-        append_chunks(places, chunks, nodes, |chunk, piece| self.write_triangles_at(chunk, piece));
-        let triangles = |chunk: &Chunk| chunk.triangles;
-        let first = append_chunks(&mut mesh.triangles, chunks, triangles, |chunk, piece| {
-            self.write_triangles(chunk, piece)
+        let triangles = &mesh.triangles;
+        append_pieces(&mut mesh.nodes, chunks.iter().map(nodes), |corners, pieces| {
+            let work = pieces.par_iter_mut().zip(chunks).with_max_len(1);
+            work.for_each(|(piece, chunk)| self.write_nodes(chunk, triangles, corners, piece));
         });
-        for (chunk, first) in chunks.iter().zip(first) {
-            mesh.triangles[chunk.blocks.clone()].copy_from_slice(&first);
-        }
+        append_pieces(&mut mesh.triangle_at, chunks.iter().map(nodes), |_, pieces| {
+            let work = pieces.par_iter_mut().zip(chunks).with_max_len(1);
+            work.for_each(|(piece, chunk)| self.write_triangles_at(chunk, piece));
+        });
+        append_pieces(&mut mesh.triangles, chunks.iter().map(|chunk| chunk.triangles), |present, pieces| {
+            let blocks = parts(present, chunks);
+            let work = pieces.par_iter_mut().zip(blocks).zip(chunks).with_max_len(1);
+            work.for_each(|((piece, blocks), chunk)| self.write_triangles(chunk, blocks, piece));
+        });
     }
 
     /// Gives the triangles and nodes of the next blocks their numbers, and divides the blocks into chunks.
-    fn number(&mut self, visits: usize) {
+    fn number(&mut self, skeleton: &Mesh, visits: usize) {
         let first = self.numbers.len();
-        let end = first.saturating_add(visits).min(self.blocks.depths.len());
+        let end = first.saturating_add(visits).min(self.depths.len());
         for block in first..end {
             let before = self.free;
-            self.number_block(block);
+            self.number_block(skeleton, block);
             let triangles = (self.free.triangle - before.triangle) as usize;
             let nodes = (self.free.node - before.node) as usize;
-            match self.chunks.last_mut().filter(|chunk| chunk.triangles < CHUNK_TRIANGLES) {
+            let has_room = |chunk: &&mut Chunk| chunk.blocks.len() + chunk.triangles < CHUNK_TRIANGLES;
+            match self.chunks.last_mut().filter(has_room) {
                 Some(chunk) => {
                     chunk.blocks.end = block + 1;
                     chunk.triangles += triangles;
@@ -157,38 +171,29 @@ impl Writer {
                 None => self.chunks.push(Chunk { blocks: block..block + 1, triangles, nodes }),
             }
         }
+        if end == self.depths.len() {
+            // The shapes have them.
+            self.depths = Vec::new();
+        }
     }
 
-    fn number_block(&mut self, block: usize) {
-        let depth = u32::from(self.blocks.depths[block]);
-        let kind = self.blocks.mesh.triangles[block].kind();
+    fn number_block(&mut self, skeleton: &Mesh, block: usize) {
+        let depth = u32::from(self.depths[block]);
+        let kind = skeleton.triangles[block].kind();
         self.counts.add_many(kind.finer_by(depth), 1 << depth);
+        let shape = Shape::of(skeleton, TriangleId::from_index(block), depth);
+        self.shapes.push(shape);
         self.numbers.push(Numbers { triangles: self.free.triangle - 1, nodes: self.free.node });
         self.free.triangle += (1 << depth) - 1;
-        let own: usize = self.own_slots(block).map(|slots| slots.len()).sum();
+        let own: usize = own_slots(shape).map(|slots| slots.len()).sum();
         self.free.node += own as u32;
     }
 
     /// Returns where the nodes within the first edges of a block, up to this one, begin that belong to it.
     fn own_nodes_within(&self, block: usize, edge: usize) -> u32 {
-        let depth = u32::from(self.blocks.depths[block]);
-        let before = (0..edge).filter(|&edge| self.owner(block, edge).is_none());
-        self.numbers[block].nodes + before.map(|edge| nodes_within(depth, edge)).sum::<u32>()
-    }
-
-    /// Returns the other block that the nodes within an edge belong to, and its number of the edge; `None`
-    /// where they belong to this one.
-    #[inline]
-    fn owner(&self, block: usize, edge: usize) -> Option<(TriangleId, usize)> {
-        let skeleton = &self.blocks.mesh;
-        let across = skeleton.triangles[block].raw_neighbours[edge].triangle()?;
-        let id = TriangleId::from_index(block);
-        (across < id).then(|| (across, edge_shared_with(skeleton, across, id)))
-    }
-
-    #[inline]
-    fn template(&self, block: usize) -> &'static Template {
-        Template::of(&self.blocks.mesh.triangles[block], u32::from(self.blocks.depths[block]))
+        let shape = self.shapes[block];
+        let before = (0..edge).filter(|&edge| shape.owns(edge));
+        self.numbers[block].nodes + before.map(|edge| nodes_within(shape.depth(), edge)).sum::<u32>()
     }
 
     /// Returns the number of a triangle of a block in the mesh.
@@ -197,129 +202,129 @@ impl Writer {
         if triangle == 0 { block } else { TriangleId(self.numbers[block.index()].triangles + triangle) }
     }
 
-    /// Returns a triangle around a node of the skeleton.
-    fn triangle_at_corner(&self, node: NodeId) -> TriangleId {
-        let block = self.blocks.mesh.triangle_at[node.index()];
-        let vertices = self.blocks.mesh.triangle(block).vertices;
+    /// Returns a triangle around a node of the skeleton, which has this block.
+    fn triangle_at_corner(&self, skeleton: &[Triangle], block: TriangleId, node: NodeId) -> TriangleId {
+        let vertices = skeleton[block.index()].vertices;
         let corner = vertices.iter().position(|&vertex| vertex == node).expect("the triangle has the node");
-        self.triangle(block, self.template(block.index()).triangle_at[corner])
+        self.triangle(block, self.shapes[block.index()].template().triangle_at[corner])
     }
 
-    /// Returns the slots of the nodes that belong to a block, without its corners.
-    fn own_slots(&self, block: usize) -> impl Iterator<Item = Range<usize>> {
-        let template = self.template(block);
-        let mut first = 3;
-        let on_edges = (0..3).filter_map(move |edge| {
-            let slots = first..first + template.nodes_within(edge) as usize;
-            first = slots.end;
-            self.owner(block, edge).is_none().then_some(slots)
-        });
-        on_edges.chain([template.inner_slots()])
-    }
-
-    fn write_nodes(&self, chunk: &Chunk, nodes: &mut Piece<LatticePoint>) {
+    fn write_nodes(
+        &self,
+        chunk: &Chunk,
+        skeleton: &[Triangle],
+        corners: &[LatticePoint],
+        nodes: &mut Piece<LatticePoint>,
+    ) {
         for block in chunk.blocks.clone() {
-            let (template, corners) =
-                (self.template(block), self.blocks.mesh.corners(TriangleId::from_index(block)));
-            for slots in self.own_slots(block) {
-                nodes.extend(slots.map(|slot| template.point(slot, corners)));
+            let shape = self.shapes[block];
+            let corners = skeleton[block].vertices.map(|vertex| corners[vertex.index()]);
+            for slots in own_slots(shape) {
+                nodes.extend(slots.map(|slot| shape.template().point(slot, corners)));
             }
         }
     }
 
     fn write_triangles_at(&self, chunk: &Chunk, triangle_at: &mut Piece<TriangleId>) {
         for block in chunk.blocks.clone() {
-            let (template, id) = (self.template(block), TriangleId::from_index(block));
-            for slots in self.own_slots(block) {
-                triangle_at.extend(slots.map(|slot| self.triangle(id, template.triangle_at[slot])));
+            let (shape, id) = (self.shapes[block], TriangleId::from_index(block));
+            for slots in own_slots(shape) {
+                triangle_at.extend(slots.map(|slot| self.triangle(id, shape.template().triangle_at[slot])));
             }
         }
     }
 
-    /// Returns the first triangles of the blocks.
-    fn write_triangles(&self, chunk: &Chunk, piece: &mut Piece<Triangle>) -> Vec<Triangle> {
-        let mut first = Vec::with_capacity(chunk.blocks.len());
+    /// Writes the triangles of blocks: the first one of each in the place of the block.
+    fn write_triangles(&self, chunk: &Chunk, blocks: &mut [Triangle], piece: &mut Piece<Triangle>) {
         let (mut nodes, mut triangles) = (Vec::new(), Vec::new());
-        for block in chunk.blocks.clone() {
-            self.node_ids(block, &mut nodes);
-            self.triangles(block, &nodes, &mut triangles);
-            first.push(triangles[0]);
+        for (block, number) in blocks.iter_mut().zip(chunk.blocks.clone()) {
+            self.node_ids(number, block, &mut nodes);
+            self.triangles(number, block, &nodes, &mut triangles);
+            *block = triangles[0];
             piece.extend(triangles[1..].iter().copied());
         }
-        first
     }
 
     /// The nodes of all slots of a block.
-    fn node_ids(&self, block: usize, ids: &mut Vec<NodeId>) {
-        let template = self.template(block);
-        let mut own = self.numbers[block].nodes;
+    fn node_ids(&self, number: usize, block: &Triangle, ids: &mut Vec<NodeId>) {
+        let shape = self.shapes[number];
+        let template = shape.template();
+        let mut own = self.numbers[number].nodes;
         ids.clear();
-        ids.extend(self.blocks.mesh.triangles[block].vertices);
+        ids.extend(block.vertices);
         for edge in 0..3 {
             let count = template.nodes_within(edge);
-            match self.owner(block, edge) {
-                None => {
+            match block.raw_neighbours[edge].triangle() {
+                Some(owner) if count > 0 && !shape.owns(edge) => {
+                    // The other block passes along the edge in the other direction.
+                    let first = self.own_nodes_within(owner.index(), shape.edge_across(edge));
+                    ids.extend((first..first + count).rev().map(NodeId));
+                }
+                _ if shape.owns(edge) => {
                     ids.extend((own..own + count).map(NodeId));
                     own += count;
                 }
-                Some(_) if count == 0 => {}
-                Some((owner, edge)) => {
-                    // The other block passes along the edge in the other direction.
-                    let first = self.own_nodes_within(owner.index(), edge);
-                    ids.extend((first..first + count).rev().map(NodeId));
-                }
+                _ => {}
             }
         }
         ids.extend((own..).take(template.inner_slots().len()).map(NodeId));
     }
 
     /// The triangles of a block with these nodes.
-    fn triangles(&self, block: usize, nodes: &[NodeId], triangles: &mut Vec<Triangle>) {
-        let (skeleton, template) = (&self.blocks.mesh, self.template(block));
-        let (places, kind) = (self.numbers[block].triangles, skeleton.triangles[block].kind());
-        let kind = kind.finer_by(u32::from(self.blocks.depths[block]));
+    fn triangles(&self, number: usize, block: &Triangle, nodes: &[NodeId], triangles: &mut Vec<Triangle>) {
+        let (shape, places) = (self.shapes[number], self.numbers[number].triangles);
+        let (template, kind) = (shape.template(), block.kind().finer_by(shape.depth()));
         triangles.clear();
         triangles.extend(template.triangles.iter().map(|triangle| {
             let vertices = triangle.vertices.map(|slot| nodes[slot.index()]);
             triangle.renumbered(vertices, triangle.raw_neighbours.map(|n| n.behind(places)), kind)
         }));
-        let id = TriangleId::from_index(block);
+        let id = TriangleId::from_index(number);
         for side in &template.around_first {
             triangles[side.triangle as usize].raw_neighbours[usize::from(side.edge)] = id.into();
         }
         for edge in 0..3 {
-            self.link(id, edge, triangles);
+            self.link(shape, edge, block.raw_neighbours[edge], triangles);
         }
     }
 
     /// Sets what lies across an edge of a block.
-    fn link(&self, block: TriangleId, edge: usize, triangles: &mut [Triangle]) {
-        let here = self.template(block.index()).borders[edge].iter();
+    fn link(&self, shape: Shape, edge: usize, across: Neighbour, triangles: &mut [Triangle]) {
+        let here = shape.template().borders[edge].iter();
         let mut set = |side: &Side, across: Neighbour| {
             triangles[side.triangle as usize].raw_neighbours[usize::from(side.edge)] = across;
         };
-        let skeleton = &self.blocks.mesh;
-        let Some(across) = skeleton.triangle(block).raw_neighbours[edge].triangle() else {
+        let Some(across) = across.triangle() else {
             return here.for_each(|side| set(side, Neighbour::BOUNDARY));
         };
-        let there = &self.template(across.index()).borders[edge_shared_with(skeleton, across, block)];
+        let there = &self.shapes[across.index()].template().borders[shape.edge_across(edge)];
         for (side, other) in here.zip(there.iter().rev()) {
             set(side, self.triangle(across, other.triangle).into());
         }
     }
 }
 
-/// Appends what `write` writes for each chunk, on all threads.
-fn append_chunks<T: Copy + Send, R: Send>(
-    array: &mut Vec<T>,
-    chunks: &[Chunk],
-    length: fn(&Chunk) -> usize,
-    write: impl Fn(&Chunk, &mut Piece<T>) -> R + Sync,
-) -> Vec<R> {
-    let mut written = Vec::new();
-    append_pieces(array, chunks.iter().map(length), |pieces| {
-        let pieces = pieces.par_iter_mut().zip(chunks).with_max_len(1);
-        pieces.map(|(piece, chunk)| write(chunk, piece)).collect_into_vec(&mut written);
+/// Returns the slots of the nodes that belong to a block, without its corners.
+fn own_slots(shape: Shape) -> impl Iterator<Item = Range<usize>> {
+    let template: &Template = shape.template();
+    let mut first = 3;
+    let on_edges = (0..3).filter_map(move |edge| {
+        let slots = first..first + template.nodes_within(edge) as usize;
+        first = slots.end;
+        shape.owns(edge).then_some(slots)
     });
-    written
+    on_edges.chain([template.inner_slots()])
+}
+
+/// Returns the entries of the blocks of each chunk; the chunks are consecutive.
+fn parts<'a>(entries: &'a mut [Triangle], chunks: &[Chunk]) -> Vec<&'a mut [Triangle]> {
+    let first = chunks.first().map_or(0, |chunk| chunk.blocks.start);
+    let mut rest = &mut entries[first..];
+    let mut parts = Vec::with_capacity(chunks.len());
+    for chunk in chunks {
+        let (part, behind) = rest.split_at_mut(chunk.blocks.len());
+        parts.push(part);
+        rest = behind;
+    }
+    parts
 }
