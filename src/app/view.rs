@@ -196,8 +196,8 @@ impl View {
         LevelColors::new(self.colormap, self.ground, deepest_level(settings))
     }
 
-    /// How the mesh is drawn on a screen with `px_per_point` pixels for a point.
-    pub fn style(&self, settings: &Settings, px_per_point: f32) -> Style {
+    /// How a mesh of so many triangles is drawn on a screen with `px_per_point` pixels for a point.
+    pub fn style(&self, settings: &Settings, triangles: usize, px_per_point: f32) -> Style {
         let colors = self.level_colors(settings);
         let style = match self.ground {
             Ground::Dark => Style::dark(colors),
@@ -210,7 +210,8 @@ impl View {
         };
         // Edges and highlights stay sharp over the picture.
         let fill_opacity = settings.background.as_ref().map_or(1.0, |picture| 1.0 - picture.opacity as f32);
-        Style { edges: self.edges, shown_levels, fill_opacity, ..style }.at_density(px_per_point)
+        let style = Style { edges: self.edges, shown_levels, fill_opacity, ..style };
+        style.for_triangles(triangles).at_density(px_per_point)
     }
 
     /// How a picture of the whole mesh looks in a file.

@@ -104,7 +104,7 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
         window.get_by_label(&format!("Level {level}: {count} triangles")).rect().center()
     };
     open_tab(&mut window, Tab::Mesh);
-    let style = |window: &Window| window.state().view().style(settings(window), 1.0).shown_levels;
+    let style = |window: &Window| window.state().view().style(settings(window), 0, 1.0).shown_levels;
     assert_eq!(style(&window), u64::MAX);
     for level in [4, 7] {
         window.hover_at(legend(&window, level));

@@ -1,6 +1,6 @@
 use glam::{DVec2, IVec2, dvec2};
 
-use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 
 /// Smallest share of the canvas that the whole grid covers, at the furthest zoom out.
 const SMALLEST_SHARE: f64 = 0.25;
@@ -134,6 +134,17 @@ impl Camera {
     pub fn visible_world(&self) -> Rect {
         let [width, height] = self.size_px.map(f64::from);
         Rect::spanning(self.world_from_screen(DVec2::ZERO), self.world_from_screen(dvec2(width, height)))
+    }
+
+    /// Returns the part of the lattice that the canvas shows, and `margin_px` more on every side.
+    pub fn visible_lattice(&self, margin_px: f64) -> LatticeRect {
+        let [width, height] = self.size_px.map(f64::from);
+        let extent = self.lattice.extent();
+        let lower_left = self.lattice_from_screen(dvec2(-margin_px, height + margin_px)).floor();
+        let upper_right = self.lattice_from_screen(dvec2(width + margin_px, -margin_px)).ceil();
+        let clamped = |p: DVec2| p.clamp(DVec2::ZERO, extent.as_dvec2()).as_uvec2();
+        let [min, max] = [clamped(lower_left), clamped(upper_right)].map(|p| LatticePoint::new(p.x, p.y));
+        LatticeRect { min, max }
     }
 
     /// Returns half the size of the canvas: the position of its middle, in pixels.

@@ -6,12 +6,14 @@
 //! Colours are sRGB bytes and are mixed as such, as in egui.
 
 mod camera;
+mod detail;
 mod highlight;
 mod overlay;
 mod shown;
 mod style;
 
 pub use camera::Camera;
+pub use detail::{Detail, InnerPoint, coarsest_represented};
 pub use highlight::{Highlights, Outline, highlight_outlines};
 pub use overlay::{Overlay, TexelMap};
 pub use shown::{ShownMesh, ShownRevision};

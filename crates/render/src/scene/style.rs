@@ -26,7 +26,15 @@ pub struct Style {
     pub edge_shade: f32,
     /// Levels shown in full, as bits from level 0. The others fade towards the ground.
     pub shown_levels: u64,
+    /// Length of legs in pixels up to which triangles are merged into larger ones (see
+    /// [`Detail`](super::Detail)); 0 where each triangle is drawn.
+    pub merge_below_px: f32,
 }
+
+/// Meshes with fewer triangles are drawn triangle by triangle: any GPU draws them in time.
+const MERGED_FROM: usize = 2_500_000;
+/// [`Style::merge_below_px`] of large meshes.
+const MERGE_BELOW_PX: f32 = 1.0;
 
 /// The share of its own colour that a faded level keeps.
 const FADED_FILL: f32 = 0.12;
@@ -49,6 +57,7 @@ impl Style {
             edge_fade_px: [3.0, 8.0],
             edge_shade: 0.5,
             shown_levels: u64::MAX,
+            merge_below_px: 0.0,
         }
     }
 
@@ -73,7 +82,19 @@ impl Style {
     pub fn at_density(mut self, px_per_point: f32) -> Self {
         self.edge_width_px *= px_per_point;
         self.edge_fade_px = self.edge_fade_px.map(|px| px * px_per_point);
+        self.merge_below_px *= px_per_point;
         self
+    }
+
+    /// Returns the appearance of a mesh of so many triangles on a screen: in a large one, triangles smaller
+    /// than a pixel are merged. To be called before [`Self::at_density`].
+    pub fn for_triangles(self, count: usize) -> Self {
+        Self { merge_below_px: if Self::merges(count) { MERGE_BELOW_PX } else { 0.0 }, ..self }
+    }
+
+    /// Returns whether a mesh of so many triangles is large in the sense of [`Self::for_triangles`].
+    pub fn merges(count: usize) -> bool {
+        count >= MERGED_FROM
     }
 
     /// Returns the distance in pixels to which the colour of an edge extends from its middle. A pixel whose

@@ -1,6 +1,8 @@
 //! Formats of files, and pictures.
 
+mod arrangement;
 mod coast;
+mod detail;
 mod figures;
 #[path = "../../../../tests/shared/formula_mesh/mod.rs"]
 mod formula_mesh;

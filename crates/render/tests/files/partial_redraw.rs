@@ -97,9 +97,15 @@ impl Scene {
 
 /// Runs random steps and checks that partial and whole drawing both happened often.
 fn compare(settings: &Settings) {
+    compare_in(settings, |_| {});
+}
+
+/// [`compare`] in another style.
+fn compare_in(settings: &Settings, change: impl Fn(&mut Style)) {
     let (mut partial, mut whole) = (0, 0);
     for seed in 0..2 {
         let mut scene = Scene::new(settings.clone(), seed);
+        change(&mut scene.style);
         for step in 0..STEPS {
             scene.step();
             match scene.check(step) {
@@ -128,6 +134,13 @@ fn where_triangles_are_far_smaller_than_pixels() {
     let mut settings = settings();
     (settings.transfer.h_min, settings.transfer.h_risk) = (0.0008, 0.0008);
     compare(&settings);
+}
+
+#[test]
+fn where_triangles_far_smaller_than_pixels_are_merged() {
+    let mut settings = settings();
+    (settings.transfer.h_min, settings.transfer.h_risk) = (0.0008, 0.0008);
+    compare_in(&settings, |style| style.merge_below_px = 1.4);
 }
 
 #[test]

@@ -22,7 +22,7 @@ const CANVAS_FORMATS: [wgpu::TextureFormat; 2] =
     [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Bgra8Unorm];
 
 /// Opens a device; `None` where there is no driver and MESHBRUSH_REQUIRE_GPU is not set.
-fn gpu() -> Option<Offscreen> {
+pub fn gpu() -> Option<Offscreen> {
     match Offscreen::new() {
         Ok(offscreen) => Some(offscreen),
         Err(e) if std::env::var_os("MESHBRUSH_REQUIRE_GPU").is_none() => {
@@ -108,7 +108,7 @@ fn difference(a: &Image, b: &Image) -> (f64, f64) {
     (total as f64 / (3.0 * pixels), differing as f64 / pixels)
 }
 
-fn assert_agree(name: &str, gpu: &Image, software: &Image) {
+pub fn assert_agree(name: &str, gpu: &Image, software: &Image) {
     keep(gpu, &format!("{name}-gpu"));
     keep(software, &format!("{name}-software"));
     let (mean, differing) = difference(gpu, software);
@@ -330,7 +330,7 @@ fn changed_ranges_bring_the_mesh_up_to_date() {
     }
 }
 
-fn differences(before: &Mesh, after: &Mesh) -> Changes {
+pub fn differences(before: &Mesh, after: &Mesh) -> Changes {
     Changes {
         nodes: changed(before.raw_nodes(), after.raw_nodes()),
         triangles: changed(before.raw_triangles(), after.raw_triangles()),
@@ -696,6 +696,6 @@ fn a_driver_with_too_few_storage_buffers_is_refused() {
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).unwrap();
         GpuRenderer::new(&device, &queue, wgpu::TextureFormat::Rgba8Unorm).err()
     };
-    let refused = GpuError::TooFewStorageBuffers { available: 5, needed: 6 };
-    assert_eq!((renderer_with(5), renderer_with(6)), (Some(refused), None));
+    let refused = GpuError::TooFewStorageBuffers { available: 6, needed: 7 };
+    assert_eq!((renderer_with(6), renderer_with(7)), (Some(refused), None));
 }

@@ -5,7 +5,7 @@ use glam::{IVec2, Vec2, Vec4};
 
 use crate::colormap::LEVELS;
 use crate::render::{HUGE_PX, SEAM_SLACK_PX};
-use crate::scene::{Camera, LevelPaint, Overlay, Style};
+use crate::scene::{Camera, Detail, LevelPaint, Overlay, Style};
 
 /// `Level` of mesh.wgsl.
 #[repr(C)]
@@ -48,12 +48,14 @@ pub(super) struct MeshView {
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
-    unused: [u32; 2],
+    /// The detail level, or one that no triangle has.
+    detail_level: u32,
+    halvings: u32,
     levels: [Level; LEVELS],
 }
 
 impl MeshView {
-    pub(super) fn new(camera: &Camera, style: &Style, node_chunk_bits: u32) -> Self {
+    pub(super) fn new(camera: &Camera, style: &Style, detail: Option<Detail>, node_chunk_bits: u32) -> Self {
         let (anchor, fraction) = camera.anchor();
         Self {
             anchor,
@@ -66,7 +68,8 @@ impl MeshView {
             rim_px: style.rim_px(),
             huge_px: HUGE_PX,
             fill_opacity: style.fill_opacity,
-            unused: [0; 2],
+            detail_level: detail.map_or(LEVELS as u32, |detail| detail.level()),
+            halvings: camera.lattice().halvings(),
             levels: LevelPaint::all(camera, style).map(Level::from),
         }
     }

@@ -1,5 +1,9 @@
 // Draws triangles directly from their arrays: three vertices per entry, fetched by index. The triangles are
-// those of the mesh (vs_main), or pieces in place of some of them (vs_piece).
+// those of the mesh (vs_main), also in the order of their lists (vs_listed), or pieces in place of some of
+// them (vs_piece).
+//
+// Triangles finer than the detail level are merged into their ancestors of that level; scene/detail.rs says
+// how and has the same functions.
 //
 // Positions are in pixels from the middle of the canvas, y upwards. The position of the camera is subtracted
 // from lattice coordinates in integers; only the difference is converted to f32.
@@ -25,8 +29,10 @@ struct View {
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
-    unused_0: u32,
-    unused_1: u32,
+    // More than any level where no triangles are merged.
+    detail_level: u32,
+    // How often the side of a coarse cell can be halved: its binary logarithm in lattice steps.
+    halvings: u32,
     levels: array<Level, 64>,
 }
 
@@ -46,11 +52,15 @@ struct Triangle {
 @group(1) @binding(4) var<storage, read> nodes_3: array<vec2<u32>>;
 // Of the whole mesh, while `triangles` are one part of it. Unused for pieces.
 @group(1) @binding(5) var<storage, read> draw_flags: array<u32>;
-@group(1) @binding(6) var<uniform> part: Part;
+// Lists of entries, of the whole mesh: two to a word, each as its place in its block.
+@group(1) @binding(6) var<storage, read> lists: array<u32>;
+@group(1) @binding(7) var<uniform> part: Part;
 
 struct Part {
     // Index of the first of `triangles` in the mesh.
     first: u32,
+    // The first place of their lists.
+    first_place: u32,
 }
 
 struct Corner {
@@ -76,8 +86,29 @@ fn flags_of(triangle: u32) -> u32 {
 @vertex
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
     let entry = index / 3u;
-    let corner = index % 3u;
     let level_number = triangles[entry].kind % 64u;
+    if level_number > view.detail_level {
+        let inner = inner_point(entry, level_number);
+        return merged(entry, index % 3u, level_number, inner, represents(level_number, inner));
+    }
+    return shown_as_it_is(entry, index % 3u, level_number);
+}
+
+// Places of a list that are drawn are those of triangles that represent others, or are not finer than the
+// detail level.
+@vertex
+fn vs_listed(@builtin(vertex_index) index: u32) -> Corner {
+    let place = index / 3u;
+    let word = lists[(part.first_place + place) / 2u];
+    let entry = (place & 0xffff0000u) + ((word >> (16u * (place % 2u))) & 0xffffu);
+    let level_number = triangles[entry].kind % 64u;
+    if level_number > view.detail_level {
+        return merged(entry, index % 3u, level_number, inner_point(entry, level_number), true);
+    }
+    return shown_as_it_is(entry, index % 3u, level_number);
+}
+
+fn shown_as_it_is(entry: u32, corner: u32, level_number: u32) -> Corner {
     let level = view.levels[level_number];
     var placement: Placement;
     if flags_of(part.first + entry) != 0u {
@@ -110,6 +141,105 @@ fn vs_piece(@builtin(vertex_index) index: u32) -> Corner {
     return shaded(placement, view.levels[level_number], rims(entry, level_number, boundary_of_piece(entry)));
 }
 
+// The ancestor that a triangle represents. Where pieces are in the place of the triangle, they are drawn over
+// it.
+fn merged(entry: u32, corner: u32, level_number: u32, inner: vec2<u32>, represents: bool) -> Corner {
+    var placement = nowhere();
+    if represents && !is_vacant(part.first + entry) {
+        let steps = bitcast<vec2<i32>>(ancestor_corner(corner, inner)) - view.anchor;
+        placement.px = px_from_steps(steps);
+    }
+    return shaded(placement, view.levels[level_number], vec3(0.0));
+}
+
+// A point inside a triangle, in quarters of a lattice step: the mean of the corners in which the apex counts
+// twice.
+fn inner_point(entry: u32, level: u32) -> vec2<u32> {
+    let a = node_at(triangles[entry].vertices[0]);
+    let b = node_at(triangles[entry].vertices[1]);
+    let c = node_at(triangles[entry].vertices[2]);
+    return a + b + c + select(b, c, (level & 1u) == 1u);
+}
+
+// A point in a square cell of the grid.
+struct Place {
+    cell: vec2<u32>,
+    // From the lower left corner of the cell, in quarters of a lattice step, as is the side.
+    at: vec2<u32>,
+    side: u32,
+    is_right: bool,
+    is_low: bool,
+}
+
+fn place_in_cell(level: u32, inner: vec2<u32>) -> Place {
+    let bits = view.halvings + 2u - level / 2u;
+    var out: Place;
+    out.side = 1u << bits;
+    out.cell = inner >> vec2(bits);
+    out.at = inner & vec2(out.side - 1u);
+    out.is_right = out.at.x > out.at.y;
+    out.is_low = out.at.x < out.side - out.at.y;
+    return out;
+}
+
+// Whether a triangle represents its ancestor at the detail level.
+fn represents(level: u32, inner: vec2<u32>) -> bool {
+    for (var finer = level; finer > view.detail_level; finer--) {
+        if !is_chosen(finer, inner) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether the triangle of `level` around a point has the representative of its parent.
+fn is_chosen(level: u32, inner: vec2<u32>) -> bool {
+    let place = place_in_cell(level - 1u, inner);
+    let is_along_x = place.is_right == place.is_low;
+    var half = is_along_x;
+    var parent = 0u;
+    if (level & 1u) == 0u {
+        half = select(place.at.y, place.at.x, is_along_x) >= place.side / 2u;
+        parent = 1u + 2u * u32(place.is_right) + u32(place.is_low);
+    }
+    return half == coin(place.cell, 8u * level + parent);
+}
+
+// A random bit for a triangle: a function of its cell and number.
+fn coin(cell: vec2<u32>, number: u32) -> bool {
+    var hash = (cell.x * 0x9e3779b1u) ^ (cell.y * 0x85ebca77u) ^ (number * 0xc2b2ae3du);
+    hash = (hash ^ (hash >> 15u)) * 0x2c1b3c6du;
+    hash = (hash ^ (hash >> 12u)) * 0x297a2d39u;
+    return (hash >> 31u) == 1u;
+}
+
+// A corner of the triangle of the detail level around a point, on the lattice.
+fn ancestor_corner(corner: u32, inner: vec2<u32>) -> vec2<u32> {
+    let place = place_in_cell(view.detail_level, inner);
+    let side = place.side / 4u;
+    let origin = place.cell * side;
+    var to = vec2(0u);
+    if (view.detail_level & 1u) == 1u {
+        if corner == 0u {
+            return origin + vec2(side / 2u);
+        }
+        // The ends of a side of the cell.
+        let is_first = corner == 1u;
+        if place.is_right == place.is_low {
+            to = vec2(u32(is_first), u32(!place.is_low));
+        } else {
+            to = vec2(u32(place.is_right), u32(is_first));
+        }
+    } else if ((place.cell.x + place.cell.y) & 1u) == 0u {
+        // The diagonal joins the corners whose sum of columns and rows is even.
+        to = select(vec2(u32(corner == 1u)), vec2(u32(place.is_right), u32(!place.is_right)), corner == 0u);
+    } else {
+        let end = vec2(u32(corner == 1u), u32(corner != 1u));
+        to = select(end, vec2(u32(!place.is_low)), corner == 0u);
+    }
+    return origin + to * side;
+}
+
 fn shaded(placement: Placement, level: Level, rims_px: vec3<f32>) -> Corner {
     var out: Corner;
     out.position = vec4(placement.px / view.half_size_px, 0.0, 1.0);
@@ -137,6 +267,10 @@ fn px_from_steps(steps_from_anchor: vec2<i32>) -> vec2<f32> {
 // Lattice steps from the camera's anchor to a node. Lattice coordinates are at most 2³⁰, so the difference
 // fits.
 fn steps_from_anchor(node: u32) -> vec2<i32> {
+    return bitcast<vec2<i32>>(node_at(node)) - view.anchor;
+}
+
+fn node_at(node: u32) -> vec2<u32> {
     let place = node & ((1u << view.node_chunk_bits) - 1u);
     var p: vec2<u32>;
     switch node >> view.node_chunk_bits {
@@ -145,7 +279,7 @@ fn steps_from_anchor(node: u32) -> vec2<i32> {
         case 2u: { p = nodes_2[place]; }
         default: { p = nodes_3[place]; }
     }
-    return bitcast<vec2<i32>>(p) - view.anchor;
+    return p;
 }
 
 // The distances of a corner from the three edges: its height from the opposite edge, 0 from the two others.

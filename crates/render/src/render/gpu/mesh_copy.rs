@@ -3,17 +3,17 @@
 use std::ops::Range;
 
 use super::GpuError;
+use super::arrangement::{Arrangement, Span};
 use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS, new_buffer};
 use super::mesh_pass::{uniform_buffer, uniform_entry};
+use super::sending::{joined, send, send_joined, send_ranges};
 use crate::render::draw_flags::DrawFlags;
-use meshbrush_mesh::geometry::{Lattice, LatticePoint};
-use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Triangle, TriangleId};
+use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect};
+use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Progress, Triangle, TriangleId};
 
-/// Storage buffers that the shader reads: triangles, nodes and flags.
-pub(super) const STORAGE_BUFFERS: u32 = 2 + NODE_BUFFERS as u32;
+/// Storage buffers that the shader reads: triangles, nodes, flags and the order of triangles.
+pub(super) const STORAGE_BUFFERS: u32 = 3 + NODE_BUFFERS as u32;
 
-/// Changed ranges of triangles or nodes with at most this many entries between them are written as one.
-const SMALL_GAP: usize = 32;
 /// Changed ranges of words of flags with at most this many words between them are written as one. Writing
 /// many words takes no longer than writing a few.
 const SMALL_GAP_OF_WORDS: usize = 4096;
@@ -21,7 +21,7 @@ const SMALL_GAP_OF_WORDS: usize = 4096;
 /// Upper bound of the words of flags of any mesh. All are in one buffer.
 const MOST_WORDS: usize = 1 << 28;
 
-/// Size of the uniform `Part` of mesh.wgsl in bytes: one u32, and padding that some drivers require.
+/// Size of the uniform `Part` of mesh.wgsl in bytes: two u32, and padding that some drivers require.
 const PART_BYTES: usize = 16;
 
 /// The handles with which buffers are made, filled and bound.
@@ -51,6 +51,20 @@ impl Gpu {
 
     pub(super) fn limits(&self) -> ChunkLimits {
         self.limits
+    }
+
+    pub(super) fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    pub(super) fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// Returns the most bytes of a buffer that a shader can read.
+    pub(super) fn largest_binding(&self) -> u64 {
+        let limits = self.device.limits();
+        limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
     }
 
     pub(super) fn check_nodes(&self, nodes: usize) -> Result<(), GpuError> {
@@ -98,6 +112,7 @@ impl Counts {
 pub(super) struct MeshCopy {
     mesh: Arrays,
     flags: FlagArray,
+    arrangement: Arrangement,
     pieces: Arrays,
     /// The triangles that the pieces replace, retired ones included.
     replaced: Vec<TriangleId>,
@@ -112,6 +127,7 @@ impl MeshCopy {
                 flags: DrawFlags::default(),
                 words: ChunkedArray::new::<u32>("flags", MOST_WORDS),
             },
+            arrangement: Arrangement::new(limits.triangles),
             pieces: Arrays::new(limits),
             replaced: Vec::new(),
             lattice: None,
@@ -123,6 +139,7 @@ impl MeshCopy {
         self.pieces.triangle_count = 0;
         self.replaced.clear();
         self.flags.flags.clear();
+        self.arrangement.clear();
         self.mesh.bind_groups.clear();
         self.fit(gpu, mesh, Counts::NONE)
     }
@@ -133,12 +150,36 @@ impl MeshCopy {
         let flags = self.flags.fit(gpu, count)?;
         let arrays = self.mesh.fit(gpu, mesh.raw_nodes().len(), count, kept)?;
         // The bind groups are missing when an earlier, failed call replaced buffers without binding them.
+        self.arrangement.resize(count);
         if flags || arrays || self.mesh.bind_groups.is_empty() {
-            let flags = self.flags.words.chunks().first();
-            self.mesh.bind(gpu, flags);
+            self.bind(gpu);
         }
         self.lattice = Some(*mesh.lattice());
         Ok(())
+    }
+
+    fn bind(&mut self, gpu: &Gpu) {
+        let flags = self.flags.words.chunks().first();
+        self.mesh.bind(gpu, flags, Some(&self.arrangement));
+    }
+
+    /// Arranges up to `blocks` more blocks of the mesh, which must be complete.
+    pub(super) fn arrange(&mut self, gpu: &Gpu, mesh: &Mesh, blocks: usize) -> Result<Progress, GpuError> {
+        if self.arrangement.is_complete() {
+            return Ok(Progress::Done);
+        }
+        match self.arrangement.fit(gpu)? {
+            // Without lists the picture is the same.
+            None => return Ok(Progress::Done),
+            Some(true) => self.bind(gpu),
+            Some(false) => {}
+        }
+        Ok(self.arrangement.advance(&gpu.queue, mesh, blocks))
+    }
+
+    /// Returns the triangles of a buffer that must be drawn where `view` is visible, at a detail level.
+    pub(super) fn spans(&self, chunk: usize, view: &LatticeRect, level: Option<u32>) -> Vec<Span> {
+        self.arrangement.spans(chunk, view, level)
     }
 
     /// Sends about `byte_budget` bytes, beginning with the entries after `sent`, and adds them to `sent`.
@@ -163,6 +204,7 @@ impl MeshCopy {
         let triangles = &mesh.raw_triangles()[..present.triangles];
         send_ranges(queue, &arrays.triangles, triangles, &changes.triangles);
         self.flags.classify(queue, mesh, &changes.triangles);
+        changes.triangles.iter().for_each(|range| self.arrangement.forget(range.clone()));
     }
 
     /// Replaces the pieces, or removes them with `None`.
@@ -187,7 +229,7 @@ impl MeshCopy {
         let (nodes, triangles) = (pieces.nodes(), pieces.triangles());
         gpu.check_nodes(nodes.len())?;
         self.pieces.fit(gpu, nodes.len(), triangles.len(), Counts::NONE)?;
-        self.pieces.bind(gpu, None);
+        self.pieces.bind(gpu, None, None);
         self.pieces.nodes.write(&gpu.queue, 0, bytemuck::cast_slice(nodes));
         self.pieces.triangles.write(&gpu.queue, 0, bytemuck::cast_slice(triangles));
         Ok(())
@@ -230,7 +272,7 @@ impl MeshCopy {
         let kept = Counts { nodes: self.pieces.node_count, triangles: self.pieces.triangle_count };
         gpu.check_nodes(nodes.len())?;
         if self.pieces.fit(gpu, nodes.len(), triangles.len(), kept)? {
-            self.pieces.bind(gpu, None);
+            self.pieces.bind(gpu, None, None);
         }
         let added = bytemuck::cast_slice(&nodes[kept.nodes..]);
         self.pieces.nodes.write(&gpu.queue, kept.nodes, added);
@@ -283,15 +325,19 @@ impl Arrays {
         Ok(nodes || triangles)
     }
 
-    /// Makes one bind group for each chunk of triangles, with all nodes and all flags.
-    fn bind(&mut self, gpu: &Gpu, flags: Option<&wgpu::Buffer>) {
+    /// Makes one bind group for each chunk of triangles, with all nodes, all flags and all lists.
+    fn bind(&mut self, gpu: &Gpu, flags: Option<&wgpu::Buffer>, arrangement: Option<&Arrangement>) {
         let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
             std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(&gpu.nothing));
         let bind = |(chunk, triangles): (usize, &wgpu::Buffer)| {
             let part = uniform_buffer(&gpu.device, "part of a mesh", PART_BYTES);
             let first = (chunk * gpu.limits.triangles) as u32;
-            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&first));
-            let buffers = [triangles].into_iter().chain(nodes).chain([flags.unwrap_or(&gpu.nothing), &part]);
+            let first_place = arrangement.map_or(0, |arrangement| arrangement.first_place(chunk)) as u32;
+            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&[first, first_place]));
+            let lists = arrangement.and_then(Arrangement::buffer);
+            let buffers = [triangles].into_iter().chain(nodes);
+            let buffers =
+                buffers.chain([flags.unwrap_or(&gpu.nothing), lists.unwrap_or(&gpu.nothing), &part]);
             let entries: Vec<_> = (0..)
                 .zip(buffers)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -349,69 +395,5 @@ impl FlagArray {
     fn send(&self, queue: &wgpu::Queue, triangles: impl Iterator<Item = Range<usize>>) {
         let words = joined(triangles.map(DrawFlags::words_of), SMALL_GAP_OF_WORDS);
         send_joined(queue, &self.words, self.flags.words(), words);
-    }
-}
-
-/// Sends items from `*next` on, as many as the budget in bytes allows and at least one. Returns the bytes
-/// sent.
-fn send<T: bytemuck::Pod>(
-    queue: &wgpu::Queue,
-    array: &ChunkedArray,
-    items: &[T],
-    next: &mut usize,
-    byte_budget: usize,
-) -> usize {
-    if byte_budget == 0 {
-        return 0;
-    }
-    let end = next.saturating_add((byte_budget / size_of::<T>()).max(1)).min(items.len());
-    let bytes: &[u8] = bytemuck::cast_slice(&items[*next..end]);
-    array.write(queue, *next, bytes);
-    *next = end;
-    bytes.len()
-}
-
-fn send_ranges<T: bytemuck::Pod>(
-    queue: &wgpu::Queue,
-    array: &ChunkedArray,
-    items: &[T],
-    ranges: &[Range<usize>],
-) {
-    send_joined(queue, array, items, joined(ranges.iter().cloned(), SMALL_GAP));
-}
-
-fn send_joined<T: bytemuck::Pod>(
-    queue: &wgpu::Queue,
-    array: &ChunkedArray,
-    items: &[T],
-    ranges: Vec<Range<usize>>,
-) {
-    for range in ranges {
-        let range = range.start.min(items.len())..range.end.min(items.len());
-        array.write(queue, range.start, bytemuck::cast_slice(&items[range]));
-    }
-}
-
-/// Joins ascending ranges across small gaps, for fewer and longer writes.
-fn joined(ranges: impl IntoIterator<Item = Range<usize>>, small_gap: usize) -> Vec<Range<usize>> {
-    let mut joined: Vec<Range<usize>> = Vec::new();
-    for range in ranges {
-        match joined.last_mut() {
-            Some(last) if range.start <= last.end + small_gap => last.end = last.end.max(range.end),
-            _ => joined.push(range),
-        }
-    }
-    joined
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn near_ranges_are_joined() {
-        assert_eq!(joined([0..3, 4..6, 6..9, 500..501], 32), [0..9, 500..501]);
-        assert_eq!(joined([0..30, 5..7, 100..101], 32), [0..30, 100..101]);
-        assert_eq!(joined([], 32), []);
     }
 }

@@ -1,11 +1,15 @@
 //! The render pipelines for the triangles and pieces of a mirror.
 
+use super::arrangement::Span;
 use super::layout::MeshView;
 use super::mirror::MeshMirror;
-use crate::scene::{Camera, Style};
+use crate::scene::{Camera, Detail, Style};
+use meshbrush_mesh::geometry::LatticeRect;
 
 pub(super) struct MeshPass {
     triangles: wgpu::RenderPipeline,
+    /// Draws the beginnings of the lists of arranged blocks.
+    listed: wgpu::RenderPipeline,
     pieces: wgpu::RenderPipeline,
     view: wgpu::Buffer,
     view_group: wgpu::BindGroup,
@@ -26,7 +30,13 @@ impl MeshPass {
         let shader = device.create_shader_module(wgpu::include_wgsl!("mesh.wgsl"));
         let groups = [&view_layout, mirror.layout()];
         let pipeline = |vertex_shader| pipeline_from(device, &shader, vertex_shader, &groups, format, None);
-        Self { triangles: pipeline("vs_main"), pieces: pipeline("vs_piece"), view, view_group }
+        Self {
+            triangles: pipeline("vs_main"),
+            listed: pipeline("vs_listed"),
+            pieces: pipeline("vs_piece"),
+            view,
+            view_group,
+        }
     }
 
     pub(super) fn draw(
@@ -37,21 +47,50 @@ impl MeshPass {
         camera: &Camera,
         style: &Style,
     ) {
-        // During the upload of a mesh with another lattice, the previous mesh keeps its place in the world.
-        let camera = mirror.lattice().map_or(*camera, |lattice| camera.on_lattice(lattice));
-        let view = MeshView::new(&camera, style, mirror.limits().node_bits);
+        let sight = MeshSight::new(mirror, camera, style);
+        let view = MeshView::new(&sight.camera, style, sight.detail, mirror.limits().node_bits);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         pass.set_bind_group(0, &self.view_group, &[]);
-        pass.set_pipeline(&self.triangles);
-        for (arrays, triangles) in mirror.mesh_draws() {
+        for (chunk, (arrays, _)) in mirror.mesh_draws().enumerate() {
             pass.set_bind_group(1, arrays, &[]);
-            pass.draw(0..3 * triangles as u32, 0..1);
+            let (listed, plain): (Vec<_>, _) =
+                sight.spans(mirror, chunk).into_iter().partition(|span| span.is_listed);
+            for (pipeline, spans) in [(&self.triangles, plain), (&self.listed, listed)] {
+                pass.set_pipeline(pipeline);
+                for Span { first, count, .. } in spans {
+                    pass.draw(3 * first..3 * (first + count), 0..1);
+                }
+            }
         }
         pass.set_pipeline(&self.pieces);
         for (arrays, pieces) in mirror.piece_draws() {
             pass.set_bind_group(1, arrays, &[]);
             pass.draw(0..3 * pieces as u32, 0..1);
         }
+    }
+}
+
+/// How far beyond the canvas triangles are drawn, in pixels: more than a merged triangle reaches beyond those
+/// that it is merged from.
+const MARGIN_PX: f64 = 8.0;
+
+/// What a camera sees of the mesh of a mirror, and in which detail.
+pub(super) struct MeshSight {
+    camera: Camera,
+    detail: Option<Detail>,
+    visible: LatticeRect,
+}
+
+impl MeshSight {
+    pub(super) fn new(mirror: &MeshMirror, camera: &Camera, style: &Style) -> Self {
+        // During the upload of a mesh with another lattice, the previous mesh keeps its place in the world.
+        let camera = mirror.lattice().map_or(*camera, |lattice| camera.on_lattice(lattice));
+        Self { camera, detail: Detail::of(&camera, style), visible: camera.visible_lattice(MARGIN_PX) }
+    }
+
+    /// Returns the triangles of a buffer that must be drawn.
+    pub(super) fn spans(&self, mirror: &MeshMirror, chunk: usize) -> Vec<Span> {
+        mirror.spans(chunk, &self.visible, self.detail.map(|detail| detail.level()))
     }
 }
 

@@ -3,9 +3,12 @@
 use std::ops::Range;
 
 use super::GpuError;
+use super::arrangement::Span;
 use super::chunks::ChunkLimits;
 use super::mesh_copy::{Counts, Gpu, MeshCopy, STORAGE_BUFFERS};
-use meshbrush_mesh::geometry::Lattice;
+use super::mesh_pass::MeshSight;
+use crate::scene::{Camera, Style};
+use meshbrush_mesh::geometry::{Lattice, LatticeRect};
 use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Progress, TriangleId};
 
 /// A mesh on the GPU: the arrays of [`Mesh`] as they are, each in one or more buffers.
@@ -173,6 +176,29 @@ impl MeshMirror {
         Ok(())
     }
 
+    /// Arranges up to `blocks` more blocks of 65,536 triangles of the mesh on the screen, so that fewer
+    /// triangles are looked at for a picture; the picture is the same. A large mesh needs this to be drawn in
+    /// time. Call it when there is time, until it returns [`Progress::Done`], and again after changes.
+    /// `revision` is that of `mesh`; if another one is on the screen, nothing is done.
+    ///
+    /// # Errors
+    /// Fails when the device cannot hold the order of the triangles. The picture stays.
+    pub fn arrange(&mut self, mesh: &Mesh, revision: u64, blocks: usize) -> Result<Progress, GpuError> {
+        if self.shown != Some(revision) || self.upload.is_some() {
+            return Ok(Progress::Done);
+        }
+        self.front.arrange(&self.gpu, mesh, blocks)
+    }
+
+    /// Returns how many vertices the shader is called for in a picture by `camera` in `style`, without those
+    /// of pieces.
+    pub fn vertices(&self, camera: &Camera, style: &Style) -> usize {
+        let view = MeshSight::new(self, camera, style);
+        let chunks = 0..self.mesh_draws().count();
+        let spans = chunks.flat_map(|chunk| view.spans(self, chunk));
+        spans.map(|span| 3 * span.count as usize).sum()
+    }
+
     /// Returns the revision of the mesh that is drawn, or `None` before the first mesh and after a failure.
     pub fn shown(&self) -> Option<u64> {
         self.shown
@@ -205,6 +231,11 @@ impl MeshMirror {
     /// Returns the buffers of the mesh, each with its number of triangles.
     pub(super) fn mesh_draws(&self) -> impl Iterator<Item = (&wgpu::BindGroup, usize)> {
         self.front.mesh_draws()
+    }
+
+    /// Returns the triangles of a buffer that must be drawn where `view` is visible, at a detail level.
+    pub(super) fn spans(&self, chunk: usize, view: &LatticeRect, level: Option<u32>) -> Vec<Span> {
+        self.front.spans(chunk, view, level)
     }
 
     /// Returns the buffers of the pieces, each with its number of triangles.

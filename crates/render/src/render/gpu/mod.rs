@@ -4,6 +4,7 @@
 //! place of some of its triangles. It keeps the picture of the mesh as a texture, so that the mesh is redrawn
 //! only when the mesh, the camera or the style changed.
 
+mod arrangement;
 mod chunks;
 mod layout;
 mod mesh_copy;
@@ -12,6 +13,7 @@ mod mirror;
 mod offscreen;
 mod overlay_pass;
 mod picture;
+mod sending;
 mod shown_image;
 
 pub use chunks::{ChunkLimits, NODE_BUFFERS};

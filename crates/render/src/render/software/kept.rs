@@ -8,7 +8,7 @@ use super::rasterizer;
 use super::threads::on_drawing_threads;
 use crate::render::Image;
 use crate::render::draw_flags::DrawFlags;
-use crate::scene::{Camera, ShownMesh, ShownRevision, Style};
+use crate::scene::{Camera, Detail, ShownMesh, ShownRevision, Style};
 use meshbrush_mesh::mesh::{Changes, Mesh};
 
 /// A picture of a mesh, kept from frame to frame.
@@ -159,10 +159,12 @@ impl KeptPicture {
     ///
     /// Together, the triangles of the changed entries cover the area that the former ones covered, since the
     /// other triangles are unchanged. Beyond that, an edge can become a boundary edge or cease to be one,
-    /// which changes the pixels beside it in an unchanged triangle.
+    /// which changes the pixels beside it in an unchanged triangle; and where triangles are merged, another
+    /// one can represent an ancestor, which reaches beyond the changed triangles.
     fn damage_of(&self, changes: &Changes, mesh: &Mesh, size: [u32; 2], style: &Style) -> Damage {
         let mut damage = Damage::nothing(size);
-        let margin_px = (style.edge_reach_px() + style.rim_px()).ceil() as i32;
+        let edge_px = (style.edge_reach_px() + style.rim_px()).ceil() as i32;
+        let margin_px = edge_px.max(Detail::reach_px(style));
         let triangles = mesh.raw_triangles();
         for range in &changes.triangles {
             for triangle in &triangles[range.start.min(triangles.len())..range.end.min(triangles.len())] {
@@ -190,9 +192,11 @@ impl KeptPicture {
             triangles: mesh.raw_triangles(),
             groups: &self.groups,
             flags: flags.as_ref().unwrap_or(&none),
+            are_of_mesh: true,
         }];
         if let Some((nodes, triangles, groups, corners)) = &of_pieces {
-            arrays.push(TriangleArrays { nodes, corners, triangles, groups, flags: &none });
+            let flags = &none;
+            arrays.push(TriangleArrays { nodes, corners, triangles, groups, flags, are_of_mesh: false });
         }
         Painter::new(camera, style).draw(&mut self.image, damage, &arrays);
     }

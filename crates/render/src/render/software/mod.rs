@@ -51,7 +51,14 @@ pub fn draw_extract(extract: &Extract, camera: &Camera, style: &Style) -> Image 
     let (nodes, triangles) = (extract.nodes(), extract.triangles());
     let (groups, flags) = (TriangleGroups::of(nodes, triangles), DrawFlags::default());
     let corners = Corners::of(nodes, &camera);
-    let arrays = TriangleArrays { nodes, corners: &corners, triangles, groups: &groups, flags: &flags };
+    let arrays = TriangleArrays {
+        nodes,
+        corners: &corners,
+        triangles,
+        groups: &groups,
+        flags: &flags,
+        are_of_mesh: false,
+    };
     let everything = Damage::everything(camera.size_px());
     on_drawing_threads(|| Painter::new(camera, style).draw(&mut image, &everything, &[arrays]));
     image

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 use super::corners::Corners;
 use super::damage::{BAND_ROWS, Damage};
 use super::groups::TriangleGroups;
-use super::rasterizer::{self, LevelShader, Rasterizer};
+use super::rasterizer::{self, LevelShader, Rasterizer, snapped};
 use crate::colormap::LEVELS;
 use crate::render::Image;
 use crate::render::draw_flags::DrawFlags;
-use crate::scene::{Camera, LevelPaint, Style};
+use crate::scene::{Camera, Detail, InnerPoint, LevelPaint, Style};
 use meshbrush_mesh::geometry::{LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{Orientation, Triangle};
 
@@ -26,6 +26,8 @@ pub(super) struct TriangleArrays<'a> {
     pub(super) groups: &'a TriangleGroups,
     /// Flags of the triangles that others replace.
     pub(super) flags: &'a DrawFlags,
+    /// Whether all triangles are those of a mesh, which merge with others. Pieces do not.
+    pub(super) are_of_mesh: bool,
 }
 
 impl TriangleArrays<'_> {
@@ -44,10 +46,10 @@ impl TriangleArrays<'_> {
     }
 
     /// Returns, for each band, the groups of triangles that can be seen in its damaged part, in their order.
-    fn groups_in_bands(&self, camera: &Camera, damage: &Damage) -> Vec<Vec<Range<usize>>> {
+    fn groups_in_bands(&self, camera: &Camera, damage: &Damage, reach_px: i32) -> Vec<Vec<Range<usize>>> {
         let mut bands = vec![Vec::new(); damage.bands().len()];
         for (group, rect) in self.groups.iter() {
-            let [columns, rows] = pixels_around(camera, &rect);
+            let [columns, rows] = pixels_around(camera, &rect, reach_px);
             for band in damage.bands_meeting(&columns, &rows) {
                 bands[band].push(group.start..group.end.min(self.triangles.len()));
             }
@@ -56,10 +58,11 @@ impl TriangleArrays<'_> {
     }
 }
 
-/// Returns columns and rows of the pixels that triangles within `rect` can colour.
-fn pixels_around(camera: &Camera, rect: &LatticeRect) -> [Range<i32>; 2] {
-    let corners = [rect.min, rect.max].map(|p| rasterizer::snapped(camera.screen_from_lattice(p)));
-    rasterizer::pixels_around(&corners, 0)
+/// Returns columns and rows of the pixels that triangles within `rect` can colour, if those that they are
+/// merged into reach so far beyond them.
+fn pixels_around(camera: &Camera, rect: &LatticeRect, reach_px: i32) -> [Range<i32>; 2] {
+    let corners = [rect.min, rect.max].map(|p| snapped(camera.screen_from_lattice(p)));
+    rasterizer::pixels_around(&corners, reach_px)
 }
 
 /// Draws triangles for one camera in one style.
@@ -67,13 +70,17 @@ pub(super) struct Painter {
     camera: Camera,
     ground: [u8; 4],
     shaders: [LevelShader; LEVELS],
+    detail: Option<Detail>,
+    /// How far merged triangles reach beyond those that they are merged from, in pixels.
+    reach_px: i32,
 }
 
 impl Painter {
     /// Creates a painter of meshes on the lattice of the camera.
     pub(super) fn new(camera: Camera, style: &Style) -> Self {
         let shaders = LevelPaint::all(&camera, style).map(|paint| LevelShader::new(&paint, style));
-        Self { camera, ground: ground(style), shaders }
+        let (detail, reach_px) = (Detail::of(&camera, style), Detail::reach_px(style));
+        Self { camera, ground: ground(style), shaders, detail, reach_px }
     }
 
     /// Draws the damaged part of a picture again: the ground, and then the arrays one above the other.
@@ -82,7 +89,8 @@ impl Painter {
     /// order of the arrays, so the picture depends neither on the threads nor on the part that is drawn
     /// again.
     pub(super) fn draw(&self, image: &mut Image, damage: &Damage, arrays: &[TriangleArrays]) {
-        let groups: Vec<_> = arrays.iter().map(|each| each.groups_in_bands(&self.camera, damage)).collect();
+        let groups: Vec<_> =
+            arrays.iter().map(|each| each.groups_in_bands(&self.camera, damage, self.reach_px)).collect();
         let width = image.size[0];
         let bands = image.pixels_mut().par_chunks_mut(width as usize * BAND_ROWS).with_max_len(1);
         bands.zip(damage.bands()).enumerate().for_each(|(band, (pixels, columns))| {
@@ -98,8 +106,13 @@ impl Painter {
     }
 
     fn draw_group(&self, rasterizer: &mut Rasterizer, arrays: &TriangleArrays, group: Range<usize>) {
+        let detail = self.detail.filter(|_| arrays.are_of_mesh);
         for index in group {
             let triangle = &arrays.triangles[index];
+            if let Some(detail) = detail.filter(|detail| triangle.level() > detail.level()) {
+                self.draw_merged(rasterizer, arrays, index, detail);
+                continue;
+            }
             if triangle.is_outside() || !arrays.flags.is_drawn(index) {
                 continue;
             }
@@ -112,6 +125,29 @@ impl Painter {
             } else {
                 rasterizer.fill_snapped(corners, at_boundary, shader);
             }
+        }
+    }
+}
+
+impl Painter {
+    /// Draws the ancestor that a triangle represents, if any. Where pieces are in its place, they are drawn
+    /// over the ancestor.
+    #[inline]
+    fn draw_merged(
+        &self,
+        rasterizer: &mut Rasterizer,
+        arrays: &TriangleArrays,
+        index: usize,
+        detail: Detail,
+    ) {
+        let triangle = &arrays.triangles[index];
+        let inner = InnerPoint::of(triangle, arrays.nodes);
+        if let Some(corners) = detail.merged(triangle.level(), inner)
+            && !arrays.is_vacant(index)
+        {
+            let corners = corners.map(|p| snapped(self.camera.screen_from_lattice(p)));
+            let shader = &self.shaders[triangle.level() as usize];
+            rasterizer.fill_snapped(corners, || [false; 3], shader);
         }
     }
 }

@@ -31,7 +31,7 @@ fn a_row_of_the_legend_hides_its_level_and_alt_shows_it_alone() {
     let mut window = window_of(TALL);
     let shown = |window: &Window| {
         let view = window.state().view();
-        view.style(crate::app::tests::settings(window), 1.0).shown_levels
+        view.style(crate::app::tests::settings(window), 0, 1.0).shown_levels
     };
     open_tab(&mut window, Tab::Mesh);
     assert_eq!(shown(&window), u64::MAX);
