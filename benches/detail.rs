@@ -24,9 +24,9 @@ use meshbrush_render::scene::{Camera, Style};
 
 const SIZE: [u32; 2] = [1920, 1080];
 const ZOOMS: [f64; 3] = [1.0, 8.0, 64.0];
-const FRAMES: u32 = 5;
+const FRAMES: u32 = 3;
 /// Blocks that the window arranges in a frame.
-const BLOCKS_PER_FRAME: usize = 4;
+const BLOCKS_PER_FRAME: usize = 8;
 /// Bytes of a triangle that is looked at: from the arrays, and from the list of its block.
 const BYTES: [usize; 2] = [32 + 3 * 8 + 4, 2];
 
@@ -65,7 +65,7 @@ fn main() {
         ("uniform", &|| levels(7)),
         ("uniform", &|| levels(13)),
         ("uniform", &|| levels(17)),
-        ("varied", &|| varied(19)),
+        ("varied", &|| varied(16)),
     ];
     for (name, make) in meshes {
         measure(&mut gpu, name, &make());

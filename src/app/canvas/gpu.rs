@@ -19,7 +19,7 @@ use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
 const BYTES_PER_FRAME: usize = 16 << 20;
 
 /// Blocks of a large mesh that are arranged in one frame without changes: about 3 ms on two cores.
-const BLOCKS_PER_FRAME: usize = 4;
+const BLOCKS_PER_FRAME: usize = 8;
 
 /// The canvas's share of egui's GPU resources.
 struct CanvasResources {

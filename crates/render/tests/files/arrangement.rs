@@ -42,8 +42,8 @@ fn pictures(gpu: &mut Offscreen, mesh: &Mesh) -> Vec<(String, Image, usize)> {
 #[test]
 fn an_arranged_mesh_looks_the_same_and_fewer_triangles_are_looked_at() {
     let Some(gpu) = gpu() else { return };
-    let mesh = graded(0.0007);
-    assert!(mesh.raw_triangle_count() > 2 << 16, "some blocks");
+    let mesh = graded(0.0014);
+    assert!(mesh.raw_triangle_count() > 4 << 14, "many blocks");
     let node_bits = (mesh.raw_nodes().len() as u32).div_ceil(4).next_power_of_two().ilog2();
     let small = gpu.with_chunks(ChunkLimits { triangles: 10_001, node_bits }).unwrap();
     for (chunks, mut gpu) in [("large", super::render_agreement::gpu().unwrap()), ("small", small)] {
@@ -119,7 +119,7 @@ fn an_arranged_mesh_follows_edits() {
     let mut gpu = gpu.with_chunks(chunks).unwrap();
     gpu.show(&mesh, 0).unwrap();
     arrange(&mut gpu, &mesh, 0);
-    for (revision, at) in (1..).zip([dvec2(0.3, 0.2), dvec2(0.7, 0.8), dvec2(0.1, 0.9)]) {
+    for (revision, at) in (1..).zip([dvec2(0.3, 0.2), dvec2(0.7, 0.8)]) {
         let changes = edit(&mut mesh, at);
         gpu.renderer().mirror_mut().apply_changes(&mesh, revision, &changes).unwrap();
         let edited = pictures(&mut gpu, &mesh);

@@ -24,12 +24,14 @@ use super::GpuError;
 use super::chunks::ChunkedArray;
 use super::mesh_copy::Gpu;
 use crate::colormap::LEVELS;
+use crate::render::software::on_drawing_threads;
 use crate::scene::{InnerPoint, coarsest_represented};
 use meshbrush_mesh::geometry::{LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{Mesh, Progress};
 
-/// Entries of a block: as many as two bytes can tell apart. A list takes two bytes for each triangle.
-const BLOCK: usize = 1 << 16;
+/// Entries of a block: few enough that blocks are small on the plane, so that most of those that are drawn
+/// are in sight, and enough that a frame has few calls. Mesh.wgsl has the same number.
+const BLOCK: usize = 1 << 14;
 /// Places of the list in a word that the shader reads.
 const PLACES_PER_WORD: usize = 2;
 /// More words than any list has. All are in one buffer.
@@ -124,12 +126,13 @@ impl Arrangement {
         Ok(Some(replaced))
     }
 
-    /// Arranges up to `count` more blocks of the mesh, on the threads of the current pool.
+    /// Arranges up to `count` more blocks of the mesh, on all threads that draw.
     pub(super) fn advance(&mut self, queue: &wgpu::Queue, mesh: &Mesh, count: usize) -> Progress {
         let open =
             (0..self.blocks.len()).filter(|&block| self.blocks[block].is_none() && !self.is_empty(block));
         let open: Vec<usize> = open.take(count).collect();
-        let arranged: Vec<_> = open.par_iter().map(|&block| arranged(mesh, self.entries(block))).collect();
+        let arrange = |&block: &usize| arranged(mesh, self.entries(block));
+        let arranged: Vec<_> = on_drawing_threads(|| open.par_iter().with_max_len(1).map(arrange).collect());
         for (block, (arranged, places)) in open.into_iter().zip(arranged) {
             let first_word = block * self.places_of_block() / PLACES_PER_WORD;
             self.words.write(queue, first_word, bytemuck::cast_slice(&places));

@@ -48,7 +48,7 @@ pub(super) struct MeshView {
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
-    /// The detail level, or one that no triangle has.
+    /// The detail level, if triangles are merged.
     detail_level: u32,
     halvings: u32,
     levels: [Level; LEVELS],
@@ -68,7 +68,7 @@ impl MeshView {
             rim_px: style.rim_px(),
             huge_px: HUGE_PX,
             fill_opacity: style.fill_opacity,
-            detail_level: detail.map_or(LEVELS as u32, |detail| detail.level()),
+            detail_level: detail.map_or(0, |detail| detail.level()),
             halvings: camera.lattice().halvings(),
             levels: LevelPaint::all(camera, style).map(Level::from),
         }

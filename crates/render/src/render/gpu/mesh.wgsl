@@ -1,9 +1,8 @@
 // Draws triangles directly from their arrays: three vertices per entry, fetched by index. The triangles are
-// those of the mesh (vs_main), also in the order of their lists (vs_listed), or pieces in place of some of
-// them (vs_piece).
+// those of the mesh (vs_main), or pieces in place of some of them (vs_piece).
 //
-// Triangles finer than the detail level are merged into their ancestors of that level; scene/detail.rs says
-// how and has the same functions.
+// In a picture with a detail level, triangles finer than it are merged into their ancestors of that level
+// (vs_merging, or vs_listed where triangles are listed); scene/detail.rs says how and has the same functions.
 //
 // Positions are in pixels from the middle of the canvas, y upwards. The position of the camera is subtracted
 // from lattice coordinates in integers; only the difference is converted to f32.
@@ -29,7 +28,7 @@ struct View {
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
-    // More than any level where no triangles are merged.
+    // Unused where no triangles are merged.
     detail_level: u32,
     // How often the side of a coarse cell can be halved: its binary logarithm in lattice steps.
     halvings: u32,
@@ -76,6 +75,9 @@ struct Corner {
 // No neighbour.
 const BOUNDARY: u32 = 0xffffffffu;
 
+// Entries of a block; places of a list are within a block.
+const BLOCK: u32 = 16384u;
+
 // A triangle that is drawn has no flags. Of one that is not drawn, this says whether pieces are in its place.
 const HAS_PIECES: u32 = 4u;
 
@@ -85,6 +87,12 @@ fn flags_of(triangle: u32) -> u32 {
 
 @vertex
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
+    let entry = index / 3u;
+    return shown_as_it_is(entry, index % 3u, triangles[entry].kind % 64u);
+}
+
+@vertex
+fn vs_merging(@builtin(vertex_index) index: u32) -> Corner {
     let entry = index / 3u;
     let level_number = triangles[entry].kind % 64u;
     if level_number > view.detail_level {
@@ -100,7 +108,7 @@ fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
 fn vs_listed(@builtin(vertex_index) index: u32) -> Corner {
     let place = index / 3u;
     let word = lists[(part.first_place + place) / 2u];
-    let entry = (place & 0xffff0000u) + ((word >> (16u * (place % 2u))) & 0xffffu);
+    let entry = (place & ~(BLOCK - 1u)) + ((word >> (16u * (place % 2u))) & 0xffffu);
     let level_number = triangles[entry].kind % 64u;
     if level_number > view.detail_level {
         return merged(entry, index % 3u, level_number, inner_point(entry, level_number), true);

@@ -8,6 +8,7 @@ use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS, new_buffer};
 use super::mesh_pass::{uniform_buffer, uniform_entry};
 use super::sending::{joined, send, send_joined, send_ranges};
 use crate::render::draw_flags::DrawFlags;
+use crate::scene::Style;
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect};
 use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Progress, Triangle, TriangleId};
 
@@ -132,6 +133,11 @@ impl MeshCopy {
             replaced: Vec::new(),
             lattice: None,
         }
+    }
+
+    /// Returns whether its buffers hold a large mesh.
+    pub(super) fn is_large(&self) -> bool {
+        Style::merges(self.mesh.triangle_count)
     }
 
     /// Prepares for a mesh whose upload begins.

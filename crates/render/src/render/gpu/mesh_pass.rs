@@ -8,6 +8,8 @@ use meshbrush_mesh::geometry::LatticeRect;
 
 pub(super) struct MeshPass {
     triangles: wgpu::RenderPipeline,
+    /// Draws triangles, or the ancestors that they represent.
+    merging: wgpu::RenderPipeline,
     /// Draws the beginnings of the lists of arranged blocks.
     listed: wgpu::RenderPipeline,
     pieces: wgpu::RenderPipeline,
@@ -32,6 +34,7 @@ impl MeshPass {
         let pipeline = |vertex_shader| pipeline_from(device, &shader, vertex_shader, &groups, format, None);
         Self {
             triangles: pipeline("vs_main"),
+            merging: pipeline("vs_merging"),
             listed: pipeline("vs_listed"),
             pieces: pipeline("vs_piece"),
             view,
@@ -51,11 +54,12 @@ impl MeshPass {
         let view = MeshView::new(&sight.camera, style, sight.detail, mirror.limits().node_bits);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         pass.set_bind_group(0, &self.view_group, &[]);
+        let plain_pipeline = if sight.detail.is_some() { &self.merging } else { &self.triangles };
         for (chunk, (arrays, _)) in mirror.mesh_draws().enumerate() {
             pass.set_bind_group(1, arrays, &[]);
             let (listed, plain): (Vec<_>, _) =
                 sight.spans(mirror, chunk).into_iter().partition(|span| span.is_listed);
-            for (pipeline, spans) in [(&self.triangles, plain), (&self.listed, listed)] {
+            for (pipeline, spans) in [(plain_pipeline, plain), (&self.listed, listed)] {
                 pass.set_pipeline(pipeline);
                 for Span { first, count, .. } in spans {
                     pass.draw(3 * first..3 * (first + count), 0..1);

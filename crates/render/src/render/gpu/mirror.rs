@@ -90,6 +90,10 @@ impl MeshMirror {
         self.shown = Some(*revision);
         self.upload = None;
         std::mem::swap(&mut self.front, &mut self.back);
+        if self.back.is_large() {
+            // Memory of the GPU is short for two of them, and new buffers take less time than the upload.
+            self.back = MeshCopy::new(self.gpu.limits());
+        }
         self.generation += 1;
         Progress::Done
     }
@@ -176,7 +180,7 @@ impl MeshMirror {
         Ok(())
     }
 
-    /// Arranges up to `blocks` more blocks of 65,536 triangles of the mesh on the screen, so that fewer
+    /// Arranges up to `blocks` more blocks of 16,384 triangles of the mesh on the screen, so that fewer
     /// triangles are looked at for a picture; the picture is the same. A large mesh needs this to be drawn in
     /// time. Call it when there is time, until it returns [`Progress::Done`], and again after changes.
     /// `revision` is that of `mesh`; if another one is on the screen, nothing is done.
