@@ -326,7 +326,9 @@ impl Canvas {
         let palette = OverlayPalette::new(view.ground, colors);
         let neutral = palette.neutral();
         let overlay = self.overlay_colors.overlay(view.overlay, session, palette, &camera, &self.jobs);
-        let style = view.style(settings, session.mesh().raw_triangle_count(), ui.pixels_per_point());
+        // In software, a triangle without a pixel takes less time than the question whom it represents.
+        let triangles = if gpu.draws_in_software() { 0 } else { session.mesh().raw_triangle_count() };
+        let style = view.style(settings, triangles, ui.pixels_per_point());
         let style = if overlay.is_some() { style.under(neutral) } else { style };
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
