@@ -196,7 +196,8 @@ impl View {
         LevelColors::new(self.colormap, self.ground, deepest_level(settings))
     }
 
-    /// How a mesh of so many triangles, which may be merged, is drawn on a screen with `px_per_point` pixels for a point.
+    /// How a mesh is drawn on a screen with `px_per_point` pixels for a point. `triangles` is their number,
+    /// or 0 where none are to be merged.
     pub fn style(&self, settings: &Settings, triangles: usize, px_per_point: f32) -> Style {
         let colors = self.level_colors(settings);
         let style = match self.ground {
