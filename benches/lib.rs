@@ -3,4 +3,5 @@
 pub mod diamond;
 pub mod documents;
 pub mod field;
+pub mod risks;
 pub mod window;

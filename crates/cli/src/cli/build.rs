@@ -100,7 +100,7 @@ impl FinishedMesh {
 
     /// Returns the risk of the layers.
     pub fn risk(&self) -> RiskField {
-        RiskField::new(self.layers(), &self.paint)
+        RiskField::new(self.layers(), &self.paint).within(&self.domain.bounds)
     }
 
     /// Returns the domain, in world units.

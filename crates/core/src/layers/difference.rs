@@ -323,8 +323,8 @@ impl RiskField {
     /// Rectangles in world units on the closed union of which the risk can differ from that of another
     /// stack. `None` where it can differ anywhere.
     pub fn areas_that_differ(&self, other: &Self) -> Option<Vec<Rect>> {
-        let (Self { layers }, Self { layers: before }) = (self, other);
-        if layers.len() != before.len() {
+        let (Self { layers, inside }, Self { layers: before, inside: inside_before }) = (self, other);
+        if layers.len() != before.len() || inside != inside_before {
             return None;
         }
         let areas = layers.iter().zip(before).map(|(layer, before)| risk_areas(layer, before));

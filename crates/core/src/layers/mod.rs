@@ -16,6 +16,7 @@ mod models;
 mod paint_layers;
 mod reach;
 mod risk;
+mod risk_pixels;
 mod risk_slopes;
 mod sampled;
 mod settled;

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::engine::asked::Share;
+use super::risk_pixels::{WithGaps, range_within};
 use super::{Combine, Coverage, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Threats};
 use crate::field::{Bounds, Formula};
 use crate::geometry::Rect;
-use crate::raster::{PixelGrid, RasterPyramid, TiledRaster, ValueRange, ValueRanges, exponent, power_of_two};
+use crate::raster::{RasterPyramid, TiledRaster, ValueRange, ValueRanges};
 
 /// The risk that a stack of layers has at each point, from 0 to 1.
 ///
@@ -22,6 +23,8 @@ use crate::raster::{PixelGrid, RasterPyramid, TiledRaster, ValueRange, ValueRang
 #[derive(Clone, Debug, Default)]
 pub struct RiskField {
     pub(super) layers: Vec<RiskLayer>,
+    /// The domain without a thin rim, if it is known.
+    pub(super) inside: Option<Rect>,
 }
 
 #[derive(Clone, Debug)]
@@ -46,11 +49,9 @@ pub(super) struct Risks {
     present: Share,
 }
 
-/// Pixels this near to a rectangle, as a share of their side, count: places are rounded.
-const PIXEL_MARGIN: f64 = 1e-9;
-
-/// A square this many times finer than a pixel has one value.
-const FINEST_SCALE: i32 = -60;
+/// The width of the rim of a domain, as a share of its longer side. It is wider than
+/// [`PIXEL_MARGIN`](super::risk_pixels::PIXEL_MARGIN).
+const RIM: f64 = 1e-8;
 
 impl RiskField {
     /// Returns the risk of a stack, from the bottom to the top, with the painted pixels of its layers.
@@ -69,7 +70,27 @@ impl RiskField {
             };
             Some(RiskLayer { combine: layer.combine, mask: layer.mask.clone(), source })
         };
-        Self { layers: layers.iter().filter(|layer| layer.visible).filter_map(of).collect() }
+        let layers = layers.iter().filter(|layer| layer.visible).filter_map(of).collect();
+        Self { layers, inside: None }
+    }
+
+    /// Returns the risk in a domain: on its border, pixels and masks count as they do just inside. Since the
+    /// smaller risk beside a line counts, a raster that ends at the border would have no risk there, and a
+    /// path along the border would avoid all of it.
+    pub fn within(self, domain: &Rect) -> Self {
+        let size = domain.size();
+        let rim = (RIM * size.max_element()).min(0.25 * size.min_element());
+        Self { inside: Some(domain.expanded(-rim)), ..self }
+    }
+
+    /// Returns the part of a rectangle whose pixels count: the nearest one inside the domain.
+    pub(super) fn seen(&self, rectangle: &Rect) -> Rect {
+        match self.inside {
+            Some(Rect { min, max }) => {
+                Rect::new(rectangle.min.max(min).min(max), rectangle.max.max(min).min(max))
+            }
+            None => *rectangle,
+        }
     }
 
     /// Returns whether no layer holds a risk.
@@ -79,9 +100,9 @@ impl RiskField {
 
     /// The risk at a point in world units.
     pub fn at(&self, point: DVec2) -> f64 {
-        let place = Rect::new(point, point);
+        let place = self.seen(&Rect::new(point, point));
         self.layers.iter().fold(0.0, |below, layer| {
-            if layer.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
+            if layer.mask.as_ref().is_some_and(|mask| !mask.contains(place.min)) {
                 return below;
             }
             let risks = layer.source.at(point, &place);
@@ -96,10 +117,11 @@ impl RiskField {
 
     /// Returns bounds of the risk over a closed rectangle in world units; they may be wider than the values.
     pub fn range(&self, rectangle: &Rect) -> Bounds {
+        let seen = self.seen(rectangle);
         self.layers.iter().fold(Bounds::one(0.0), |below, layer| {
-            let mut risks = layer.source.range(rectangle);
+            let mut risks = layer.source.range(rectangle, &seen);
             if let Some(mask) = &layer.mask {
-                match mask.classify(rectangle) {
+                match mask.classify(&seen) {
                     Coverage::Inside => {}
                     Coverage::Outside => return below,
                     Coverage::Mixed => risks.present = risks.present.masked(),
@@ -149,11 +171,11 @@ impl Risks {
 }
 
 impl RiskSource {
-    /// `None` where the layer has no risk.
+    /// `None` where the layer has no risk. `place` is that of the pixels that count.
     fn at(&self, point: DVec2, place: &Rect) -> Option<f64> {
         match self {
             Self::Paint(_) | Self::Raster(_) => {
-                let Risks { least, present, .. } = self.range(place);
+                let Risks { least, present, .. } = self.range(place, place);
                 (present == Share::All).then_some(least)
             }
             Self::Formula(formula) => {
@@ -164,7 +186,8 @@ impl RiskSource {
         }
     }
 
-    pub fn range(&self, rectangle: &Rect) -> Risks {
+    /// `seen` has the pixels that count in a rectangle.
+    pub fn range(&self, rectangle: &Rect, seen: &Rect) -> Risks {
         let of_bounds = |bounds: Bounds, none: f64| {
             let present = match (bounds.valid && bounds.least > none, bounds.greatest > none) {
                 (true, _) => Share::All,
@@ -176,10 +199,10 @@ impl RiskSource {
         };
         match self {
             // Risk 0 is blank paint.
-            Self::Paint(raster) => Risks::new(range_within(raster, rectangle, raster.grid(), 0.0), 0.0),
+            Self::Paint(raster) => Risks::new(range_within(raster, seen, raster.grid(), 0.0), 0.0),
             Self::Raster(raster) => {
                 let with_gaps = WithGaps(raster);
-                let range = range_within(&with_gaps, rectangle, raster.grid(), f32::NEG_INFINITY);
+                let range = range_within(&with_gaps, seen, raster.grid(), f32::NEG_INFINITY);
                 Risks::new(range, f32::NEG_INFINITY)
             }
             // A risk of −∞ counts as 0.
@@ -193,94 +216,13 @@ impl RiskSource {
     }
 }
 
-/// A raster whose gaps have a risk of −∞.
-struct WithGaps<'a>(&'a RasterPyramid);
-
-impl ValueRanges for WithGaps<'_> {
-    fn grid(&self) -> &PixelGrid {
-        self.0.grid()
-    }
-
-    fn coarsest(&self) -> i32 {
-        self.0.coarsest()
-    }
-
-    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        self.0.square(scale, x, y).with_gaps(f32::NEG_INFINITY)
-    }
-
-    fn whole_range(&self) -> ValueRange {
-        self.0.whole().with_gaps(f32::NEG_INFINITY)
-    }
-}
-
-/// Returns the range of the pixels that touch a closed rectangle in world units, and of some around it.
-fn range_within(raster: &impl ValueRanges, rectangle: &Rect, grid: &PixelGrid, gap: f32) -> ValueRange {
-    let whole = raster.whole_range().union(ValueRange::one(gap));
-    if whole.is_one() {
-        return whole;
-    }
-    let [min, max] = [rectangle.min, rectangle.max].map(|corner| grid.pixel_from_world(corner));
-    let side = (max - min).max_element();
-    // Squares of about a quarter of the rectangle.
-    let finest = if side > 0.0 { exponent(side) - 2 } else { FINEST_SCALE }.max(FINEST_SCALE);
-    let start = if side > 1.0 { exponent(side) + 1 } else { 0 };
-    if start > raster.coarsest() + 1 {
-        return whole;
-    }
-    let search = Descent { raster, min: min.to_array(), max: max.to_array(), finest };
-    let [first, last] = search.places(power_of_two(start));
-    let mut range: Option<ValueRange> = None;
-    for y in first[1]..=last[1] {
-        for x in first[0]..=last[0] {
-            let found = search.square(start, x, y);
-            range = Some(range.map_or(found, |range| range.union(found)));
-        }
-    }
-    range.unwrap_or(whole)
-}
-
-struct Descent<'a, R> {
-    raster: &'a R,
-    /// The corners of the rectangle in pixels.
-    min: [f64; 2],
-    max: [f64; 2],
-    /// The scale at which descending ends.
-    finest: i32,
-}
-
-impl<R: ValueRanges> Descent<'_, R> {
-    /// Returns the first and the last column and row of squares of a side in pixels that touch the rectangle.
-    fn places(&self, side: f64) -> [[i64; 2]; 2] {
-        let margin = PIXEL_MARGIN * side.min(1.0);
-        let first = self.min.map(|v| (((v - margin) / side).ceil() as i64).saturating_sub(1));
-        let last = self.max.map(|v| ((v + margin) / side).floor() as i64);
-        // The ceiling of a place between two lines belongs to the square before it.
-        let first = [0, 1].map(|axis: usize| first[axis].min(last[axis]));
-        [first, last]
-    }
-
-    fn square(&self, scale: i32, x: i64, y: i64) -> ValueRange {
-        let range = self.raster.range_anywhere(scale, [x, y]);
-        if range.is_one() || scale <= self.finest {
-            return range;
-        }
-        let Some([x, y]) = x.checked_mul(2).zip(y.checked_mul(2)).map(|(x, y)| [x, y]) else { return range };
-        let [first, last] = self.places(power_of_two(scale - 1));
-        let columns = x.max(first[0])..=(x + 1).min(last[0]);
-        let rows = y.max(first[1])..=(y + 1).min(last[1]);
-        let parts = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
-        parts.map(|(x, y)| self.square(scale - 1, x, y)).reduce(ValueRange::union).unwrap_or(range)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use glam::dvec2;
 
     use super::*;
     use crate::layers::{LayerId, RasterSource, Threat, ThreatLaw};
-    use crate::raster::{Raster, Tile, TilePlace};
+    use crate::raster::{PixelGrid, Raster, Tile, TilePlace};
 
     fn layers(random: &mut fastrand::Rng) -> (Vec<Layer>, PaintLayers) {
         let mut paint = PaintLayers::default();
@@ -380,6 +322,30 @@ mod tests {
         assert_eq!(field.at(dvec2(0.4, 0.5)), 0.75);
         let line = Rect::new(dvec2(0.5, 0.1), dvec2(0.5, 0.9));
         assert_eq!(field.range(&line), Bounds::new(0.25, 0.75));
+    }
+
+    #[test]
+    fn on_the_border_of_a_domain_pixels_count_as_just_inside() {
+        let raster = Raster::from_values(Rect::UNIT, [3, 2], vec![0.75; 6]);
+        let source = RasterSource { name: String::new(), raster: RasterPyramid::new(raster).into() };
+        let mut layer = Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]);
+        let ring = [dvec2(0.0, 0.0), dvec2(1.0, 0.0), dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
+        for mask in [None, Some(Mask::new(&[vec![ring.to_vec()]]).unwrap())] {
+            layer[0].mask = mask;
+            let open = RiskField::new(&layer, PaintLayers::blank());
+            let field = open.clone().within(&Rect::UNIT);
+            for (from, to) in [((0.0, 0.0), (1.0, 0.0)), ((0.2, 1.0), (0.7, 1.0)), ((1.0, 0.5), (1.0, 1.0))] {
+                let [from, to] = [from, to].map(|(x, y)| dvec2(x, y));
+                let rectangle = Rect::spanning(from, to);
+                assert_eq!(field.range(&rectangle), Bounds::one(0.75));
+                assert_eq!([from, from.midpoint(to), to].map(|p| field.at(p)), [0.75; 3]);
+                assert_eq!(field.derivatives(&rectangle).unwrap(), [Bounds::one(0.0); 2]);
+                assert_eq!(open.range(&rectangle).least, 0.0);
+            }
+        }
+        let half = Rect::new(DVec2::ZERO, dvec2(2.0, 1.0));
+        let field = RiskField::new(&layer, PaintLayers::blank()).within(&half);
+        assert_eq!(field.range(&half), Bounds::new(0.0, 0.75));
     }
 
     #[test]

@@ -21,13 +21,14 @@ impl RiskField {
     /// sides.
     pub fn derivatives(&self, rectangle: &Rect) -> Option<[Bounds; 2]> {
         let (mut value, mut slopes) = (ZERO, [ZERO; 2]);
+        let seen = self.seen(rectangle);
         for layer in &self.layers {
-            match layer.mask.as_ref().map(|mask| mask.classify(rectangle)) {
+            match layer.mask.as_ref().map(|mask| mask.classify(&seen)) {
                 Some(Coverage::Outside) => continue,
                 Some(Coverage::Mixed) => return None,
                 Some(Coverage::Inside) | None => {}
             }
-            let risks = layer.source.range(rectangle);
+            let risks = layer.source.range(rectangle, &seen);
             if risks.is_nowhere() {
                 continue;
             }

@@ -1,6 +1,7 @@
 //! A lower bound of what any path costs, from marches on the mesh.
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::Passage;
 use super::march::March;
@@ -18,7 +19,8 @@ use super::place::Place;
 ///    goal show through which triangles they go. Only there the gradient counts.
 /// 2. v is the signed distance from the bisector, where both distances are equal: it has no source, where
 ///    marches are least exact.
-/// 3. Where |∇v| > F the cost is lowered around, and v is computed again, twice.
+/// 3. Where |∇v| > F the cost is lowered around, and v is computed again, until little is left to gain. These
+///    marches go through the triangles of 1 and some around them: beyond, v may be anything.
 #[derive(Clone, Debug, Default)]
 pub struct LowerBound {
     march: March,
@@ -26,16 +28,22 @@ pub struct LowerBound {
     from_goal: Vec<f64>,
     v: Vec<f64>,
     costs: Vec<f64>,
-    /// Whether a path that costs at most the upper bound may go through a triangle.
-    counts: Vec<bool>,
+    /// The triangles through which a path that costs at most the upper bound may go.
+    counting: Vec<u32>,
     factors: Vec<f64>,
 }
 
 /// The bound is rounded down by this share.
 const ROUNDING: f64 = 1e-10;
 
-/// How often v is computed again with lowered costs.
-const CORRECTIONS: usize = 2;
+/// How often v is computed again with lowered costs, at most.
+const MOST_CORRECTIONS: usize = 8;
+/// v is not computed again where that can raise the bound by less than this share of the upper bound.
+const LEAST_GAIN: f64 = 5e-4;
+/// Marches go through triangles that can lie on paths of this many times the upper bound.
+const MARGIN: f64 = 1.05;
+/// A thread looks at so many triangles at a time.
+const TOGETHER: usize = 4096;
 
 /// The problem whose minimum is bounded from below.
 struct Problem<'a> {
@@ -61,41 +69,45 @@ impl LowerBound {
         self.from_start.extend(us.values().map(finite));
         self.from_goal.clear();
         self.from_goal.extend(ug.values().map(finite));
-        self.counts.clear();
-        self.counts.resize(mesh.triangle_count(), true);
-        let clamps =
-            [problem.clamped(&self.from_start, start, goal), problem.clamped(&self.from_goal, goal, start)];
-        let clamped_gain = problem.gain(&clamps[0]).max(-problem.gain(&clamps[1]));
+        let clamps = rayon::join(
+            || problem.clamped(&self.from_start, start, goal),
+            || problem.clamped(&self.from_goal, goal, start),
+        );
+        let clamped_gain = problem.gain(&clamps.0).max(-problem.gain(&clamps.1));
         self.find_counting(&problem, &clamps, upper);
         let w: Vec<f64> = self.from_start.iter().zip(&self.from_goal).map(|(s, g)| 0.5 * (s - g)).collect();
-        let mut best = clamped_gain.max(problem.bound(&w, &self.counts));
-        self.costs.clear();
-        self.costs.extend_from_slice(costs);
+        let mut best = clamped_gain.max(problem.bound(&w, &self.counting));
         let crossed = problem.crossed(&w);
         let mut at_nodes = vec![1.0_f64; mesh.node_count()];
-        for correction in 0..=CORRECTIONS {
-            let seeds: Vec<(u32, f64)> = crossed
-                .iter()
-                .map(|&node| (node, w[node as usize].abs() * at_nodes[node as usize]))
-                .collect();
+        for correction in 0..=MOST_CORRECTIONS {
+            let seed = |&node: &u32| (node, w[node as usize].abs() * at_nodes[node as usize]);
+            let seeds: Vec<(u32, f64)> = crossed.iter().map(seed).collect();
             self.march.run(mesh, &self.costs, Passage::Partly, &seeds, None);
             self.v.clear();
             self.v.extend(self.march.values().zip(&w).map(|(v, &w)| finite(v).copysign(w)));
-            best = best.max(problem.bound(&self.v, &self.counts));
-            if correction < CORRECTIONS {
-                self.lower_costs(&problem, &mut at_nodes);
+            best = best.max(problem.bound(&self.v, &self.counting));
+            // Lower costs do not give more.
+            if problem.gain(&self.v) - best <= LEAST_GAIN * upper || correction == MOST_CORRECTIONS {
+                break;
             }
+            self.lower_costs(&problem, &mut at_nodes);
         }
         best.max(0.0) * (1.0 - ROUNDING)
     }
 
-    /// Finds the triangles through which a path that costs at most `upper` may go.
-    fn find_counting(&mut self, problem: &Problem, clamps: &[Vec<f64>; 2], upper: f64) {
-        for (t, counts) in (0..).zip(&mut self.counts) {
-            let nodes = problem.mesh.triangles[t as usize].corners;
-            let at = |node: u32| clamps[0][node as usize] + clamps[1][node as usize];
-            *counts =
-                nodes.iter().map(|&node| at(node)).fold(f64::INFINITY, f64::min) <= upper * (1.0 + ROUNDING);
+    /// Finds the triangles through which a path that costs at most `upper` may go, and closes those that are
+    /// far from them.
+    fn find_counting(&mut self, problem: &Problem, clamps: &(Vec<f64>, Vec<f64>), upper: f64) {
+        self.counting.clear();
+        self.costs.clear();
+        for (t, triangle) in (0..).zip(&problem.mesh.triangles) {
+            let at = |&node: &u32| clamps.0[node as usize] + clamps.1[node as usize];
+            let least = triangle.corners.iter().map(at).fold(f64::INFINITY, f64::min);
+            if least <= upper * (1.0 + ROUNDING) && triangle.is_passable() {
+                self.counting.push(t);
+            }
+            let is_near = least <= upper * MARGIN;
+            self.costs.push(if is_near { problem.costs[t as usize] } else { f64::INFINITY });
         }
     }
 
@@ -103,19 +115,20 @@ impl LowerBound {
     fn lower_costs(&mut self, problem: &Problem, at_nodes: &mut [f64]) {
         self.factors.clear();
         self.factors.resize(at_nodes.len(), 1.0);
-        for t in 0..problem.mesh.triangle_count() as u32 {
-            if self.counts[t as usize] && problem.is_open(t) {
-                let ratio = problem.ratio(t, &self.v).min(1.0);
-                for node in problem.mesh.triangles[t as usize].corners {
-                    let factor = &mut self.factors[node as usize];
-                    *factor = factor.min(ratio);
-                }
+        let v = &self.v;
+        let ratios = self.counting.par_iter().with_min_len(TOGETHER).map(|&t| problem.ratio(t, v).min(1.0));
+        let ratios: Vec<f64> = ratios.collect();
+        for (&t, ratio) in self.counting.iter().zip(ratios) {
+            for node in problem.mesh.triangles[t as usize].corners {
+                let factor = &mut self.factors[node as usize];
+                *factor = factor.min(ratio);
             }
         }
-        for (t, cost) in (0..).zip(&mut self.costs) {
-            let corners = problem.mesh.triangles[t as usize].corners;
-            *cost *= corners.iter().map(|&node| self.factors[node as usize]).fold(1.0, f64::min);
-        }
+        let factors = &self.factors;
+        let triangles = problem.mesh.triangles.par_iter().with_min_len(TOGETHER);
+        self.costs.par_iter_mut().zip(triangles).for_each(|(cost, triangle)| {
+            *cost *= triangle.corners.iter().map(|&node| factors[node as usize]).fold(1.0, f64::min);
+        });
         at_nodes.iter_mut().zip(&self.factors).for_each(|(all, factor)| *all *= factor);
     }
 }
@@ -142,13 +155,9 @@ impl Problem<'_> {
     }
 
     /// Returns the bound by a function whose gradients count in some triangles.
-    fn bound(&self, v: &[f64], counts: &[bool]) -> f64 {
-        let mut scale = 1.0_f64;
-        for t in 0..self.mesh.triangle_count() as u32 {
-            if counts[t as usize] && self.is_open(t) {
-                scale = scale.min(self.ratio(t, v));
-            }
-        }
+    fn bound(&self, v: &[f64], counting: &[u32]) -> f64 {
+        let ratios = counting.par_iter().with_min_len(TOGETHER).map(|&t| self.ratio(t, v));
+        let scale = ratios.reduce(|| 1.0, f64::min);
         let bound = scale * self.gain(v);
         if bound.is_nan() { 0.0 } else { bound }
     }

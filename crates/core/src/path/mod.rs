@@ -27,6 +27,7 @@ mod lines;
 mod lower;
 mod march;
 mod obstacle;
+mod origin;
 mod outline;
 mod parts;
 mod path_mesh;

@@ -104,6 +104,14 @@ impl PathMesh {
         mesh
     }
 
+    /// Returns whether nodes and triangles are those of another mesh with the same keep-out regions.
+    pub(super) fn is_same_as(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+            || (self.nodes == other.nodes
+                && self.triangles.len() == other.triangles.len()
+                && self.triangles.iter().zip(&other.triangles).all(|(a, b)| a.corners == b.corners))
+    }
+
     /// Returns whether there are regions that paths stay out of.
     pub(super) fn has_keep_out(&self) -> bool {
         !self.keep_out.is_empty()

@@ -3,19 +3,21 @@
 use std::sync::Arc;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::integral::PathFigures;
 use super::lines::Lines;
 use super::lower::LowerBound;
-use super::march::{March, Seed};
+use super::march::March;
 use super::obstacle::obstacle;
+use super::origin::Origin;
 use super::path_mesh::PathMesh;
 use super::place::Place;
 use super::refine::{Effort, refine};
 use super::shortest::Shortest;
 use super::taut::is_constant_along;
 use super::trace::{trace, trace_by_nodes};
-use super::triangle_costs::TriangleCosts;
+use super::triangle_costs::{TriangleCost, TriangleCosts};
 use super::walls::Walls;
 use super::ways::Ways;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
@@ -44,6 +46,9 @@ const COMPARED: f64 = 1e-3;
 /// Another way is worth a closer look if sketches promise that it costs less by this share.
 const LEAST_GAIN: f64 = 1e-4;
 
+/// More rectangles in which the cost changed are joined to one.
+const MOST_AREAS: usize = 64;
+
 /// Finds paths of least cost on one mesh.
 ///
 /// The mesh is bisected further where the cost varies much within a triangle. The path follows the march with
@@ -61,7 +66,8 @@ pub struct Planner {
     origins: Vec<Origin>,
     /// Marches with least costs through all triangles that are not closed, one for each waypoint.
     origins_for_bounds: Vec<Origin>,
-    bound: LowerBound,
+    /// One for each leg.
+    bounds: Vec<LowerBound>,
 }
 
 /// The mesh from which a planner's mesh was bisected.
@@ -69,48 +75,10 @@ pub struct Planner {
 struct Adaptation {
     /// The mesh that the planner was made with.
     base: Arc<PathMesh>,
-    /// Whether the cost changed since the mesh was bisected for it.
-    is_outdated: bool,
-}
-
-/// A march from a waypoint.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Origin {
-    pub march: March,
-    place: Option<Place>,
-    seeds: Vec<Seed>,
-    /// Whether the values are those of the costs as they are.
-    is_current: bool,
-    /// Whether the costs changed: then they will again, and only a march to the end can follow.
-    follows: bool,
-}
-
-impl Origin {
-    /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
-    /// triangle, unless the costs change again and again.
-    fn run(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, place: Place, until: Option<Place>) {
-        let seeds = place.seeds(mesh, costs);
-        let is_same_place = self.place == Some(place);
-        let to_the_end = is_same_place && self.follows;
-        let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
-        if self.is_current && is_same_place && self.seeds == seeds {
-            return self.march.go_on(mesh, costs, least, until);
-        }
-        self.march.run(mesh, costs, least, &seeds, until);
-        self.follows = to_the_end;
-        (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
-    }
-
-    /// Follows changed costs; what cannot be followed is marched again later.
-    fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
-        let seeds = self.place.map(|place| place.seeds(mesh, costs));
-        self.follows = true;
-        if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
-            self.march.resolve(mesh, costs, least, &self.seeds, changed);
-        } else {
-            self.is_current = false;
-        }
-    }
+    /// The costs of its triangles.
+    costs: Vec<TriangleCost>,
+    /// Where the cost changed since the mesh was bisected for it.
+    changed: Vec<Rect>,
 }
 
 impl Planner {
@@ -120,9 +88,10 @@ impl Planner {
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
         let base = mesh.into();
+        let known = base.all_costs(density)?;
         let mut mesh = Arc::clone(&base);
-        let costs = TriangleCosts::on_adapted(&mut mesh, density)?;
-        let adaptation = Some(Adaptation { base, is_outdated: false });
+        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
+        let adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
         Ok(Self { adaptation, ..Self::with_costs(mesh, costs) })
     }
 
@@ -138,9 +107,8 @@ impl Planner {
 
     fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
         let walls = Arc::new(Walls::new(&mesh));
-        let (origins, origins_for_bounds) = Default::default();
-        let bound = LowerBound::default();
-        Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bound }
+        let (origins, origins_for_bounds, bounds) = Default::default();
+        Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bounds }
     }
 
     /// Returns the triangles that paths go through: those of the mesh that the planner was made with, or
@@ -155,19 +123,33 @@ impl Planner {
     }
 
     /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
-    /// Where the mesh would be bisected in another way for the new cost, it is one.
+    /// Costs are computed again only there, and marches follow unless the mesh is bisected in another way for
+    /// the new cost.
     ///
     /// # Errors
     /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
     pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        if let Some(Adaptation { base, is_outdated }) = &self.adaptation {
-            let is_bisected = !Arc::ptr_eq(base, &self.mesh) && !base.meeting(areas).is_empty();
-            if *is_outdated || is_bisected || base.wants_adapting(density, areas)? {
-                *self = Self::new(Arc::clone(base), density)?;
-                return Ok(());
-            }
+        let Some(Adaptation { base, costs: known, changed }) = &self.adaptation else {
+            return self.change_costs(density, areas);
+        };
+        let meeting = base.meeting(&[changed, areas].concat());
+        if meeting.is_empty() {
+            return Ok(());
         }
-        self.change_costs(density, areas).map(|_| ())
+        let mut known = known.clone();
+        for (&triangle, cost) in meeting.iter().zip(base.costs_of(&meeting, density)?) {
+            known[triangle as usize] = cost;
+        }
+        let (base, mut mesh) = (Arc::clone(base), Arc::clone(base));
+        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
+        if mesh.is_same_as(&self.mesh) {
+            let changed = self.costs.exchange(costs);
+            self.follow_costs(&changed);
+        } else {
+            *self = Self::with_costs(mesh, costs);
+        }
+        self.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
+        Ok(())
     }
 
     /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths
@@ -176,23 +158,33 @@ impl Planner {
     /// # Errors
     /// Fails as [`Self::update`] does.
     pub fn follow(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        let has_changed = self.change_costs(density, areas)?;
-        if let Some(adaptation) = &mut self.adaptation {
-            adaptation.is_outdated |= has_changed;
+        self.change_costs(density, areas)?;
+        if let Some(Adaptation { changed, .. }) = &mut self.adaptation {
+            changed.extend(areas);
+            if changed.len() > MOST_AREAS {
+                let all = changed.drain(..).reduce(|a, b| a.union(&b));
+                changed.extend(all);
+            }
         }
         Ok(())
     }
 
-    /// Computes costs again, and lets the marches follow. Returns whether there was a change.
-    fn change_costs(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<bool, PathError> {
+    /// Computes costs again, and lets the marches follow.
+    fn change_costs(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
         let changed = self.costs.update(&self.mesh, density, areas)?;
-        for origin in &mut self.origins {
-            origin.follow(&self.mesh, &self.costs.mean, Passage::Open, &changed);
-        }
-        for origin in &mut self.origins_for_bounds {
-            origin.follow(&self.mesh, &self.costs.least, Passage::Partly, &changed);
-        }
-        Ok(!changed.is_empty())
+        self.follow_costs(&changed);
+        Ok(())
+    }
+
+    /// Lets the marches follow the costs of some triangles.
+    fn follow_costs(&mut self, changed: &[u32]) {
+        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
+        let follow = |(origin, costs, least): (&mut Origin, &[f64], Passage)| {
+            origin.follow(mesh, costs, least, changed);
+        };
+        let open = origins.par_iter_mut().map(|origin| (origin, &*costs.mean, Passage::Open));
+        let partly = origins_for_bounds.par_iter_mut().map(|origin| (origin, &*costs.least, Passage::Partly));
+        open.chain(partly).for_each(follow);
     }
 
     /// Returns the path of least cost from the first of the places to the last by way of the others, in
@@ -220,16 +212,19 @@ impl Planner {
         request: PathRequest,
     ) -> Result<Vec<Solution>, PathError> {
         let places = self.places(places)?;
-        self.march(&places, false);
-        if request.has_bounds {
-            self.march_for_bounds(&places);
-        }
-        let leg = |(leg, pair): (usize, &[Place])| {
+        self.march_from(&places, false, request.has_bounds);
+        let mut bounds = std::mem::take(&mut self.bounds);
+        bounds.resize_with(places.len() - 1, LowerBound::default);
+        let leg = |(leg, (pair, bound)): (usize, (&[Place], &mut LowerBound))| {
             let [from, to] = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
-            self.leg(density, leg, [pair[0], pair[1]], request)?
+            self.leg(density, leg, [pair[0], pair[1]], (request, bound))?
                 .ok_or_else(|| obstacle(&self.mesh, [pair[0], pair[1]], [from, to]))
         };
-        places.windows(2).enumerate().map(leg).collect()
+        let legs = places.par_windows(2).zip(&mut bounds).enumerate().map(leg);
+        let legs: Vec<Result<Solution, PathError>> = legs.collect();
+        self.bounds = bounds;
+        // Of several errors, that of the first leg counts.
+        legs.into_iter().collect()
     }
 
     /// Returns the places on the mesh.
@@ -244,24 +239,29 @@ impl Planner {
 
     /// Marches from each place; to the end from all of them with `complete`.
     pub(super) fn march(&mut self, places: &[Place], complete: bool) {
-        self.origins.resize_with(places.len(), Origin::default);
-        for (n, origin) in self.origins.iter_mut().enumerate() {
-            match places.get(n + 1) {
-                None if !complete => {}
-                next => {
-                    let until = next.filter(|_| !complete).copied();
-                    origin.run(&self.mesh, &self.costs.mean, Passage::Open, places[n], until);
-                }
-            }
-        }
+        self.march_from(places, complete, false);
     }
 
-    /// Marches to the end from each place with the least costs.
-    fn march_for_bounds(&mut self, places: &[Place]) {
-        self.origins_for_bounds.resize_with(places.len(), Origin::default);
-        for (origin, &place) in self.origins_for_bounds.iter_mut().zip(places) {
-            origin.run(&self.mesh, &self.costs.least, Passage::Partly, place, None);
+    /// [`Self::march`], and for bounds to the end from each place with the least costs. Each march is the
+    /// work of one thread.
+    fn march_from(&mut self, places: &[Place], complete: bool, has_bounds: bool) {
+        self.origins.resize_with(places.len(), Origin::default);
+        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
+        if has_bounds {
+            origins_for_bounds.resize_with(places.len(), Origin::default);
         }
+        // No leg begins at the last place.
+        let starts = if complete { places.len() } else { places.len() - 1 };
+        let open = origins[..starts].par_iter_mut().enumerate().map(|(n, origin)| {
+            let until = places.get(n + 1).filter(|_| !complete);
+            (origin, &*costs.mean, Passage::Open, places[n], until.copied())
+        });
+        let for_bounds = if has_bounds { &mut origins_for_bounds[..] } else { &mut [] };
+        let partly = for_bounds.par_iter_mut().zip(places);
+        let partly = partly.map(|(origin, &place)| (origin, &*costs.least, Passage::Partly, place, None));
+        open.chain(partly).for_each(|(origin, costs, least, place, until)| {
+            origin.run(mesh, costs, least, place, until);
+        });
     }
 
     /// Returns the marches through open triangles from two places, one after the other.
@@ -289,11 +289,11 @@ impl Planner {
     /// # Errors
     /// Fails when its cost is not finite.
     fn leg(
-        &mut self,
+        &self,
         density: &dyn CostDensity,
         leg: usize,
         ends: [Place; 2],
-        request: PathRequest,
+        (request, bound): (PathRequest, &mut LowerBound),
     ) -> Result<Option<Solution>, PathError> {
         let [start, goal] = ends;
         if start.point == goal.point {
@@ -312,11 +312,8 @@ impl Planner {
         }
         // A path through a part of the domain that no triangle covers may cost less than any that is known.
         if request.has_bounds && self.mesh.covers_domain {
-            let bound = &mut LowerBound::default();
-            std::mem::swap(bound, &mut self.bound);
             let marches = [leg, leg + 1].map(|place| &self.origins_for_bounds[place].march);
             let lower = bound.compute(&self.mesh, &self.costs.least, ends, marches, solution.upper);
-            std::mem::swap(bound, &mut self.bound);
             solution.lower = lower.min(solution.upper);
         }
         Ok(Some(solution))

@@ -12,7 +12,8 @@ impl March {
     /// The values are those of a new run, bit for bit. A node whose value came from a changed triangle, or
     /// from a node whose value changes, loses its value. Then the march goes on from the others, and nodes
     /// that were accepted may fall. Each that falls takes the values of those that depend on it, so a node
-    /// can be accepted several times: after half as many times as there are nodes, a new march is faster.
+    /// can be accepted several times: after half as many times as there are nodes, or where more than half of
+    /// the nodes lose their values at once, a new march is faster.
     pub fn resolve(
         &mut self,
         mesh: &PathMesh,
@@ -31,6 +32,11 @@ impl March {
                 }
             }
         }
+        let most = mesh.node_count() / 2;
+        if edit.lost.len() > most {
+            self.run(mesh, costs, least, seeds, None);
+            return self.accepted_count;
+        }
         edit.offer_to_lost();
         for &t in changed {
             edit.offer_within(t);
@@ -40,7 +46,6 @@ impl March {
                 .filter(|&&across| across != NONE)
                 .for_each(|&t| edit.offer_within(t));
         }
-        let most = mesh.node_count() / 2;
         while let Some(node) = edit.march.next() {
             if edit.march.accepted_count > most {
                 self.run(mesh, costs, least, seeds, None);
@@ -250,6 +255,25 @@ mod tests {
         for t in 0..mesh.triangle_count() {
             mesh.triangles[t].obtuse = super::super::path_mesh::obtuse_corner(&mesh.corners(t as u32));
             mesh.has_obtuse |= mesh.triangles[t].obtuse < 3;
+        }
+    }
+
+    #[test]
+    fn an_edit_of_nearly_everything_accepts_each_node_once() {
+        let mut random = fastrand::Rng::with_seed(1404);
+        for factor in [0.5, 2.0] {
+            let mesh = random_mesh(&mut random);
+            let mut costs: Vec<f64> = (0..mesh.triangle_count()).map(|_| 0.5 + random.f64()).collect();
+            let seeds = [(random.u32(0..mesh.node_count() as u32), 0.0)];
+            let mut march = March::default();
+            march.run(&mesh, &costs, Passage::Open, &seeds, None);
+            costs.iter_mut().for_each(|cost| *cost *= factor * (1.0 + 0.1 * random.f64()));
+            let all: Vec<u32> = (0..costs.len() as u32).collect();
+            let redone = march.resolve(&mesh, &costs, Passage::Open, &seeds, &all);
+            assert!(redone <= mesh.node_count(), "{redone} of {}", mesh.node_count());
+            let mut fresh = March::default();
+            fresh.run(&mesh, &costs, Passage::Open, &seeds, None);
+            assert!(march.values().eq(fresh.values()));
         }
     }
 

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::error::{GREATEST_COST, LEAST_COST};
 use super::path_mesh::PathMesh;
 use super::{CostDensity, Passage, PathError, checked_range};
@@ -17,8 +19,8 @@ pub struct TriangleCosts {
 }
 
 /// The cost of one triangle.
-#[derive(Clone, Copy)]
-struct TriangleCost {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TriangleCost {
     least: f64,
     greatest: f64,
     mean: f64,
@@ -35,27 +37,27 @@ const GAUSS: [[f64; 3]; 3] = {
 /// A triangle is bisected whose diameter, times how much its cost varies as a share of the least cost, 1 at
 /// most, is above this part of the longer side of all triangles.
 const COARSEST: f64 = 1.0 / 250.0;
+/// A thread computes the costs of so many triangles at a time.
+const TOGETHER: usize = 1024;
 /// The most triangles that bisection adds to a mesh.
 const MOST_ADDED: usize = 50_000;
 
 impl TriangleCosts {
     /// Returns the costs, on a mesh that is bisected where the cost varies much within a triangle: the mean
-    /// of such a triangle would hide a narrow way through it.
+    /// of such a triangle would hide a narrow way through it. `known` has the costs of the mesh as it is.
     ///
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
-    pub(super) fn on_adapted(mesh: &mut Arc<PathMesh>, density: &dyn CostDensity) -> Result<Self, PathError> {
+    pub(super) fn on_adapted(
+        mesh: &mut Arc<PathMesh>,
+        known: &[TriangleCost],
+        density: &dyn CostDensity,
+    ) -> Result<Self, PathError> {
         let coarsest = coarsest(mesh);
-        let mut costs = Self::default();
-        let mut wanted = Vec::new();
-        for triangle in 0..mesh.triangle_count() as u32 {
-            let cost = mesh.cost(triangle, density)?;
-            costs.set(triangle, cost);
-            let importance = mesh.importance(triangle, cost, coarsest);
-            if importance > 0.0 {
-                wanted.push((importance, triangle));
-            }
-        }
+        let mut costs = Self::of_all(known);
+        let important = |(triangle, &cost)| (mesh.importance(triangle, cost, coarsest), triangle);
+        let wanted: Vec<(f64, u32)> =
+            (0..).zip(known).map(important).filter(|&(importance, _)| importance > 0.0).collect();
         if !wanted.is_empty() {
             Arc::make_mut(mesh).bisect(wanted, MOST_ADDED, |mesh, triangle| {
                 let cost = mesh.cost(triangle, density)?;
@@ -64,6 +66,23 @@ impl TriangleCosts {
             })?;
         }
         Ok(costs)
+    }
+
+    /// Takes other costs of the same triangles, and returns those that changed, in order.
+    pub(super) fn exchange(&mut self, new: Self) -> Vec<u32> {
+        let before = std::mem::replace(self, new);
+        let differs = |&t: &u32| {
+            let t = t as usize;
+            self.least[t] != before.least[t] || self.mean[t] != before.mean[t]
+        };
+        (0..before.least.len() as u32).filter(differs).collect()
+    }
+
+    fn of_all(costs: &[TriangleCost]) -> Self {
+        Self {
+            least: costs.iter().map(|cost| cost.least).collect(),
+            mean: costs.iter().map(|cost| cost.mean).collect(),
+        }
     }
 
     fn set(&mut self, triangle: u32, cost: TriangleCost) {
@@ -85,14 +104,12 @@ impl TriangleCosts {
         density: &dyn CostDensity,
         areas: &[Rect],
     ) -> Result<Vec<u32>, PathError> {
-        let mut changed = Vec::new();
-        for triangle in mesh.meeting(areas) {
-            let cost = mesh.cost(triangle, density)?;
-            let index = triangle as usize;
-            if cost.least != self.least[index] || cost.mean != self.mean[index] {
-                changed.push((triangle, cost));
-            }
-        }
+        let meeting = mesh.meeting(areas);
+        let costs = mesh.costs_of(&meeting, density)?;
+        let mut changed: Vec<(u32, TriangleCost)> = meeting.into_iter().zip(costs).collect();
+        changed.retain(|&(triangle, cost)| {
+            cost.least != self.least[triangle as usize] || cost.mean != self.mean[triangle as usize]
+        });
         changed.iter().for_each(|&(triangle, cost)| self.set(triangle, cost));
         Ok(changed.into_iter().map(|(triangle, _)| triangle).collect())
     }
@@ -113,25 +130,6 @@ impl TriangleCost {
 }
 
 impl PathMesh {
-    /// Returns whether [`TriangleCosts::on_adapted`] would begin with a triangle of this mesh that meets one
-    /// of the rectangles. Ranges of parts lie in those of the whole, so elsewhere it bisects as before.
-    ///
-    /// # Errors
-    /// Fails as [`Self::costs`] does.
-    pub(super) fn wants_adapting(
-        &self,
-        density: &dyn CostDensity,
-        areas: &[Rect],
-    ) -> Result<bool, PathError> {
-        let coarsest = coarsest(self);
-        for triangle in self.meeting(areas) {
-            if self.importance(triangle, self.cost(triangle, density)?, coarsest) > 0.0 {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
     /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
     /// where it is not. A triangle that a keep-out region touches has a jump of the cost.
     fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
@@ -149,9 +147,27 @@ impl PathMesh {
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
-        let mut costs = TriangleCosts::default();
-        for triangle in 0..self.triangle_count() as u32 {
-            costs.set(triangle, self.cost(triangle, density)?);
+        self.all_costs(density).map(|costs| TriangleCosts::of_all(&costs))
+    }
+
+    pub(super) fn all_costs(&self, density: &dyn CostDensity) -> Result<Vec<TriangleCost>, PathError> {
+        let all: Vec<u32> = (0..self.triangle_count() as u32).collect();
+        self.costs_of(&all, density)
+    }
+
+    /// Returns the costs of some triangles. All threads compute; of several errors, that of the first
+    /// triangle counts.
+    pub(super) fn costs_of(
+        &self,
+        triangles: &[u32],
+        density: &dyn CostDensity,
+    ) -> Result<Vec<TriangleCost>, PathError> {
+        let of_part = |part: &[u32]| part.iter().map(|&t| self.cost(t, density)).collect();
+        let parts: Vec<Result<Vec<TriangleCost>, PathError>> =
+            triangles.par_chunks(TOGETHER).map(of_part).collect();
+        let mut costs = Vec::with_capacity(triangles.len());
+        for part in parts {
+            costs.extend(part?);
         }
         Ok(costs)
     }

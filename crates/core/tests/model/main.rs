@@ -28,6 +28,7 @@ mod path_choices;
 mod path_edits;
 mod path_random;
 mod path_referees;
+mod path_threads;
 mod path_valleys;
 mod path_walls;
 mod random_coast;

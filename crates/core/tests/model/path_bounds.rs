@@ -1,5 +1,5 @@
 //! Lower bounds hold for costs that are smaller on a line, in a strip of any width or at a point, and for
-//! domains that the mesh covers only partly.
+//! domains that the mesh covers only partly. The border of a domain is no such line for a risk of pixels.
 
 use std::sync::Arc;
 
@@ -8,11 +8,12 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::RiskField;
+use meshbrush_core::layers::{Layer, LayerKind, PaintLayers, RasterReading, RasterSource, RiskField};
 use meshbrush_core::path::{
     CertificateTask, CostDensity, FormulaCost, PathCertificate, PathError, PathMesh, PathRequest, Planner,
-    Solution, Waypoint,
+    Solution, Waypoint, WeightedCost, Weights,
 };
+use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
 
@@ -159,6 +160,22 @@ fn no_bound_is_above_what_a_search_finds_around_a_narrow_valley() {
             let message = format!("{seed} {formula} {places:?} {diameter}: {} {found}", solution.lower);
             assert!(solution.lower <= found * 1.05 + 0.05, "{message}");
         }
+    }
+}
+
+#[test]
+fn the_border_of_a_domain_is_no_cheap_way_where_a_raster_of_risk_ends_there() {
+    let raster = Raster::from_values(Rect::UNIT, [6, 7], vec![0.5; 42]);
+    let source = RasterSource { name: String::new(), raster: RasterPyramid::new(raster).into() };
+    let stack = Layer::stack([LayerKind::Raster { source, reading: RasterReading::Risk }]);
+    let risk = RiskField::new(&stack, PaintLayers::blank()).within(&Rect::UNIT);
+    let density = WeightedCost::new(Weights { length: 1.0, risk: 10.0 }, risk).unwrap();
+    for places in [[dvec2(0.1, 0.02), dvec2(0.9, 0.03)], [dvec2(0.0, 0.0), dvec2(1.0, 0.9)]] {
+        let mut planner = Planner::new(square(8.0, 0.05), &density).unwrap();
+        let solution = planner.solve(&density, &places, PathRequest::FULL).unwrap();
+        let straight = 6.0 * places[0].distance(places[1]);
+        assert!((solution.cost - straight).abs() < 1e-9 * straight, "{} {straight}", solution.cost);
+        assert!(solution.gap() < 0.01, "{}", solution.gap());
     }
 }
 

@@ -31,7 +31,7 @@ pub fn export(
         return Err(format!("{} could not be written: {obstacle}.", path.display()));
     }
     let settings = session.document().settings().clone();
-    let risk = RiskField::new(&settings.layers, session.document().paint());
+    let risk = RiskField::new(&settings.layers, session.document().paint()).within(&settings.domain.bounds);
     let (mesh, derived) = (session.follower().shared_mesh(), session.derived().map(Derived::shared_extract));
     let tolerance = Some(tool.export_tolerance).filter(|&tolerance| tolerance > 0.0);
     let (look, file) = (view.picture(&settings), path.to_owned());

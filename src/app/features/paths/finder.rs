@@ -166,7 +166,8 @@ impl PathFinder {
 
     fn start(&mut self, key: Key, session: &Session, jobs: &Jobs) {
         let document = session.document();
-        let risk = RiskField::new(&document.settings().layers, document.paint());
+        let (settings, paint) = (document.settings(), document.paint());
+        let risk = RiskField::new(&settings.layers, paint).within(&settings.domain.bounds);
         let (plan, is_live) = (document.settings().paths.clone(), key.is_live);
         let planner = self.planner.take();
         let planner = planner.filter(|(known, mesh)| *mesh == key.mesh && known.avoids_those_of(&plan));

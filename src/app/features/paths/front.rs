@@ -10,6 +10,7 @@ use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
 use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
 use meshbrush_core::path::{Front, FrontPoint, PathMesh, Weights};
+use meshbrush_mesh::geometry::Rect;
 
 /// Paths of a front, at most.
 pub const FRONT_PATHS: usize = 20;
@@ -39,6 +40,7 @@ struct FrontKey {
     keep_out: Arc<[KeepOut]>,
     layers: Vec<Layer>,
     paint: PaintLayers,
+    domain: Rect,
 }
 
 /// The front so far.
@@ -119,7 +121,8 @@ impl FrontFinder {
             let settings = session.document().settings();
             let (places, keep_out) = (settings.paths.routes[route].clone(), settings.paths.keep_out.clone());
             let (layers, paint) = (settings.layers.clone(), session.document().paint().clone());
-            let of = FrontKey { mesh: key.mesh, places, keep_out, layers, paint };
+            let domain = settings.domain.bounds;
+            let of = FrontKey { mesh: key.mesh, places, keep_out, layers, paint, domain };
             if self.of.as_ref() != Some(&of) {
                 self.start(mesh.clone(), of, jobs);
             }
@@ -136,7 +139,7 @@ impl FrontFinder {
     fn start(&mut self, mesh: Arc<PathMesh>, of: FrontKey, jobs: &Jobs) {
         (self.points, self.pointed, self.remaining) = (Vec::new(), None, FRONT_PATHS);
         let places = of.places.clone();
-        let risk = RiskField::new(&of.layers, &of.paint);
+        let risk = RiskField::new(&of.layers, &of.paint).within(&of.domain);
         self.of = Some(of);
         let find = move |output: &Output<News>| {
             let mut front = Front::new(mesh, risk, places, FRONT_PATHS);

@@ -51,6 +51,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::{Passage, PathError, PathMesh};
 use crate::geometry::Rect;
@@ -84,6 +85,8 @@ const STRIP_LOSS: f64 = 20.0;
 const MOST_WORK: u64 = 700_000;
 /// The number of steps that the solver usually takes for a programme.
 const USUAL_STEPS: u64 = 25;
+/// A thread computes the minorants of so many triangles at a time.
+const TOGETHER: usize = 16;
 /// Number of programmes in a row that hardly raise the bound after which the work ends.
 const MOST_IDLE: usize = 3;
 
@@ -334,16 +337,19 @@ impl Certificate {
     fn minorants_of(&mut self, space: &QuadraticSpace) -> Result<Vec<Minorant>, PathError> {
         self.minorants.resize(self.mesh.raw_triangle_count(), None);
         let inset = self.inset();
-        let mut all = Vec::with_capacity(space.elements.len());
-        for element in &space.elements {
+        let of_element = |element: &QuadraticElement| {
             let level = self.mesh.triangle(element.id).level();
-            let known = &mut self.minorants[element.id.index()];
-            let minorant = match *known {
-                Some((at, minorant)) if at == level => minorant,
-                _ => Minorant::new(&*self.task.cost, &element.flat, inset),
-            };
-            *known = Some((level, minorant));
-            all.push(minorant.at_most(100.0 * self.task.upper / element.flat.diameter()));
+            match self.minorants[element.id.index()] {
+                Some((at, minorant)) if at == level => (level, minorant),
+                _ => (level, Minorant::new(&*self.task.cost, &element.flat, inset)),
+            }
+        };
+        let found: Vec<(u32, Minorant)> =
+            space.elements.par_iter().with_min_len(TOGETHER).map(of_element).collect();
+        let mut all = Vec::with_capacity(space.elements.len());
+        for (element, known) in space.elements.iter().zip(found) {
+            self.minorants[element.id.index()] = Some(known);
+            all.push(known.1.at_most(100.0 * self.task.upper / element.flat.diameter()));
         }
         lower_at_edges(&*self.task.cost, space, &mut all, inset);
         for (element, minorant) in space.elements.iter().zip(&all) {

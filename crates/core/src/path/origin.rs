@@ -1,0 +1,53 @@
+//! Marches from waypoints, which follow changes of the cost.
+
+use super::Passage;
+use super::march::{March, Seed};
+use super::path_mesh::PathMesh;
+use super::place::Place;
+
+/// A march from a waypoint.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Origin {
+    pub march: March,
+    place: Option<Place>,
+    seeds: Vec<Seed>,
+    /// Whether the values are those of the costs as they are.
+    is_current: bool,
+    /// Whether the costs changed: then they will again, and only a march to the end can follow.
+    follows: bool,
+}
+
+impl Origin {
+    /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
+    /// triangle, unless the costs change again and again.
+    pub fn run(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        least: Passage,
+        place: Place,
+        until: Option<Place>,
+    ) {
+        let seeds = place.seeds(mesh, costs);
+        let is_same_place = self.place == Some(place);
+        let to_the_end = is_same_place && self.follows;
+        let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
+        if self.is_current && is_same_place && self.seeds == seeds {
+            return self.march.go_on(mesh, costs, least, until);
+        }
+        self.march.run(mesh, costs, least, &seeds, until);
+        self.follows = to_the_end;
+        (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
+    }
+
+    /// Follows changed costs; what cannot be followed is marched again later.
+    pub fn follow(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, changed: &[u32]) {
+        let seeds = self.place.map(|place| place.seeds(mesh, costs));
+        self.follows = true;
+        if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
+            self.march.resolve(mesh, costs, least, &self.seeds, changed);
+        } else {
+            self.is_current = false;
+        }
+    }
+}
