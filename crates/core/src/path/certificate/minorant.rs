@@ -43,29 +43,45 @@ impl Minorant {
     /// points that are farther than `inset` from the edges.
     pub(super) fn new(cost: &dyn CostDensity, triangle: &FlatTriangle, inset: f64) -> Self {
         let samples = Samples::new(cost, triangle);
-        let origin = triangle.centroid();
         let inner = triangle.shrunk(inset);
-        let search = |plane, attained| MinorantSearch::new(cost, &inner, plane, attained);
-        let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin };
-        let least = search(flat, samples.least()).bound(0.002 * samples.least());
-        let mean = samples.mean(least);
-        let constant = Self { at_corners: [least; 3], mean, least };
-        let varies = samples.spread() > 1e-9 * mean;
-        if !varies {
-            return constant;
+        let tilted = Self::tilted(cost, triangle, &inner, &samples);
+        // No constant is above the least sample.
+        if let Some(tilted) = tilted
+            && tilted.affine_mean() >= samples.least()
+        {
+            return tilted;
         }
-        let Some(plane) = samples.fitted_plane(origin) else { return constant };
+        let flat = Plane { value: 0.0, slope: DVec2::ZERO, origin: triangle.centroid() };
+        let least = MinorantSearch::new(cost, &inner, flat, samples.least()).bound(0.002 * samples.least());
+        match tilted {
+            Some(tilted) if tilted.affine_mean() > least => Self { least, ..tilted },
+            _ => Self { at_corners: [least; 3], mean: samples.mean(least), least },
+        }
+    }
+
+    /// Returns the affine function that a plane fitted to the samples gives; `None` where it is of no use.
+    fn tilted(
+        cost: &dyn CostDensity,
+        triangle: &FlatTriangle,
+        inner: &FlatTriangle,
+        samples: &Samples,
+    ) -> Option<Self> {
+        let mean = samples.mean(samples.least());
+        if samples.spread() <= 1e-9 * mean {
+            return None;
+        }
+        let plane = samples.fitted_plane(triangle.centroid())?;
         let above = samples.least_above(&plane);
         // To be worth it, the plane must gain on the constant.
-        let gain = plane.value - least;
-        let shift = search(plane, above).bound(0.02 * (gain + above).max(0.0));
+        let gain = plane.value - samples.least();
+        let shift = MinorantSearch::new(cost, inner, plane, above).bound(0.02 * (gain + above).max(0.0));
         let at_corners = triangle.corners.map(|corner| {
             let value = plane.at(corner) + shift;
             value - ROUNDING * (value.abs() + plane.value.abs() + shift.abs())
         });
-        let fits = at_corners.iter().all(|&value| value >= LOWEST * least);
-        let greater = at_corners.iter().sum::<f64>() > 3.0 * least;
-        if fits && greater { Self { at_corners, mean, least } } else { constant }
+        // An affine function is least at a corner.
+        let least = at_corners.iter().copied().fold(f64::INFINITY, f64::min);
+        (least >= LOWEST * samples.least()).then_some(Self { at_corners, mean, least })
     }
 
     /// Limits the lower bound of the cost to `most`. Values far above those on the best path make a programme
@@ -159,6 +175,7 @@ struct MinorantSearch<'a> {
     attained: f64,
     open: BinaryHeap<BoundedPart>,
     looked_at: usize,
+    tolerance: f64,
 }
 
 /// The part of the triangle in a rectangle, with a lower bound of the density minus the plane there.
@@ -171,18 +188,19 @@ struct BoundedPart {
 
 impl<'a> MinorantSearch<'a> {
     fn new(cost: &'a dyn CostDensity, triangle: &'a FlatTriangle, plane: Plane, attained: f64) -> Self {
-        Self { cost, triangle, plane, attained, open: BinaryHeap::new(), looked_at: 0 }
+        let (open, looked_at, tolerance) = (BinaryHeap::new(), 0, 0.0);
+        Self { cost, triangle, plane, attained, open, looked_at, tolerance }
     }
 
     /// Returns a lower bound, within `tolerance` of the least value where the allowance of rectangles is
     /// enough.
     fn bound(mut self, tolerance: f64) -> f64 {
+        self.tolerance = tolerance;
         let [a, b, c] = self.triangle.corners;
         self.add(Rect::spanning(a, b).union(&Rect::new(c, c)), f64::NEG_INFINITY);
         // Ends: the allowance shrinks with every turn.
         while let Some(part) = self.open.pop() {
-            let close = part.bound >= self.attained - tolerance;
-            if part.is_exact || close || self.looked_at >= MOST_RECTANGLES {
+            if part.is_exact || self.is_close(part.bound) || self.looked_at >= MOST_RECTANGLES {
                 return part.bound;
             }
             for quarter in quarters(&part.rectangle) {
@@ -193,23 +211,31 @@ impl<'a> MinorantSearch<'a> {
         f64::NEG_INFINITY
     }
 
+    /// Returns whether a lower bound is near enough to a value that is attained.
+    fn is_close(&self, bound: f64) -> bool {
+        bound >= self.attained - self.tolerance
+    }
+
     fn add(&mut self, rectangle: Rect, bound_of_whole: f64) {
         let polygon = clipped(self.triangle, &rectangle);
         if polygon.is_flat() {
             return;
         }
         self.looked_at += 1;
+        let by_slopes = self.bound_by_slopes(&rectangle).max(bound_of_whole);
+        if self.is_close(by_slopes) {
+            self.open.push(BoundedPart { rectangle, bound: by_slopes, is_exact: false });
+            return;
+        }
         let range = self.cost.range(&rectangle);
         let highest = polygon.corners().iter().map(|&p| self.plane.at(p)).fold(f64::NEG_INFINITY, f64::max);
         let below = |value: f64| value - ROUNDING * (value.abs() + highest.abs());
         let is_exact = range.least == range.greatest;
-        let mut bound = below(range.least) - highest;
-        if !is_exact {
-            bound = bound.max(self.bound_by_slopes(&rectangle));
-        } else {
+        let bound = below(range.least) - highest;
+        if is_exact {
             self.attained = self.attained.min(bound);
         }
-        self.open.push(BoundedPart { rectangle, bound: bound.max(bound_of_whole), is_exact });
+        self.open.push(BoundedPart { rectangle, bound: bound.max(by_slopes), is_exact });
     }
 
     /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
