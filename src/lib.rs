@@ -92,7 +92,7 @@ pub use meshbrush_study::levels::{Bisections, LevelFigures};
 
 // Read and write files.
 #[doc(inline)]
-pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit};
+pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};
 #[doc(inline)]
 pub use meshbrush_io::io::{
     Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Place as PlaceInFile,

@@ -34,6 +34,7 @@ pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
+pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 
 /// A domain in world units.

@@ -29,21 +29,9 @@ impl RegionOnLattice {
     /// lattice coordinates, distances in world units, and `step` is the world length of a lattice step along
     /// x and y. Edges along the sides of the grid do not count.
     pub fn nearest_on_outline(&self, p: DVec2, reach: f64, step: DVec2) -> Option<DVec2> {
-        let margin = DVec2::splat(reach) / step + DVec2::ONE;
-        let [low, high] = [p - margin, p + margin].map(|p| [p.x.floor() as i64, p.y.floor() as i64]);
-        let mut nearest: Option<(f64, DVec2)> = None;
-        for edge in self.edges_near(low, high) {
-            let [a, b] = edge.ends.map(|[x, y]| DVec2::new(x as f64, y as f64));
-            let (along, to) = ((b - a) * step, (p - a) * step);
-            let point = a + (b - a) * (along.dot(to) / along.length_squared()).clamp(0.0, 1.0);
-            let distance = ((p - point) * step).length();
-            let key = |distance: f64, point: DVec2| (distance, point.x, point.y);
-            let nearer = nearest.is_none_or(|(d, other)| key(distance, point) < key(d, other));
-            if distance <= reach && nearer {
-                nearest = Some((distance, point));
-            }
-        }
-        nearest.map(|(_, point)| point)
+        let mut near = OutlineNearby::default();
+        near.collect(self, p, reach, step);
+        near.nearest(p, reach)
     }
 
     /// Returns the corners of each ring of the outline in order, those on the sides of the grid included.
@@ -58,19 +46,27 @@ impl RegionOnLattice {
     /// Returns the edges of the outline in the smallest squares that touch a rectangle, each once, in the
     /// order of the region; those along the sides of the grid are left out.
     fn edges_near(&self, low: [i64; 2], high: [i64; 2]) -> impl Iterator<Item = &OutlineEdge> {
+        let mut found = Vec::new();
+        self.collect_edges_near([low, high], &mut found);
+        found.into_iter().map(|n| &self.edges[n as usize]).filter(|edge| !edge.on_frame)
+    }
+
+    /// Writes the numbers of the edges in the smallest squares that touch a rectangle into `found`, in
+    /// ascending order, each once.
+    fn collect_edges_near(&self, rect: [[i64; 2]; 2], found: &mut Vec<u32>) {
+        let [low, high] = rect;
         let size = (high[0] - low[0]).max(high[1] - low[1]).max(1) as u64;
         let bits = size.next_power_of_two().trailing_zeros();
         let depth = (self.root_bits.saturating_sub(bits) as usize).min(self.levels.len() - 1);
-        let mut found = Vec::new();
-        let [first, last] = [low, high].map(|corner| self.square_at(depth, corner));
+        found.clear();
+        let [first, last] = rect.map(|corner| self.square_at(depth, corner));
         for row in first[1]..=last[1] {
             for column in first[0]..=last[0] {
-                self.collect_edges(depth, [column, row], [low, high], &mut found);
+                self.collect_edges(depth, [column, row], rect, found);
             }
         }
         found.sort_unstable();
         found.dedup();
-        found.into_iter().map(|n| &self.edges[n as usize]).filter(|edge| !edge.on_frame)
     }
 
     /// Returns the square of a level of the tree that contains a point, or the nearest one.
@@ -104,6 +100,57 @@ impl RegionOnLattice {
         let square = row as usize * self.levels[depth].columns as usize + column as usize;
         let start = if square == 0 { 0 } else { self.ends[square - 1] as usize };
         found.extend_from_slice(&self.edges_of_square[start..self.ends[square] as usize]);
+    }
+}
+
+/// The edges of an outline near a point, for several searches of nearest points there.
+#[derive(Debug, Default)]
+pub(crate) struct OutlineNearby {
+    edges: Vec<[DVec2; 2]>,
+    /// World length of a lattice step along x and y.
+    step: DVec2,
+    /// The numbers of the edges in the squares nearby.
+    numbers: Vec<u32>,
+}
+
+impl OutlineNearby {
+    /// Takes the edges within `reach` of `p`, and perhaps others. Edges along the sides of the grid do not
+    /// count.
+    pub(crate) fn collect(&mut self, region: &RegionOnLattice, p: DVec2, reach: f64, step: DVec2) {
+        let margin = DVec2::splat(reach) / step + DVec2::ONE;
+        let (low, high) = (p - margin, p + margin);
+        let rect = [low, high].map(|p| [p.x.floor() as i64, p.y.floor() as i64]);
+        region.collect_edges_near(rect, &mut self.numbers);
+        let edges = self.numbers.iter().map(|&n| &region.edges[n as usize]).filter(|edge| !edge.on_frame);
+        let ends = edges.map(|edge| edge.ends.map(|[x, y]| DVec2::new(x as f64, y as f64)));
+        let is_near = |[a, b]: &[DVec2; 2]| a.min(*b).cmple(high).all() && a.max(*b).cmpge(low).all();
+        self.edges.clear();
+        self.edges.extend(ends.filter(is_near));
+        self.step = step;
+    }
+
+    /// Returns the point of the edges nearest to `p`, if its distance is at most `reach`; of several, the one
+    /// with the lowest x, then y.
+    pub(crate) fn nearest(&self, p: DVec2, reach: f64) -> Option<DVec2> {
+        let mut nearest: Option<(f64, DVec2)> = None;
+        // With a margin for rounding: an edge at the same distance may come first by its place.
+        let mut farthest = reach * reach * (1.0 + 1e-9);
+        for &[a, b] in &self.edges {
+            let to_box = (p.clamp(a.min(b), a.max(b)) - p) * self.step;
+            if to_box.length_squared() > farthest {
+                continue;
+            }
+            let (along, to) = ((b - a) * self.step, (p - a) * self.step);
+            let point = a + (b - a) * (along.dot(to) / along.length_squared()).clamp(0.0, 1.0);
+            let distance = ((p - point) * self.step).length();
+            let key = |distance: f64, point: DVec2| (distance, point.x, point.y);
+            let nearer = nearest.is_none_or(|(d, other)| key(distance, point) < key(d, other));
+            if distance <= reach && nearer {
+                nearest = Some((distance, point));
+                farthest = distance * distance * (1.0 + 1e-9);
+            }
+        }
+        nearest.map(|(_, point)| point)
     }
 }
 

@@ -1,12 +1,17 @@
 //! The triangles of the mesh near the outline.
 
+use rayon::prelude::*;
+
+use super::numbers::Numbers;
 use super::triangulation::{NONE, Triangulation};
 use crate::domain::RegionOnLattice;
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};
 
 /// Number of rings of triangles, around those that the outline divides, that may change.
-const RINGS: usize = 4;
+pub(super) const RINGS: usize = 4;
+/// Fewest entries that a thread takes at a time.
+pub(super) const GRAIN: usize = 512;
 
 /// The triangles of a mesh near the outline of a region, inside and outside.
 ///
@@ -24,38 +29,89 @@ pub(super) struct Band {
     pub(super) inside: Vec<bool>,
     /// For each node, whether the outline crosses an edge there, between nodes inside and outside.
     pub(super) active: Vec<bool>,
+    /// Triangles beside the band that the outline touches without coming between their nodes, each with the
+    /// side of its nodes.
+    pub(super) touched: Vec<(TriangleId, bool)>,
+}
+
+/// The place of a triangle of the mesh that may differ in the derived mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Place {
+    /// It has this number in the band.
+    InBand(u32),
+    /// The outline touches it beside the band, and its nodes are on this side.
+    Beside { inside: bool },
 }
 
 /// Returns, for each node of a mesh, whether it lies in the closed region.
 pub(super) fn signs(mesh: &Mesh, region: &RegionOnLattice) -> Vec<bool> {
-    mesh.raw_nodes().iter().map(|&node| region.contains(node)).collect()
+    mesh.raw_nodes().par_iter().map(|&node| region.contains(node)).collect()
 }
 
 impl Band {
-    pub(super) fn new(mesh: &Mesh, signs: &[bool]) -> Self {
-        let active = nodes_at_outline(mesh, signs);
-        let (mut near, mut ids) = (active.clone(), Vec::new());
-        for _ in 0..RINGS {
-            ids = triangles_at(mesh, &near);
-            for v in ids.iter().flat_map(|&id| mesh.triangle(id).vertices) {
-                near[v.index()] = true;
-            }
-        }
-        let mut node_ids: Vec<NodeId> =
-            (0..near.len()).filter(|&n| near[n]).map(NodeId::from_index).collect();
-        if ids.is_empty() {
-            node_ids.clear();
-        }
-        node_ids.sort_unstable_by_key(|&id| mesh.node(id));
-        let of_node = |flags: &[bool]| node_ids.iter().map(|id| flags[id.index()]).collect();
+    /// Returns the band along the whole outline. Only triangles that the outline touches can have nodes
+    /// inside and outside; the band grows from these.
+    pub(super) fn new(mesh: &Mesh, region: &RegionOnLattice) -> Self {
+        let all = mesh.raw_triangles().par_iter().enumerate().with_min_len(GRAIN);
+        let touches = |(index, triangle): (usize, &crate::mesh::Triangle)| {
+            let id = TriangleId::from_index(index);
+            region.side_of(mesh.corners(id), triangle.level()).is_none().then_some(id)
+        };
+        let touched: Vec<TriangleId> = all.filter_map(touches).collect();
+        Self::around::<Vec<u32>>(mesh, region, &touched)
+    }
+
+    /// Returns the band around those of the `touched` triangles that have nodes inside and outside.
+    pub(super) fn around<N: Numbers>(mesh: &Mesh, region: &RegionOnLattice, touched: &[TriangleId]) -> Self {
+        let active = nodes_at_outline::<N>(mesh, region, touched);
+        let mut near = Near::<N>::new(mesh);
+        near.grow_from(mesh, &active, RINGS);
+        let Near { nodes: mut node_ids, triangles: mut ids, is_triangle, .. } = near;
+        node_ids.par_sort_unstable_by_key(|&id| mesh.node(id));
+        let mut numbers = N::for_entries(mesh.raw_nodes().len());
+        node_ids.iter().zip(0..).for_each(|(id, number)| _ = numbers.set(id.index(), number));
+        let number = |id: NodeId| numbers.get(id.index()).expect("it is in the band");
+        let mut is_active = vec![false; node_ids.len()];
+        active.iter().for_each(|&id| is_active[number(id) as usize] = true);
+        let points: Vec<LatticePoint> = node_ids.iter().map(|&id| mesh.node(id)).collect();
+        let beside = touched.iter().filter(|id| is_triangle.get(id.index()).is_none());
+        let with_side = |&id: &TriangleId| (id, region.contains(mesh.corners(id)[0]));
         Self {
-            points: node_ids.iter().map(|&id| mesh.node(id)).collect(),
-            inside: of_node(signs),
-            active: of_node(&active),
-            triangles: numbered(mesh, &mut ids, &node_ids),
+            inside: points.par_iter().with_min_len(GRAIN).map(|&point| region.contains(point)).collect(),
+            points,
+            active: is_active,
+            touched: beside.map(with_side).collect(),
+            triangles: numbered::<N>(mesh, &mut ids, node_ids.len(), number),
             ids,
             node_ids,
         }
+    }
+
+    /// Returns the triangles of the mesh that may differ in the derived mesh, in no order.
+    pub(super) fn triangles_by_id(&self) -> Vec<(TriangleId, Place)> {
+        let in_band = self.ids.iter().zip(0..).map(|(&id, t)| (id, Place::InBand(t)));
+        let beside = self.touched.iter().map(|&(id, inside)| (id, Place::Beside { inside }));
+        in_band.chain(beside).collect()
+    }
+
+    /// Returns nodes and those within so many rings of triangles around them.
+    pub(super) fn near(&self, nodes: &[u32], rings: usize) -> Vec<u32> {
+        let mut is_near = vec![false; self.points.len()];
+        nodes.iter().for_each(|&v| is_near[v as usize] = true);
+        let (mut near, mut star, mut start) = (nodes.to_vec(), Vec::new(), 0);
+        for _ in 0..rings {
+            let end = near.len();
+            for n in start..end {
+                self.triangles.star(near[n], &mut star);
+                for w in star.iter().flat_map(|&(t, _)| self.triangles.corners[t as usize]) {
+                    if !std::mem::replace(&mut is_near[w as usize], true) {
+                        near.push(w);
+                    }
+                }
+            }
+            start = end;
+        }
+        near
     }
 
     /// Returns the marks of the corners of a triangle, beginning with the corner at position `i`.
@@ -64,55 +120,109 @@ impl Band {
     }
 }
 
-/// Returns, for each node of the mesh, whether it is a corner of a triangle that has corners inside and
-/// outside.
-fn nodes_at_outline(mesh: &Mesh, signs: &[bool]) -> Vec<bool> {
-    let mut active = vec![false; signs.len()];
-    for triangle in mesh.raw_triangles() {
-        let [a, b, c] = triangle.vertices.map(|v| signs[v.index()]);
+/// Returns the corners of those triangles that have corners inside and outside, each once.
+fn nodes_at_outline<N: Numbers>(
+    mesh: &Mesh,
+    region: &RegionOnLattice,
+    touched: &[TriangleId],
+) -> Vec<NodeId> {
+    let mut numbers = N::for_entries(mesh.raw_nodes().len());
+    let mut nodes: Vec<NodeId> = touched.iter().flat_map(|&id| mesh.triangle(id).vertices).collect();
+    let mut count = 0;
+    nodes.retain(|id| {
+        let is_new = numbers.get(id.index()).is_none();
+        if is_new {
+            numbers.set(id.index(), count);
+            count += 1;
+        }
+        is_new
+    });
+    let is_inside = |&id: &NodeId| region.contains(mesh.node(id));
+    let is_inside: Vec<bool> = nodes.par_iter().with_min_len(GRAIN).map(is_inside).collect();
+    let mut is_active = vec![false; nodes.len()];
+    for &id in touched {
+        let corners = mesh.triangle(id).vertices;
+        let corners = corners.map(|v| numbers.get(v.index()).expect("all were numbered") as usize);
+        let [a, b, c] = corners.map(|n| is_inside[n]);
         if a != b || b != c {
-            for v in triangle.vertices {
-                active[v.index()] = true;
-            }
+            corners.into_iter().for_each(|n| is_active[n] = true);
         }
     }
-    active
+    nodes.into_iter().zip(is_active).filter(|(_, is_active)| *is_active).map(|(id, _)| id).collect()
 }
 
-fn triangles_at(mesh: &Mesh, nodes: &[bool]) -> Vec<TriangleId> {
-    let triangles = mesh.raw_triangles().iter().enumerate();
-    let near = triangles.filter(|(_, triangle)| triangle.vertices.iter().any(|v| nodes[v.index()]));
-    near.map(|(index, _)| TriangleId::from_index(index)).collect()
+/// Triangles and nodes near others, found ring by ring.
+struct Near<N> {
+    nodes: Vec<NodeId>,
+    triangles: Vec<TriangleId>,
+    is_node: N,
+    is_triangle: N,
+}
+
+impl<N: Numbers> Near<N> {
+    fn new(mesh: &Mesh) -> Self {
+        Self {
+            nodes: Vec::new(),
+            triangles: Vec::new(),
+            is_node: N::for_entries(mesh.raw_nodes().len()),
+            is_triangle: N::for_entries(mesh.raw_triangle_count()),
+        }
+    }
+
+    /// Adds so many rings of triangles around nodes.
+    fn grow_from(&mut self, mesh: &Mesh, nodes: &[NodeId], rings: usize) {
+        nodes.iter().for_each(|&node| self.add_node(node));
+        let mut first = 0;
+        for _ in 0..rings {
+            let last = self.nodes.len();
+            for n in first..last {
+                for id in mesh.all_triangles_around(self.nodes[n]) {
+                    if self.is_triangle.set(id.index(), 0) {
+                        self.triangles.push(id);
+                        mesh.triangle(id).vertices.into_iter().for_each(|node| self.add_node(node));
+                    }
+                }
+            }
+            first = last;
+        }
+    }
+
+    fn add_node(&mut self, node: NodeId) {
+        if self.is_node.set(node.index(), 0) {
+            self.nodes.push(node);
+        }
+    }
 }
 
 /// Sorts the triangles by their corners, and numbers corners and neighbours.
-fn numbered(mesh: &Mesh, ids: &mut Vec<TriangleId>, node_ids: &[NodeId]) -> Triangulation {
-    let mut number_of_node = vec![NONE; mesh.raw_nodes().len()];
-    for (n, id) in node_ids.iter().enumerate() {
-        number_of_node[id.index()] = n as u32;
+fn numbered<N: Numbers>(
+    mesh: &Mesh,
+    ids: &mut [TriangleId],
+    nodes: usize,
+    number_of_node: impl Fn(NodeId) -> u32 + Sync,
+) -> Triangulation {
+    // The corners, from the one with the lowest number on, and its place.
+    let turned = |&id: &TriangleId| {
+        let corners = mesh.triangle(id).edge_nodes().map(|(from, _)| number_of_node(from));
+        let lowest = (0..3).min_by_key(|&i| corners[i]).expect("three corners");
+        ([0, 1, 2].map(|i| corners[(lowest + i) % 3]), lowest as u32, id)
+    };
+    let mut entries: Vec<([u32; 3], u32, TriangleId)> =
+        ids.par_iter().with_min_len(GRAIN).map(turned).collect();
+    entries.par_sort_unstable_by_key(|(corners, ..)| *corners);
+    let mut numbers = N::for_entries(mesh.raw_triangle_count());
+    for ((number, place), (_, _, id)) in (0..).zip(ids.iter_mut()).zip(&entries) {
+        numbers.set(id.index(), number);
+        *place = *id;
     }
-    let mut entries: Vec<([u32; 3], [u32; 3], TriangleId)> = ids
-        .iter()
-        .map(|&id| {
-            let triangle = mesh.triangle(id);
-            let corners = triangle.edge_nodes().map(|(from, _)| number_of_node[from.index()]);
-            // Edge j joins corner j to the next one.
-            let [first, second, third] =
-                triangle.raw_neighbours.map(|n| n.triangle().map_or(NONE, |id| id.index() as u32));
-            let across = [second, third, first];
-            let lowest = (0..3).min_by_key(|&i| corners[i]).expect("three corners");
-            let turned = |of: [u32; 3]| [of[lowest], of[(lowest + 1) % 3], of[(lowest + 2) % 3]];
-            (turned(corners), turned(across), id)
-        })
-        .collect();
-    entries.sort_unstable();
-    let mut number = vec![NONE; mesh.raw_triangle_count()];
-    for (n, (_, _, id)) in entries.iter().enumerate() {
-        number[id.index()] = n as u32;
-    }
-    ids.clear();
-    ids.extend(entries.iter().map(|(_, _, id)| *id));
-    let across = |raw: [u32; 3]| raw.map(|n| if n == NONE { NONE } else { number[n as usize] });
-    let corners = entries.iter().map(|(corners, _, _)| *corners).collect();
-    Triangulation::new(node_ids.len(), corners, entries.iter().map(|(_, raw, _)| across(*raw)).collect())
+    let number = |id: TriangleId| numbers.get(id.index()).unwrap_or(NONE);
+    let across = entries.par_iter().with_min_len(GRAIN).map(|&(_, lowest, id)| {
+        // Edge j joins corner j to the next one.
+        let [first, second, third] =
+            mesh.triangle(id).raw_neighbours.map(|n| n.triangle().map_or(NONE, number));
+        let across = [second, third, first];
+        [0, 1, 2].map(|i| across[(lowest as usize + i) % 3])
+    });
+    let across = across.collect();
+    Triangulation::new(nodes, entries.iter().map(|(corners, ..)| *corners).collect(), across)
 }

@@ -1,8 +1,12 @@
 //! Derives the mesh with nodes on the outline from the mesh of right-angled triangles, step by step.
 
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
 use super::angles::Angles;
-use super::band::{Band, signs};
-use super::corners::{Pin, pins};
+use super::band::{Band, GRAIN, Place, signs};
+use super::corners::{Pin, TurningCorners, pins};
 use super::flat::{drop_flat, pinched};
 use super::guard::Guard;
 use super::patchwork::Patchwork;
@@ -10,7 +14,6 @@ use super::smooth::Smoother;
 use super::snap::{Crossings, Side, snapped};
 use super::stages::{DerivationAction, Watch, without_outside};
 use super::stencil::Placement;
-use super::triangulation::NONE;
 use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
@@ -31,6 +34,18 @@ pub struct OutlineFit {
     pub corners: usize,
 }
 
+impl OutlineFit {
+    /// Returns the fit of the nodes of both.
+    pub(super) fn joined(self, other: Self) -> Self {
+        Self {
+            nodes: self.nodes + other.nodes,
+            on_outline: self.on_outline + other.on_outline,
+            farthest: self.farthest.max(other.farthest),
+            corners: self.corners + other.corners,
+        }
+    }
+}
+
 /// The result of [`OutlineChanges::new`].
 pub(super) struct OutlineChanges {
     /// The changes of the mesh.
@@ -46,34 +61,117 @@ impl OutlineChanges {
     /// Finds the changes that put the nodes of the boundary on the outline of a region, and tells `watch` of
     /// each stage.
     pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
-        let angles = Angles::new(mesh.lattice().step());
-        let signs = signs(mesh, region);
-        let band = Band::new(mesh, &signs);
-        let as_patch = |patchwork: &Patchwork| patch(mesh, &signs, &band, patchwork, &angles);
-        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, &angles));
-        watch(DerivationAction::RemoveByCorners, &|| without_outside(mesh, &signs, Vec::new()));
-        let mut placement = placed(&band, region, mesh.lattice(), &angles);
+        let outline = Outline::new(mesh.lattice(), region);
+        let fitted = FittedBand::new(mesh, Band::new(mesh, region), &outline, watch);
+        Self {
+            patch: patch(mesh, &fitted.band, &fitted.patchwork, &outline.angles),
+            fit: fitted.fit(&outline),
+            corner_limit: fitted.pins.iter().map(|pin| pin.limit).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// An outline, with what all nodes along it ask about.
+pub(super) struct Outline<'a> {
+    pub(super) region: &'a RegionOnLattice,
+    pub(super) lattice: Lattice,
+    pub(super) angles: Angles,
+    pub(super) corners: Arc<TurningCorners>,
+}
+
+impl<'a> Outline<'a> {
+    pub(super) fn new(lattice: &Lattice, region: &'a RegionOnLattice) -> Self {
+        let angles = Angles::new(lattice.step());
+        let corners = TurningCorners::new(region, lattice.extent(), &angles);
+        Self::with_corners(lattice, region, Arc::new(corners))
+    }
+
+    /// [`Self::new`], with the corners of the outline.
+    pub(super) fn with_corners(
+        lattice: &Lattice,
+        region: &'a RegionOnLattice,
+        corners: Arc<TurningCorners>,
+    ) -> Self {
+        Self { region, lattice: *lattice, angles: Angles::new(lattice.step()), corners }
+    }
+}
+
+/// A band whose nodes are on the outline.
+pub(super) struct FittedBand {
+    pub(super) band: Band,
+    pub(super) patchwork: Patchwork,
+    /// The corners of the outline that are nodes.
+    pub(super) pins: Vec<Pin>,
+    pub(super) placement: Placement,
+}
+
+impl FittedBand {
+    /// Puts the nodes of a band on the outline, and tells `watch` of each stage.
+    pub(super) fn new(mesh: &Mesh, band: Band, outline: &Outline, watch: Watch<'_>) -> Self {
+        let &Outline { region, ref lattice, ref angles, ref corners } = outline;
+        let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
+        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
+        watch(DerivationAction::RemoveByCorners, &|| without_outside(mesh, &signs(mesh, region), Vec::new()));
+        let mut placement = placed(&band, region, lattice, angles);
         watch(DerivationAction::MoveToOutline, &|| {
-            without_outside(mesh, &signs, moved(&band, placement.goals.iter()))
+            without_outside(mesh, &signs(mesh, region), moved(&band, placement.goals.iter()))
         });
         watch(DerivationAction::CutEdges, &|| with_cuts(&placement));
-        let pins = pins(mesh, &band, &placement, region, &angles);
+        let pins = pins(mesh, &band, &placement, corners, angles);
+        corners.spread_actions(mesh, &band, &mut placement, angles);
         pins.iter().for_each(|pin| pin.apply(&mut placement));
         watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
-        let corner_limit = retreat(&band, &mut placement, pins, &angles);
+        let pins = retreat(&band, &mut placement, pins, angles);
         watch(DerivationAction::Retreat, &|| with_cuts(&placement));
-        let mut patchwork = Patchwork::new(&band, &placement, &angles);
-        let smoother = Smoother { region, angles: &angles, extent: mesh.lattice().extent() };
+        let mut patchwork = Patchwork::new(&band, &placement, angles);
+        let smoother = Smoother { region, angles, extent: lattice.extent() };
         for _ in 0..ROUNDS {
-            patchwork.flip_edges(&angles);
+            patchwork.flip_edges(angles);
             watch(DerivationAction::FlipEdges, &|| as_patch(&patchwork));
             smoother.smooth(&mut patchwork);
             watch(DerivationAction::ShiftNodes, &|| as_patch(&patchwork));
         }
         smoother.pull(&mut patchwork);
         watch(DerivationAction::PullToOutline, &|| as_patch(&patchwork));
-        let fit = fit(&patchwork, region, mesh.lattice().extent(), &angles);
-        Self { patch: as_patch(&patchwork), fit, corner_limit }
+        Self { band, patchwork, pins, placement }
+    }
+
+    /// Returns the fit of all nodes.
+    fn fit(&self, outline: &Outline) -> OutlineFit {
+        let all = (0..self.patchwork.points.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let fits = all.map_init(Vec::new, |star, v| self.fit_of(outline, v, star));
+        fits.reduce(OutlineFit::default, OutlineFit::joined)
+    }
+
+    /// Returns the fit of one node: of none, if it is not on the boundary.
+    pub(super) fn fit_of(&self, outline: &Outline, node: u32, star: &mut Vec<(u32, usize)>) -> OutlineFit {
+        let (patchwork, v) = (&self.patchwork, node as usize);
+        patchwork.triangles.star(node, star);
+        // Nodes that lie only along the frame have no triangles outside around them.
+        let has_outside = star.iter().any(|&(t, _)| !patchwork.inside[t as usize]);
+        let on_outline = patchwork.on_outline[v];
+        if star.is_empty() || !patchwork.is_on_boundary(star) || !(has_outside || on_outline) {
+            return OutlineFit::default();
+        }
+        OutlineFit {
+            nodes: 1,
+            on_outline: usize::from(on_outline),
+            farthest: if on_outline { 0.0 } else { distance(patchwork.points[v], outline) },
+            corners: usize::from(patchwork.pinned[v]),
+        }
+    }
+
+    /// Returns, for each node of the band, whether a step that depends on steps nearby did or tried anything
+    /// at it or in an edge of it.
+    pub(super) fn acted(&self) -> Vec<bool> {
+        let mut acted = self.patchwork.acted[..self.band.points.len()].to_vec();
+        for cut in self.band.points.len()..self.patchwork.acted.len() {
+            if self.patchwork.acted[cut] {
+                let ends = self.placement.band_nodes_at(&self.band, cut as u32);
+                ends.into_iter().for_each(|v| acted[v as usize] = true);
+            }
+        }
+        acted
     }
 }
 
@@ -90,28 +188,31 @@ fn moved<'a>(band: &Band, positions: impl Iterator<Item = &'a LatticePoint>) -> 
 fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Angles) -> Placement {
     let crossings = Crossings::new(band, region, lattice);
     let (mut sides, mut goals) = snapped(band, &crossings, angles);
+    let mut acted = vec![false; band.points.len()];
     loop {
         let mut placement = Placement::new(band, &crossings, sides.clone(), goals.clone());
         drop_flat(band, &mut placement, angles, angles.limit());
+        acted.iter_mut().zip(&placement.acted).for_each(|(all, now)| *all |= now);
         let pinched = pinched(band, &placement);
         if pinched.is_empty() {
+            placement.acted[..acted.len()].copy_from_slice(&acted);
             return placement;
         }
         for v in pinched {
             let v = v as usize;
-            (sides[v], goals[v]) = (Side::of(band.inside[v]), band.points[v]);
+            (sides[v], goals[v], acted[v]) = (Side::of(band.inside[v]), band.points[v], true);
         }
     }
 }
 
 /// Lets nodes retreat where angles are too small. Corners with their nodes, the `pins`, where retreats do not
-/// help are given up. Returns the cotangent of the smallest angle that is accepted beside the other corners.
-fn retreat(band: &Band, placement: &mut Placement, mut pins: Vec<Pin>, angles: &Angles) -> f64 {
+/// help are given up. Returns the others.
+fn retreat(band: &Band, placement: &mut Placement, mut pins: Vec<Pin>, angles: &Angles) -> Vec<Pin> {
     loop {
         let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
         let stuck = Guard { band, angles, limit: angles.limit(), pin_limits }.run(placement);
         if stuck.is_empty() {
-            return pins.iter().map(|pin| pin.limit).fold(0.0, f64::max);
+            return pins;
         }
         let (given_up, kept) = pins.into_iter().partition(|pin| stuck.binary_search(&pin.node).is_ok());
         pins = kept;
@@ -121,101 +222,95 @@ fn retreat(band: &Band, placement: &mut Placement, mut pins: Vec<Pin>, angles: &
     }
 }
 
-fn fit(patchwork: &Patchwork, region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> OutlineFit {
-    let mut fit = OutlineFit::default();
-    let mut star = Vec::new();
-    for (v, &point) in patchwork.points.iter().enumerate() {
-        patchwork.triangles.star(v as u32, &mut star);
-        // Nodes that lie only along the frame have no triangles outside around them.
-        let has_outside = star.iter().any(|&(t, _)| !patchwork.inside[t as usize]);
-        if star.is_empty() || !patchwork.is_on_boundary(&star) || !(has_outside || patchwork.on_outline[v]) {
-            continue;
-        }
-        fit.nodes += 1;
-        fit.corners += usize::from(patchwork.pinned[v]);
-        if patchwork.on_outline[v] {
-            fit.on_outline += 1;
-        } else {
-            fit.farthest = fit.farthest.max(distance(point, region, extent, angles));
-        }
-    }
-    fit
-}
-
 /// Returns the distance of a point from the outline, in world units.
 ///
 /// The outline is searched within a lattice step first, then within four times as much, up to more than the
 /// diagonal of the lattice. The search finds an edge: a node that can be off the outline is at an edge that
 /// the outline crosses, and an edge of the outline along a side of the grid crosses none.
-fn distance(point: LatticePoint, region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> f64 {
-    let (p, step) = (point.as_dvec2(), angles.step());
-    let diagonal = (extent.as_dvec2() * step).length();
+fn distance(point: LatticePoint, outline: &Outline) -> f64 {
+    let (p, step) = (point.as_dvec2(), outline.angles.step());
+    let diagonal = (outline.lattice.extent().as_dvec2() * step).length();
     let reaches =
         std::iter::successors(Some(step.max_element()), |reach| (*reach <= diagonal).then_some(4.0 * reach));
-    let mut nearest = reaches.filter_map(|reach| region.nearest_on_outline(p, reach, step));
+    let mut nearest = reaches.filter_map(|reach| outline.region.nearest_on_outline(p, reach, step));
     nearest.next().map_or(0.0, |nearest| ((nearest - p) * step).length())
 }
 
 /// Collects the differences from the mesh.
-fn patch(mesh: &Mesh, signs: &[bool], band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
+fn patch(mesh: &Mesh, band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
     let added = patchwork.points[band.points.len()..].to_vec();
     let moved = moved(band, patchwork.points.iter());
-    let mut patch = MeshPatch { added, moved, ..MeshPatch::default() };
-    let pieces = PiecesByTriangle::new(mesh, band, patchwork);
-    for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
-        let id = TriangleId::from_index(index);
-        let (first, level) = (patch.pieces.len(), triangle.level());
-        match pieces.of(id) {
-            Some(pieces) if is_unchanged(band, patchwork, !triangle.is_outside(), pieces) => continue,
-            Some(pieces) => patch.pieces.extend(pieces.iter().map(|&piece| {
-                let corners = longest_edge_first(patchwork, angles, piece);
-                PatchTriangle { corners: corners.map(|v| node_id(mesh, band, v)), level }
-            })),
-            // The triangle is far from the outline, or around a part of it that passes between all nodes.
-            None => {
-                let inside = signs[triangle.vertices[0].index()];
-                if inside != triangle.is_outside() {
-                    continue;
-                }
-                let corners = triangle.edge_nodes().map(|(from, _)| from);
-                patch.pieces.extend(inside.then_some(PatchTriangle { corners, level }));
-            }
+    let mut places = band.triangles_by_id();
+    places.par_sort_unstable_by_key(|(id, _)| *id);
+    let pieces = PiecesByTriangle::new(band, patchwork);
+    let in_band = |t: u32| pieces.replacement(mesh, band, patchwork, angles, t);
+    let found = places.into_par_iter().with_min_len(GRAIN).filter_map(|(id, place)| match place {
+        Place::InBand(t) => {
+            let corners = |corners: [u32; 3]| corners.map(|v| node_id(mesh, band, v));
+            Some((id, in_band(t)?.into_iter().map(corners).collect()))
         }
+        Place::Beside { inside } => Some((id, beside(mesh, id, inside)?)),
+    });
+    let found: Vec<(TriangleId, Vec<[NodeId; 3]>)> = found.collect();
+    let mut patch = MeshPatch { added, moved, ..MeshPatch::default() };
+    for (id, pieces) in found {
+        let (first, level) = (patch.pieces.len(), mesh.triangle(id).level());
+        patch.pieces.extend(pieces.into_iter().map(|corners| PatchTriangle { corners, level }));
         patch.changed.push((id, first..patch.pieces.len()));
     }
     patch
 }
 
+/// Returns what replaces a triangle that the outline touches beside the band, if its centroid is on the other
+/// side than its nodes.
+pub(super) fn beside(mesh: &Mesh, id: TriangleId, inside: bool) -> Option<Vec<[NodeId; 3]>> {
+    let corners = || mesh.triangle(id).edge_nodes().map(|(from, _)| from);
+    (inside != mesh.is_in_domain(id)).then(|| inside.then(corners).into_iter().collect())
+}
+
 /// The pieces inside of each triangle of the band.
-struct PiecesByTriangle {
-    /// For each triangle of the mesh, its number in the band, or [`NONE`].
-    numbers: Vec<u32>,
+pub(super) struct PiecesByTriangle {
     /// For each triangle of the band, the end of its range in `pieces`; the range begins at the end of the
     /// previous one.
-    ends: Vec<usize>,
+    ends: Vec<u32>,
     pieces: Vec<u32>,
 }
 
 impl PiecesByTriangle {
-    fn new(mesh: &Mesh, band: &Band, patchwork: &Patchwork) -> Self {
-        let mut numbers = vec![NONE; mesh.raw_triangle_count()];
-        for (t, id) in band.ids.iter().enumerate() {
-            numbers[id.index()] = t as u32;
-        }
-        let inside =
-            patchwork.owners.iter().zip(0u32..).filter(|(_, piece)| patchwork.inside[*piece as usize]);
+    pub(super) fn new(band: &Band, patchwork: &Patchwork) -> Self {
+        let inside = (0..patchwork.owners.len() as u32).filter(|&piece| patchwork.inside[piece as usize]);
+        let (mut ends, pieces) = (vec![0; band.ids.len()], inside.collect::<Vec<u32>>());
         // Pieces are in the order of their triangles.
-        let (owners, pieces): (Vec<u32>, Vec<u32>) = inside.unzip();
-        let ends = (0..band.ids.len() as u32).map(|t| owners.partition_point(|&owner| owner <= t)).collect();
-        Self { numbers, ends, pieces }
+        for (end, &piece) in (1..).zip(&pieces) {
+            ends[patchwork.owners[piece as usize] as usize] = end;
+        }
+        let mut last = 0;
+        for end in &mut ends {
+            last = last.max(*end);
+            *end = last;
+        }
+        Self { ends, pieces }
     }
 
-    /// Returns the pieces of a triangle of the mesh, or `None` if it is not in the band.
-    fn of(&self, id: TriangleId) -> Option<&[u32]> {
-        let t = self.numbers[id.index()] as usize;
-        let end = *self.ends.get(t)?;
+    /// Returns the pieces that replace a triangle of the band, by their nodes; `None` if it stays as it is.
+    pub(super) fn replacement(
+        &self,
+        mesh: &Mesh,
+        band: &Band,
+        patchwork: &Patchwork,
+        angles: &Angles,
+        triangle: u32,
+    ) -> Option<Vec<[u32; 3]>> {
+        let (pieces, in_domain) = (self.of(triangle), mesh.is_in_domain(band.ids[triangle as usize]));
+        let corners = |&piece: &u32| longest_edge_first(patchwork, angles, piece);
+        (!is_unchanged(band, patchwork, in_domain, pieces)).then(|| pieces.iter().map(corners).collect())
+    }
+
+    /// Returns the pieces of a triangle of the band.
+    fn of(&self, triangle: u32) -> &[u32] {
+        let t = triangle as usize;
         let start = if t == 0 { 0 } else { self.ends[t - 1] };
-        Some(&self.pieces[start..end])
+        &self.pieces[start as usize..self.ends[t] as usize]
     }
 }
 

@@ -3,9 +3,10 @@
 use std::f64::consts::SQRT_2;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::angles::Angles;
-use super::band::Band;
+use super::band::{Band, GRAIN};
 use super::flat::has_sector;
 use super::snap::Side;
 use super::stencil::Placement;
@@ -18,6 +19,9 @@ use crate::mesh::Mesh;
 const COT_12: f64 = 4.704_630_109_478_455;
 /// The cosine of 30°, the smallest turn of a sharp corner.
 const COS_30: f64 = 0.866_025_403_784_438_6;
+/// A node that goes to a corner is at most a leg away after it moved to the outline, by half an edge at most.
+/// This many legs allow for a triangle beside it that is one level coarser.
+const CORNER_LEGS: f64 = 2.5;
 /// Smallest ratio of a chord to the length of outline along it for which the outline counts as nearly
 /// straight.
 const STRAIGHT: f64 = 0.97;
@@ -45,6 +49,7 @@ impl Pin {
     pub(super) fn undo(&self, placement: &mut Placement) {
         placement.goals[self.node as usize] = self.former;
         placement.pinned[self.node as usize] = false;
+        placement.acted[self.node as usize] = true;
     }
 }
 
@@ -53,6 +58,117 @@ struct Candidate {
     point: LatticePoint,
     node: u32,
     leg: f64,
+}
+
+/// The corners at which an outline turns by more than 30°, but for those along the sides of the grid.
+#[derive(Clone, Debug)]
+pub(super) struct TurningCorners {
+    rings: Vec<Vec<LatticePoint>>,
+    /// Sorted by their points, each with the number of its ring and its place there.
+    turning: Vec<(LatticePoint, [u32; 2])>,
+    /// The upper right corner of the lattice.
+    extent: LatticePoint,
+}
+
+impl TurningCorners {
+    pub(super) fn new(region: &RegionOnLattice, extent: LatticePoint, angles: &Angles) -> Self {
+        let rings = region.outline_rings();
+        let along_frame =
+            |p, q| on_sides(p, extent).into_iter().zip(on_sides(q, extent)).any(|both| both == (true, true));
+        let all = rings.par_iter().enumerate().flat_map_iter(|(n, ring)| {
+            let corners = (0..ring.len()).map(move |place| Corner { ring, place });
+            corners.filter(|corner| corner.turns(angles)).map(move |corner| (n, corner))
+        });
+        let is_free = |(_, corner): &(usize, Corner)| {
+            ![false, true].into_iter().any(|forwards| along_frame(corner.at(), corner.next(forwards).at()))
+        };
+        let all = all.filter(is_free).map(|(n, corner)| (corner.at(), [n as u32, corner.place as u32]));
+        let mut turning: Vec<_> = all.collect();
+        turning.par_sort_unstable();
+        Self { rings, turning, extent }
+    }
+
+    /// Marks the nodes at a sharp corner near which a node acted: what acted decides which of them goes to
+    /// the corner.
+    pub(super) fn spread_actions(
+        &self,
+        mesh: &Mesh,
+        band: &Band,
+        placement: &mut Placement,
+        angles: &Angles,
+    ) {
+        let all = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let acted = all.filter(|&v| placement.acted[v as usize]);
+        let at_corners =
+            acted.flat_map_iter(|v| self.nodes_at_corners_near(mesh, band, placement, angles, v));
+        let at_corners: Vec<u32> = at_corners.collect();
+        at_corners.into_iter().for_each(|v| placement.acted[v as usize] = true);
+    }
+
+    /// Returns the nodes at the outline around each corner near a node that may count as sharp.
+    fn nodes_at_corners_near(
+        &self,
+        mesh: &Mesh,
+        band: &Band,
+        placement: &Placement,
+        angles: &Angles,
+        node: u32,
+    ) -> Vec<u32> {
+        let mut star = Vec::new();
+        band.triangles.star(node, &mut star);
+        let levels = star.iter().map(|&(t, _)| mesh.triangle(band.ids[t as usize]).level());
+        let Some(level) = levels.min() else { return Vec::new() };
+        // Those of triangles beside this one, too.
+        let legs = [-2, -1, 0, 1, 2].map(|n| mesh.diameter(level.saturating_add_signed(n)) / SQRT_2);
+        let reach = CORNER_LEGS * legs[2];
+        let is_sharp =
+            |&at: &[u32; 2]| legs.iter().any(|&leg| self.corner(at).limit_if_sharp(leg, angles).is_some());
+        let corners = self.within(band.points[node as usize], reach, angles).filter(is_sharp);
+        let corners: Vec<LatticePoint> = corners.map(|place| self.corner(place).at()).collect();
+        if corners.is_empty() {
+            return Vec::new();
+        }
+        // Nodes are sorted by their points.
+        let steps = 2.0 * (reach / angles.step().x).ceil();
+        let x = f64::from(band.points[node as usize].x);
+        let [first, last] = [(x - steps).max(0.0) as u32, (x + steps) as u32];
+        let first = band.points.partition_point(|point| point.x < first) as u32;
+        let strip = (first..).zip(&band.points[first as usize..]).take_while(|(_, point)| point.x <= last);
+        let is_near =
+            |point: LatticePoint| corners.iter().any(|&at| angles.vector(at, point).length() <= reach);
+        let near = strip.filter(|(_, point)| is_near(**point)).map(|(v, _)| v);
+        near.filter(|&v| placement.is_at_outline(band, v, &mut star)).collect()
+    }
+
+    fn corner(&self, [ring, place]: [u32; 2]) -> Corner<'_> {
+        Corner { ring: &self.rings[ring as usize], place: place as usize }
+    }
+
+    /// Returns the corners at most so far from a point, in world units.
+    fn within(&self, at: LatticePoint, reach: f64, angles: &Angles) -> impl Iterator<Item = [u32; 2]> {
+        let (angles, steps) = (*angles, (reach / angles.step().x).ceil());
+        let first = (f64::from(at.x) - steps).max(0.0) as u32;
+        let start = self.turning.partition_point(|(point, _)| point.x < first);
+        let end = f64::from(at.x) + steps;
+        let strip = self.turning[start..].iter().take_while(move |(point, _)| f64::from(point.x) <= end);
+        let near = strip.filter(move |(point, _)| angles.vector(*point, at).length() <= reach);
+        near.map(|(_, place)| *place)
+    }
+
+    /// Returns the corners that are within the leg of a candidate, in the order of the outline.
+    fn near(&self, candidates: &[Candidate], angles: &Angles) -> Vec<Corner<'_>> {
+        let near = candidates.par_iter().with_min_len(GRAIN);
+        let near = near.flat_map_iter(|candidate| self.within(candidate.point, candidate.leg, angles));
+        let mut near: Vec<[u32; 2]> = near.collect();
+        near.par_sort_unstable();
+        near.dedup();
+        near.into_iter().map(|place| self.corner(place)).collect()
+    }
+}
+
+/// Returns on which sides of the grid a point lies.
+fn on_sides(p: LatticePoint, extent: LatticePoint) -> [bool; 4] {
+    [p.x == 0, p.x == extent.x, p.y == 0, p.y == extent.y]
 }
 
 /// A corner of the outline, given by the index of a point in a ring.
@@ -120,33 +236,24 @@ pub(super) fn pins(
     mesh: &Mesh,
     band: &Band,
     placement: &Placement,
-    region: &RegionOnLattice,
+    corners: &TurningCorners,
     angles: &Angles,
 ) -> Vec<Pin> {
-    let extent = mesh.lattice().extent();
-    let sides = |p: LatticePoint| [p.x == 0, p.x == extent.x, p.y == 0, p.y == extent.y];
-    let on_frame = |p: LatticePoint| sides(p).contains(&true);
-    let along_frame = |p, q| sides(p).into_iter().zip(sides(q)).any(|both| both == (true, true));
+    let on_frame = |p: LatticePoint| on_sides(p, corners.extent).contains(&true);
     let candidates = candidates(mesh, band, placement);
     let longest = candidates.iter().map(|candidate| candidate.leg).fold(0.0, f64::max);
-    let rings = region.outline_rings();
-    let corners = rings.iter().flat_map(|ring| (0..ring.len()).map(|place| Corner { ring, place }));
-    let mut found: Vec<(u32, f64, Pin)> = Vec::new();
-    for corner in corners.filter(|corner| corner.turns(angles)) {
+    let pin = |corner: &Corner| {
         let at = corner.at();
-        if [false, true].into_iter().any(|forwards| along_frame(at, corner.next(forwards).at())) {
-            continue;
-        }
         // Nodes of the frame stay there.
         let may_move =
             |candidate: &&Candidate| on_frame(at) || !on_frame(placement.homes[candidate.node as usize]);
-        let Some((distance, nearest)) = nearest(&candidates, at, longest, angles, may_move) else { continue };
-        let limit = corner.limit_if_sharp(nearest.leg, angles).filter(|_| distance <= nearest.leg);
-        found.extend(limit.map(|limit| {
-            let former = placement.goals[nearest.node as usize];
-            (nearest.node, distance, Pin { node: nearest.node, at, former, limit })
-        }));
-    }
+        let (distance, nearest) = nearest(&candidates, at, longest, angles, may_move)?;
+        let limit = corner.limit_if_sharp(nearest.leg, angles).filter(|_| distance <= nearest.leg)?;
+        let former = placement.goals[nearest.node as usize];
+        Some((nearest.node, distance, Pin { node: nearest.node, at, former, limit }))
+    };
+    let corners = corners.near(&candidates, angles);
+    let mut found: Vec<(u32, f64, Pin)> = corners.par_iter().with_min_len(GRAIN).filter_map(pin).collect();
     found.sort_by(|a, b| (a.0, a.1, a.2.at).partial_cmp(&(b.0, b.1, b.2.at)).expect("no NaN"));
     found.dedup_by_key(|(node, ..)| *node);
     found.into_iter().map(|(_, _, pin)| pin).collect()
@@ -166,11 +273,12 @@ fn candidates(mesh: &Mesh, band: &Band, placement: &Placement) -> Vec<Candidate>
         let is_cut = v as usize >= band.points.len();
         is_cut || [true, false].iter().all(|&inside| has_sector(band, placement, v, inside))
     };
-    let nodes = (0..legs.len() as u32).filter(|&v| legs[v as usize] > 0.0 && on_boundary(v));
-    let mut candidates: Vec<Candidate> = nodes
+    let all = (0..legs.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let mut candidates: Vec<Candidate> = all
+        .filter(|&v| legs[v as usize] > 0.0 && on_boundary(v))
         .map(|node| Candidate { point: placement.goals[node as usize], node, leg: legs[node as usize] })
         .collect();
-    candidates.sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
+    candidates.par_sort_unstable_by_key(|candidate| (candidate.point, candidate.node));
     candidates
 }
 

@@ -1,3 +1,4 @@
+use super::OutlineFollower;
 use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
 use super::stages::{DerivationAction, Watch};
@@ -33,15 +34,26 @@ impl DerivedMesh {
     ) -> Self {
         let region = domain.region_on_outline();
         let changes = region.map(|region| OutlineChanges::new(mesh, region, watch));
+        if changes.is_none() {
+            watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
+        }
+        let derived = Self::cleaned(mesh, changes, cleaning);
+        watch(DerivationAction::Clean, &|| derived.patch.clone());
+        derived
+    }
+
+    /// Returns the mesh that [`Self::new`] derives, from nodes on the outline that were kept in step with the
+    /// mesh.
+    pub fn of_follower(mesh: &Mesh, outline: &OutlineFollower, cleaning: &Cleaning) -> Self {
+        Self::cleaned(mesh, Some(outline.changes(mesh)), cleaning)
+    }
+
+    fn cleaned(mesh: &Mesh, changes: Option<OutlineChanges>, cleaning: &Cleaning) -> Self {
         let (mut patch, fit, corner_limit) = match changes {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
-            None => {
-                watch(DerivationAction::RemoveByCentroid, &MeshPatch::default);
-                (MeshPatch::default(), None, 0.0)
-            }
+            None => (MeshPatch::default(), None, 0.0),
         };
         let removed = patch.clean(mesh, cleaning);
-        watch(DerivationAction::Clean, &|| patch.clone());
         let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
         Self { patch, fit, removed, allows_pinches, corner_limit }
     }

@@ -1,7 +1,9 @@
 //! Triangles whose corners all moved onto the outline, and nodes where the domain would touch itself.
 
+use rayon::prelude::*;
+
 use super::angles::Angles;
-use super::band::Band;
+use super::band::{Band, GRAIN};
 use super::snap::Side;
 use super::stencil::Placement;
 
@@ -14,12 +16,16 @@ use super::stencil::Placement;
 pub(super) fn drop_flat(band: &Band, placement: &mut Placement, angles: &Angles, limit: f64) {
     let all_on = |&t: &u32| placement.keeps[t as usize] && placement.is_all_on(band, t);
     let is_flat = |&t: &u32| angles.worst(placement.points(band.triangles.corners[t as usize])) > limit;
-    let mut flat: Vec<u32> = (0..band.triangles.len() as u32).filter(all_on).filter(is_flat).collect();
+    let all = (0..band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let mut flat: Vec<u32> = all.filter(all_on).filter(is_flat).collect();
     let mut lowest = vec![u32::MAX; band.points.len()];
     loop {
         let droppable: Vec<u32> =
             flat.iter().copied().filter(|&t| is_droppable(band, placement, t)).collect();
         let corners = |t: u32| band.triangles.corners[t as usize].map(|v| v as usize);
+        for &v in droppable.iter().flat_map(|&t| &band.triangles.corners[t as usize]) {
+            placement.acted[v as usize] = true;
+        }
         for &t in droppable.iter().rev() {
             corners(t).into_iter().for_each(|v| lowest[v] = t);
         }
@@ -92,11 +98,14 @@ fn sectors(band: &Band, placement: &Placement, node: u32, star: &mut Vec<(u32, u
 /// Returns the nodes on the outline where the domain would touch itself: more than one fan of triangles
 /// inside meets there.
 pub(super) fn pinched(band: &Band, placement: &Placement) -> Vec<u32> {
-    let mut star = Vec::new();
-    let on = (0..band.points.len() as u32).filter(|&v| placement.sides[v as usize] == Side::On);
-    on.filter(|&v| {
-        let sectors = sectors(band, placement, v, &mut star);
-        (0..sectors.len()).filter(|&k| sectors[k] != sectors[(k + 1) % sectors.len()]).count() > 2
-    })
-    .collect()
+    let all = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let pinched = all.map_init(Vec::new, |star, v| {
+        if placement.sides[v as usize] != Side::On {
+            return (v, false);
+        }
+        let sectors = sectors(band, placement, v, star);
+        let changes = (0..sectors.len()).filter(|&k| sectors[k] != sectors[(k + 1) % sectors.len()]);
+        (v, changes.count() > 2)
+    });
+    pinched.filter(|(_, is_pinched)| *is_pinched).map(|(v, _)| v).collect()
 }

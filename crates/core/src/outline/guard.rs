@@ -1,7 +1,9 @@
 //! Moves nodes back towards their homes where an angle would be too small.
 
+use rayon::prelude::*;
+
 use super::angles::Angles;
-use super::band::Band;
+use super::band::{Band, GRAIN};
 use super::patchwork::{Gap, gap};
 use super::snap::Side;
 use super::stencil::{Piece, Placement};
@@ -21,20 +23,21 @@ impl Guard<'_> {
     /// Lets nodes retreat, in rounds, until no angle is too small: in a round, the nodes of all failing
     /// triangles take one step back at once. Returns the pinned nodes at which an angle stays too small.
     pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
-        let all = 0..self.band.triangles.len() as u32;
+        let all = (0..self.band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
         let gaps: Vec<Gap> = all.clone().map(|t| gap(self.band, placement, t)).collect();
         let mut suspects: Vec<u32> = all.filter(|&t| self.can_change(placement, t)).collect();
         let mut stuck = Vec::new();
         while !suspects.is_empty() {
             let mut back = Vec::new();
-            for &t in &suspects {
-                for corners in self.failing(placement, t, gaps[t as usize]) {
-                    let can: Vec<u32> = corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
-                    if can.is_empty() {
-                        stuck.extend(self.stuck_pins(placement, corners));
-                    }
-                    back.extend(can);
+            let failing = suspects.par_iter().with_min_len(GRAIN);
+            let failing: Vec<[u32; 3]> =
+                failing.flat_map_iter(|&t| self.failing(placement, t, gaps[t as usize])).collect();
+            for corners in failing {
+                let can: Vec<u32> = corners.into_iter().filter(|&v| placement.can_retreat(v)).collect();
+                if can.is_empty() {
+                    stuck.extend(self.stuck_pins(placement, corners));
                 }
+                back.extend(can);
             }
             back.sort_unstable();
             back.dedup();
@@ -51,17 +54,13 @@ impl Guard<'_> {
         corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
     }
 
-    /// Returns the triangles that have a node of `moved`.
+    /// Returns the triangles that have a node of `moved`, in ascending order.
     fn around(&self, placement: &Placement, moved: &[u32]) -> Vec<u32> {
-        let all = 0..self.band.triangles.len() as u32;
-        let mut is_moved = vec![false; placement.homes.len()];
-        moved.iter().for_each(|&v| is_moved[v as usize] = true);
-        all.filter(|&t| {
-            let t = t as usize;
-            let mut nodes = self.band.triangles.corners[t].iter().chain(&placement.cuts[t]);
-            nodes.any(|&v| is_moved.get(v as usize).is_some_and(|&moved| moved))
-        })
-        .collect()
+        let mut around = Vec::new();
+        moved.iter().for_each(|&v| placement.push_triangles_at(self.band, v, &mut around));
+        around.sort_unstable();
+        around.dedup();
+        around
     }
 
     /// Returns the corners of those pieces of a triangle that have an angle that is too small.

@@ -16,6 +16,10 @@
 //!
 //! Each of these is a *stage* ([`stages`]), which the teaching mode of the window shows.
 //!
+//! All threads work on a stage. A node is moved, and an edge flipped, by the state of its surroundings and by
+//! places on the lattice, so the result does not depend on the number of threads; and after an edit, only its
+//! surroundings are derived again ([`OutlineFollower`]).
+//!
 //! Bounds. The domain never touches itself in a node. In square cells every angle is at least 18.4° and at
 //! most 143.2°, except beside sharp corners of the outline: there it is at least 12°, or 0.8 times the
 //! angle of the corner. That nodes lie *on* the outline is not guaranteed: those that retreated may be off
@@ -24,6 +28,7 @@
 
 mod angles;
 mod triangulation;
+mod numbers;
 mod band;
 mod snap;
 mod stencil;
@@ -34,10 +39,13 @@ mod patchwork;
 mod smooth;
 mod stages;
 mod changes;
+mod window;
+mod follower;
 mod derived;
 mod check;
 
 pub use changes::OutlineFit;
 pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
+pub use follower::OutlineFollower;
 pub use stages::{DerivationAction, DerivationStage, derivation_stages};

@@ -1,7 +1,11 @@
 //! The pieces of the triangles near the outline, whose nodes and edges are improved.
 
+use std::collections::HashSet;
+
+use rayon::prelude::*;
+
 use super::angles::{Angles, COT_5, COT_30};
-use super::band::Band;
+use super::band::{Band, GRAIN};
 use super::flat::{boundary_edges, has_sector};
 use super::stencil::Placement;
 use super::triangulation::{NONE, Triangulation};
@@ -9,6 +13,8 @@ use crate::geometry::LatticePoint;
 
 /// Number of passes in which edges are flipped.
 const PASSES: usize = 6;
+/// Triangles of the band that a thread divides at a time.
+const CHUNK: u32 = 1 << 12;
 
 /// The condition for a piece outside to be flat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,40 +68,109 @@ pub(super) struct Patchwork {
     pub(super) on_outline: Vec<bool>,
     /// For each node, whether it is at a corner of the outline.
     pub(super) pinned: Vec<bool>,
+    /// For each node, what [`Placement::acted`] says, with the steps since.
+    pub(super) acted: Vec<bool>,
     /// For each node, whether anything around it changed since the last search for a better position failed.
     pub(super) may_move: Vec<bool>,
+    /// For each piece, whether anything changed since the last search for a flip of its edges failed.
+    may_flip: Vec<bool>,
+    /// The pieces inside that have an angle below 30°, in ascending order, but for changes since.
+    poor: Vec<u32>,
+    /// Pieces that have changed since `poor` was found.
+    changed: Vec<u32>,
+}
+
+/// The pieces of some triangles of the band, in their order.
+#[derive(Default)]
+struct Pieces {
+    corners: Vec<[u32; 3]>,
+    inside: Vec<bool>,
+    owners: Vec<u32>,
+    gaps: Vec<Gap>,
+}
+
+impl Pieces {
+    /// Divides all triangles of a band.
+    fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
+        let count = band.triangles.len() as u32;
+        let chunks = (0..count.div_ceil(CHUNK)).into_par_iter().map(|n| {
+            let mut pieces = Self::default();
+            (CHUNK * n..count.min(CHUNK * (n + 1))).for_each(|t| pieces.push(band, placement, angles, t));
+            pieces
+        });
+        let mut all = Self::default();
+        for mut pieces in chunks.collect::<Vec<_>>() {
+            all.corners.append(&mut pieces.corners);
+            all.inside.append(&mut pieces.inside);
+            all.owners.append(&mut pieces.owners);
+            all.gaps.append(&mut pieces.gaps);
+        }
+        all
+    }
+
+    fn push(&mut self, band: &Band, placement: &Placement, angles: &Angles, triangle: u32) {
+        let mut gap_of_triangle = None;
+        for piece in placement.pieces(band, triangle, angles).into_iter().flatten() {
+            self.corners.push(piece.corners);
+            self.inside.push(piece.inside);
+            self.owners.push(triangle);
+            self.gaps.push(*gap_of_triangle.get_or_insert_with(|| gap(band, placement, triangle)));
+        }
+    }
+
+    /// Finds the pieces across the edges: other pieces of the same triangle, or of those across its edges.
+    fn across(&self, band: &Band) -> Vec<[u32; 3]> {
+        let mut first = vec![self.owners.len() as u32; band.triangles.len() + 1];
+        for (piece, &owner) in self.owners.iter().enumerate().rev() {
+            first[owner as usize] = piece as u32;
+        }
+        let pieces_of = |t: u32| first[t as usize]..first[t as usize + 1];
+        let find = |among: std::ops::Range<u32>, [from, to]: [u32; 2]| {
+            among.into_iter().find(|&piece| {
+                let [a, b, c] = self.corners[piece as usize];
+                [[b, a], [c, b], [a, c]].contains(&[from, to])
+            })
+        };
+        let all = self.owners.par_iter().zip(&self.corners).with_min_len(GRAIN);
+        all.map(|(&owner, &[a, b, c])| {
+            [[b, c], [c, a], [a, b]].map(|edge| {
+                let beside = band.triangles.across[owner as usize].into_iter().filter(|&t| t != NONE);
+                let mut triangles = std::iter::once(owner).chain(beside);
+                triangles.find_map(|t| find(pieces_of(t), edge)).unwrap_or(NONE)
+            })
+        })
+        .collect()
+    }
 }
 
 impl Patchwork {
     pub(super) fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
         let nodes = 0..placement.homes.len() as u32;
-        let (mut corners, mut inside, mut owners, mut gaps) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for t in 0..band.triangles.len() as u32 {
-            for piece in placement.pieces(band, t, angles).into_iter().flatten() {
-                corners.push(piece.corners);
-                inside.push(piece.inside);
-                owners.push(t);
-                gaps.push(gap(band, placement, t));
-            }
-        }
+        let pieces = Pieces::new(band, placement, angles);
+        let (across, count) = (pieces.across(band), pieces.owners.len());
         Self {
-            triangles: Triangulation::joined(nodes.len(), corners),
-            inside,
-            gaps,
-            owners,
+            triangles: Triangulation::new(nodes.len(), pieces.corners, across),
+            inside: pieces.inside,
+            gaps: pieces.gaps,
+            owners: pieces.owners,
             points: nodes.clone().map(|v| placement.point(v)).collect(),
             on_outline: nodes.map(|v| placement.is_on_outline(v)).collect(),
             pinned: placement.pinned.clone(),
+            acted: placement.acted.clone(),
             may_move: vec![true; placement.homes.len()],
+            may_flip: vec![true; count],
+            poor: Vec::new(),
+            changed: (0..count as u32).collect(),
         }
     }
 
-    /// Notes that triangles get other corners, or that a corner moved.
-    pub(super) fn note_change(&mut self, triangles: impl IntoIterator<Item = u32>) {
-        for t in triangles {
-            self.triangles.corners[t as usize].iter().for_each(|&v| self.may_move[v as usize] = true);
-        }
+    /// Notes that a piece got other corners, or that one of its corners moved.
+    pub(super) fn note_change(&mut self, piece: u32) {
+        self.changed.push(piece);
+        self.triangles.corners[piece as usize].iter().for_each(|&v| self.may_move[v as usize] = true);
+        self.may_flip[piece as usize] = true;
+        let across = self.triangles.across[piece as usize].into_iter().filter(|&other| other != NONE);
+        across.for_each(|other| self.may_flip[other as usize] = true);
     }
 
     /// Returns the cotangent of the smallest angle of a piece.
@@ -113,10 +188,15 @@ impl Patchwork {
         self.gaps[triangle as usize].is_open(angles, self.triangles.corners[triangle as usize], points)
     }
 
-    /// Returns the pieces inside that have an angle below 30°.
-    pub(super) fn poor<'a>(&'a self, angles: &'a Angles) -> impl Iterator<Item = u32> + 'a {
-        let inside = (0..self.inside.len() as u32).filter(|&t| self.inside[t as usize]);
-        inside.filter(|&t| self.worst(angles, t) > COT_30)
+    /// Returns the pieces inside that have an angle below 30°, in ascending order.
+    pub(super) fn poor(&mut self, angles: &Angles) -> &[u32] {
+        let mut poor = std::mem::take(&mut self.poor);
+        poor.append(&mut self.changed);
+        poor.sort_unstable();
+        poor.dedup();
+        let is_poor = |&t: &u32| self.inside[t as usize] && self.worst(angles, t) > COT_30;
+        self.poor = poor.into_par_iter().with_min_len(GRAIN).filter(is_poor).collect();
+        &self.poor
     }
 
     /// Returns whether a node is on the boundary of the domain: around it there are pieces inside, and pieces
@@ -139,28 +219,43 @@ impl Patchwork {
     /// greatest gain comes first, and each piece is flipped once in a pass.
     pub(super) fn flip_edges(&mut self, angles: &Angles) {
         for _ in 0..PASSES {
-            let mut flips: Vec<(f64, u32, usize)> = self
-                .poor(angles)
-                .flat_map(|t| [0, 1, 2].map(|i| (t, i)))
-                .filter_map(|(t, i)| {
-                    let gain = self.gain_of_flip(angles, t, i)?;
-                    Some((gain, t, i))
-                })
-                .collect();
-            flips.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+            let flips = self.flips(angles);
             if flips.is_empty() {
                 return;
             }
-            let mut taken = vec![false; self.inside.len()];
+            for (_, t, i) in &flips {
+                for piece in [*t, self.triangles.across[*t as usize][*i]] {
+                    self.triangles.corners[piece as usize]
+                        .iter()
+                        .for_each(|&v| self.acted[v as usize] = true);
+                }
+            }
+            let mut taken = HashSet::with_capacity(2 * flips.len());
             for (_, t, i) in flips {
                 let across = self.triangles.across[t as usize][i];
-                if !taken[t as usize] && !taken[across as usize] {
-                    (taken[t as usize], taken[across as usize]) = (true, true);
-                    self.note_change([t, across]);
+                if !taken.contains(&t) && !taken.contains(&across) {
+                    taken.extend([t, across]);
                     self.triangles.flip(t, i);
+                    self.note_change(t);
+                    self.note_change(across);
                 }
             }
         }
+    }
+
+    /// Returns the flips that help, the greatest gain first: the gain, the piece, and the place of the edge.
+    fn flips(&mut self, angles: &Angles) -> Vec<(f64, u32, usize)> {
+        self.poor(angles);
+        let gains_of = |t: u32| [0, 1, 2].map(|i| self.gain_of_flip(angles, t, i));
+        let tried = self.poor.par_iter().with_min_len(GRAIN).filter(|&&t| self.may_flip[t as usize]);
+        let tried: Vec<(u32, [Option<f64>; 3])> = tried.map(|&t| (t, gains_of(t))).collect();
+        let mut flips = Vec::new();
+        for (t, gains) in tried {
+            self.may_flip[t as usize] = gains.iter().any(Option::is_some);
+            flips.extend(gains.iter().enumerate().filter_map(|(i, gain)| Some(((*gain)?, t, i))));
+        }
+        flips.par_sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        flips
     }
 
     /// Returns by how much the flip of an edge lowers the larger cotangent of the two pieces, or `None` if it

@@ -3,11 +3,13 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use glam::{DVec2, dvec2};
+use rayon::prelude::*;
 
 use super::angles::{Angles, COT_20};
+use super::band::GRAIN;
 use super::patchwork::Patchwork;
 use super::snap::rounded;
-use crate::domain::RegionOnLattice;
+use crate::domain::{OutlineNearby, RegionOnLattice};
 use crate::geometry::LatticePoint;
 
 /// The directions of the search, in world units.
@@ -27,6 +29,8 @@ const STEP_LENGTHS: usize = 4;
 const FIRST_STEP: f64 = 0.2;
 /// Number of final rounds that move nodes to the outline.
 const PULL_ROUNDS: usize = 8;
+/// Fewest searches for a position that a thread takes at a time.
+const FEWEST_SEARCHES: usize = 32;
 
 /// Moves nodes of a patchwork.
 pub(super) struct Smoother<'a> {
@@ -34,6 +38,13 @@ pub(super) struct Smoother<'a> {
     pub(super) angles: &'a Angles,
     /// The upper right corner of the lattice.
     pub(super) extent: LatticePoint,
+}
+
+/// What a thread uses again from search to search.
+#[derive(Default)]
+struct Scratch {
+    star: Vec<(u32, usize)>,
+    outline: OutlineNearby,
 }
 
 /// A move of a node that would help.
@@ -48,77 +59,95 @@ impl Smoother<'_> {
     /// Moves nodes of pieces with angles below 30° to where the smallest angle around them is largest; nodes
     /// on the boundary move along the outline. Of adjacent nodes, only the one that gains most moves.
     pub(super) fn smooth(&self, patchwork: &mut Patchwork) {
-        let poor = patchwork.poor(self.angles);
-        let mut nodes: Vec<u32> = poor.flat_map(|t| patchwork.triangles.corners[t as usize]).collect();
+        let poor = patchwork.poor(self.angles).to_vec();
+        let mut nodes: Vec<u32> =
+            poor.iter().flat_map(|&t| patchwork.triangles.corners[t as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes.retain(|&node| patchwork.may_move[node as usize]);
-        let mut star = Vec::new();
-        let mut moves = Vec::new();
-        for node in nodes {
-            let best = self.best_move(patchwork, node, &mut star);
+        let searches = nodes.par_iter().with_min_len(FEWEST_SEARCHES);
+        let found =
+            searches.map_init(Scratch::default, |scratch, &node| self.best_move(patchwork, node, scratch));
+        let found: Vec<Option<Move>> = found.collect();
+        for (&node, best) in nodes.iter().zip(&found) {
             patchwork.may_move[node as usize] = best.is_some();
-            moves.extend(best);
         }
-        self.apply(patchwork, moves);
+        self.apply(patchwork, &found.into_iter().flatten().collect::<Vec<_>>());
     }
 
     /// Moves nodes on the boundary that are off the outline to its nearest point, unless the angles around
     /// them fall below 20° or get worse. Of adjacent nodes, only the one that is farthest off moves in a
     /// round.
     pub(super) fn pull(&self, patchwork: &mut Patchwork) {
-        let mut star = Vec::new();
+        let all = (0..patchwork.points.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let mut off: Vec<u32> = all.filter(|&v| !patchwork.on_outline[v as usize]).collect();
+        // What is on the boundary stays there.
+        let on_boundary = |star: &mut Vec<(u32, usize)>, v: u32| {
+            patchwork.triangles.star(v, star);
+            !star.is_empty() && patchwork.is_on_boundary(star)
+        };
+        let found = off.par_iter().with_min_len(GRAIN);
+        let found = found.map_init(Vec::new, |star, &v| on_boundary(star, v).then_some(v));
+        off = found.flatten_iter().collect();
         for _ in 0..PULL_ROUNDS {
-            let off = (0..patchwork.points.len() as u32).filter(|&v| !patchwork.on_outline[v as usize]);
-            let moves: Vec<Move> =
-                off.filter_map(|v| self.move_to_outline(patchwork, v, &mut star)).collect();
+            let searches = off.par_iter().with_min_len(FEWEST_SEARCHES);
+            let moves = searches
+                .map_init(Scratch::default, |scratch, &v| self.move_to_outline(patchwork, v, scratch));
+            let moves: Vec<Move> = moves.flatten_iter().collect();
             if moves.is_empty() {
                 return;
             }
-            self.apply(patchwork, moves);
+            self.apply(patchwork, &moves);
+            off.retain(|&v| !patchwork.on_outline[v as usize]);
         }
     }
 
-    fn apply(&self, patchwork: &mut Patchwork, moves: Vec<Move>) {
-        let mut gains = vec![0.0; patchwork.points.len()];
-        moves.iter().for_each(|best| gains[best.node as usize] = best.gain);
-        let mut star = Vec::new();
-        let mut beats_neighbours = |best: &Move| {
-            patchwork.triangles.star(best.node, &mut star);
+    /// Makes the moves that gain more than those of all adjacent nodes, and of equal ones that of the node
+    /// with the lowest number. `moves` are in the order of their nodes.
+    fn apply(&self, patchwork: &mut Patchwork, moves: &[Move]) {
+        moves.iter().for_each(|best| patchwork.acted[best.node as usize] = true);
+        let gain = |v: u32| moves.binary_search_by_key(&v, |best| best.node).map_or(0.0, |n| moves[n].gain);
+        let beats_neighbours = |star: &mut Vec<(u32, usize)>, best: &Move| {
+            patchwork.triangles.star(best.node, star);
             let mut others = star.iter().flat_map(|&(t, _)| patchwork.triangles.corners[t as usize]);
             others.all(|v| {
-                let gain = gains[v as usize];
+                let gain = gain(v);
                 v == best.node || best.gain > gain || (best.gain == gain && best.node < v)
             })
         };
-        let winners: Vec<Move> = moves.into_iter().filter(|best| beats_neighbours(best)).collect();
+        let all = moves.par_iter().with_min_len(GRAIN);
+        let winners = all.map_init(Vec::new, |star, best| beats_neighbours(star, best).then_some(best));
+        let winners: Vec<&Move> = winners.flatten_iter().collect();
+        let mut star = Vec::new();
         for Move { node, to, on_outline, .. } in winners {
-            patchwork.triangles.star(node, &mut star);
-            patchwork.note_change(star.iter().map(|&(t, _)| t));
-            patchwork.points[node as usize] = to;
-            patchwork.on_outline[node as usize] = on_outline;
+            patchwork.points[*node as usize] = *to;
+            patchwork.on_outline[*node as usize] = *on_outline;
+            patchwork.triangles.star(*node, &mut star);
+            star.iter().for_each(|&(t, _)| patchwork.note_change(t));
         }
     }
 
-    fn best_move(&self, patchwork: &Patchwork, node: u32, star: &mut Vec<(u32, usize)>) -> Option<Move> {
+    fn best_move(&self, patchwork: &Patchwork, node: u32, scratch: &mut Scratch) -> Option<Move> {
+        let Scratch { star, outline } = scratch;
         patchwork.triangles.star(node, star);
         if patchwork.pinned[node as usize] || patchwork.is_on_frame(star) {
             return None;
         }
-        let on_boundary = patchwork.is_on_boundary(star);
+        let (on_boundary, step) = (patchwork.is_on_boundary(star), self.angles.step());
         let home = patchwork.points[node as usize];
         let now = self.worst_around(patchwork, star, home)?;
         let mean = self.mean_edge(patchwork, star);
         let (mut best, mut length) = ((now, home), FIRST_STEP * mean);
+        let mut collected_at = None;
         for _ in 0..STEP_LENGTHS {
             let from = best.1.as_dvec2();
+            // Later steps are shorter.
+            if on_boundary && collected_at.replace(from) != Some(from) {
+                outline.collect(self.region, from, mean + length, step);
+            }
             for direction in DIRECTIONS {
-                let to = from + length * direction / self.angles.step();
-                let to = if on_boundary {
-                    self.region.nearest_on_outline(to, mean, self.angles.step())
-                } else {
-                    Some(to)
-                };
+                let to = from + length * direction / step;
+                let to = if on_boundary { outline.nearest(to, mean) } else { Some(to) };
                 let Some(to) = to.map(|to| rounded(to, self.extent)) else { continue };
                 if let Some(worst) = self.worst_around(patchwork, star, to).filter(|&worst| worst < best.0) {
                     best = (worst, to);
@@ -130,12 +159,8 @@ impl Smoother<'_> {
         (worst < now).then_some(Move { node, to, gain: now - worst, on_outline: on_boundary })
     }
 
-    fn move_to_outline(
-        &self,
-        patchwork: &Patchwork,
-        node: u32,
-        star: &mut Vec<(u32, usize)>,
-    ) -> Option<Move> {
+    fn move_to_outline(&self, patchwork: &Patchwork, node: u32, scratch: &mut Scratch) -> Option<Move> {
+        let Scratch { star, outline } = scratch;
         patchwork.triangles.star(node, star);
         if star.is_empty() || patchwork.is_on_frame(star) || !patchwork.is_on_boundary(star) {
             return None;
@@ -143,7 +168,8 @@ impl Smoother<'_> {
         let home = patchwork.points[node as usize];
         let now = self.worst_around(patchwork, star, home)?;
         let reach = self.mean_edge(patchwork, star);
-        let to = self.region.nearest_on_outline(home.as_dvec2(), reach, self.angles.step())?;
+        outline.collect(self.region, home.as_dvec2(), reach, self.angles.step());
+        let to = outline.nearest(home.as_dvec2(), reach)?;
         let to = rounded(to, self.extent);
         let worst = self.worst_around(patchwork, star, to)?;
         let gain = self.angles.vector(home, to).length();

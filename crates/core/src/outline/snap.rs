@@ -1,8 +1,9 @@
 //! Decides which nodes move onto the outline, and to which points.
 
+use rayon::prelude::*;
+
 use super::angles::Angles;
-use super::band::Band;
-use super::triangulation::NONE;
+use super::band::{Band, GRAIN};
 use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 
@@ -32,27 +33,33 @@ pub(super) struct Crossings {
 
 impl Crossings {
     pub(super) fn new(band: &Band, region: &RegionOnLattice, lattice: &Lattice) -> Self {
-        let mut shares = vec![[f64::NAN; 3]; band.triangles.len()];
+        let triangles = (0..band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let found = triangles.map(|t| [0, 1, 2].map(|i| Self::of_first_owner(band, region, t, i)));
+        let mut shares: Vec<[f64; 3]> = found.collect();
         for t in 0..shares.len() {
             for i in 0..3 {
-                let [_, from, to] = band.triangles.starting_at(t as u32, i);
                 let across = band.triangles.across[t][i];
-                if band.inside[from as usize] == band.inside[to as usize] {
-                    continue;
-                }
-                if across != NONE && across < t as u32 {
+                if across < t as u32 {
                     let j = band.triangles.across[across as usize].iter().position(|&n| n == t as u32);
                     shares[t][i] = 1.0 - shares[across as usize][j.expect("neighbours know each other")];
-                    continue;
                 }
-                let [p, q] = [from, to].map(|v| band.points[v as usize]);
-                shares[t][i] = match band.inside[from as usize] {
-                    true => region.middle_crossing(p, q),
-                    false => 1.0 - region.middle_crossing(q, p),
-                };
             }
         }
         Self { shares, extent: lattice.extent() }
+    }
+
+    /// Returns the crossing of the edge opposite the i-th corner of a triangle, if it has nodes on both sides
+    /// and is not the edge of a triangle with a lower number; otherwise NaN.
+    fn of_first_owner(band: &Band, region: &RegionOnLattice, triangle: u32, i: usize) -> f64 {
+        let [_, from, to] = band.triangles.starting_at(triangle, i).map(|v| v as usize);
+        if band.inside[from] == band.inside[to] || band.triangles.across[triangle as usize][i] < triangle {
+            return f64::NAN;
+        }
+        let [p, q] = [from, to].map(|v| band.points[v]);
+        match band.inside[from] {
+            true => region.middle_crossing(p, q),
+            false => 1.0 - region.middle_crossing(q, p),
+        }
     }
 
     /// Returns the crossing of the edge opposite the i-th corner of a triangle, as a share of its length from
@@ -128,19 +135,21 @@ impl Link {
 /// nearer to it than to the other end: to the nearest such crossing, all nodes at once. It moves only if the
 /// outline passes between the nodes around it once.
 pub(super) fn snapped(band: &Band, crossings: &Crossings, angles: &Angles) -> (Vec<Side>, Vec<LatticePoint>) {
-    let mut sides: Vec<Side> = band.inside.iter().map(|&inside| Side::of(inside)).collect();
-    let mut goals = band.points.clone();
-    let mut star = Vec::new();
-    for v in (0..band.points.len() as u32).filter(|&v| band.active[v as usize]) {
-        let link = Link::of(band, v, &mut star);
-        if !link.is_divided_once(band) {
-            continue;
+    let nodes = (0..band.points.len() as u32).into_par_iter().with_min_len(GRAIN);
+    let placed = nodes.map_init(Vec::new, |star, v| {
+        let (side, home) = (Side::of(band.inside[v as usize]), band.points[v as usize]);
+        if !band.active[v as usize] {
+            return (side, home);
         }
-        if let Some(goal) = nearest_crossing(band, crossings, angles, v, &link) {
-            (sides[v as usize], goals[v as usize]) = (Side::On, goal);
-        }
-    }
-    (sides, goals)
+        let link = Link::of(band, v, star);
+        let goal = if link.is_divided_once(band) {
+            nearest_crossing(band, crossings, angles, v, &link)
+        } else {
+            None
+        };
+        goal.map_or((side, home), |goal| (Side::On, goal))
+    });
+    placed.unzip()
 }
 
 fn nearest_crossing(

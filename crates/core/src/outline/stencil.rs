@@ -48,6 +48,11 @@ pub(super) struct Placement {
     pub(super) cuts: Vec<[u32; 3]>,
     /// For each triangle with all corners on the outline, whether it is inside.
     pub(super) keeps: Vec<bool>,
+    /// For each node, whether a step that depends on steps nearby did or tried anything at it. Nodes without
+    /// such ones between them do not depend on each other.
+    pub(super) acted: Vec<bool>,
+    /// For each cut node, counted from the first, a triangle that it is in.
+    cut_triangles: Vec<u32>,
 }
 
 impl Placement {
@@ -69,10 +74,13 @@ impl Placement {
             pinned: Vec::new(),
             cuts: vec![[NONE; 3]; band.triangles.len()],
             keeps: band.triangles.corners.iter().map(mostly_inside).collect(),
+            acted: Vec::new(),
+            cut_triangles: Vec::new(),
         };
         placement.cut_edges(band, crossings);
         placement.retreats = vec![0; placement.homes.len()];
         placement.pinned = vec![false; placement.homes.len()];
+        placement.acted = vec![false; placement.homes.len()];
         placement
     }
 
@@ -90,6 +98,7 @@ impl Placement {
                 self.homes.push(LatticePoint::new((p.x + q.x) / 2, (p.y + q.y) / 2));
                 self.goals.push(crossings.point(band, t as u32, i));
                 self.cuts[t][i] = cut;
+                self.cut_triangles.push(t as u32);
                 if let Some(across) = band.triangles.across.get(band.triangles.across[t][i] as usize) {
                     let j = across.iter().position(|&n| n == t as u32).expect("neighbours know each other");
                     self.cuts[band.triangles.across[t][i] as usize][j] = cut;
@@ -126,11 +135,43 @@ impl Placement {
 
     pub(super) fn retreat(&mut self, node: u32) {
         self.retreats[node as usize] += 1;
+        self.acted[node as usize] = true;
     }
 
     /// Moves all nodes to their goals again.
     pub(super) fn advance_all(&mut self) {
         self.retreats.fill(0);
+    }
+
+    /// Returns the nodes of the band at a node: itself, or the ends of the edge that it cuts.
+    pub(super) fn band_nodes_at(&self, band: &Band, node: u32) -> [u32; 2] {
+        let Some(cut) = (node as usize).checked_sub(band.points.len()) else { return [node; 2] };
+        let t = self.cut_triangles[cut];
+        let i = self.cuts[t as usize].iter().position(|&v| v == node).expect("the triangle is cut there");
+        let [_, from, to] = band.triangles.starting_at(t, i);
+        [from, to]
+    }
+
+    /// Returns whether a node is on the outline, or the end of an edge that is cut. Overwrites `star`.
+    pub(super) fn is_at_outline(&self, band: &Band, node: u32, star: &mut Vec<(u32, usize)>) -> bool {
+        band.triangles.star(node, star);
+        let has_cut = |&(t, i): &(u32, usize)| {
+            let cuts = self.cuts[t as usize];
+            cuts[(i + 1) % 3] != NONE || cuts[(i + 2) % 3] != NONE
+        };
+        self.sides[node as usize] == Side::On || star.iter().any(has_cut)
+    }
+
+    /// Writes the triangles of the band that have a node, or are cut there, into `found`.
+    pub(super) fn push_triangles_at(&self, band: &Band, node: u32, found: &mut Vec<u32>) {
+        let Some(cut) = (node as usize).checked_sub(band.points.len()) else {
+            let mut star = Vec::new();
+            band.triangles.star(node, &mut star);
+            return found.extend(star.iter().map(|&(t, _)| t));
+        };
+        let t = self.cut_triangles[cut];
+        let i = self.cuts[t as usize].iter().position(|&v| v == node).expect("the triangle is cut there");
+        found.extend([t, band.triangles.across[t as usize][i]].into_iter().filter(|&t| t != NONE));
     }
 
     /// Returns whether all corners of a triangle are on the outline.

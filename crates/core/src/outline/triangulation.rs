@@ -1,7 +1,5 @@
 //! Triangles as indices, with their neighbours.
 
-use std::collections::HashMap;
-
 /// No triangle, or no node.
 pub(super) const NONE: u32 = u32::MAX;
 
@@ -25,23 +23,6 @@ impl Triangulation {
             }
         }
         Self { corners, across, at }
-    }
-
-    /// Finds which triangles share edges.
-    pub(super) fn joined(nodes: usize, corners: Vec<[u32; 3]>) -> Self {
-        let mut open: HashMap<[u32; 2], (u32, usize)> = HashMap::with_capacity(2 * corners.len());
-        let mut across = vec![[NONE; 3]; corners.len()];
-        for (t, [a, b, c]) in corners.iter().copied().enumerate() {
-            for (i, [from, to]) in [[b, c], [c, a], [a, b]].into_iter().enumerate() {
-                if let Some((other, j)) = open.remove(&[to, from]) {
-                    across[t][i] = other;
-                    across[other as usize][j] = t as u32;
-                } else {
-                    open.insert([from, to], (t as u32, i));
-                }
-            }
-        }
-        Self::new(nodes, corners, across)
     }
 
     pub(super) fn len(&self) -> usize {

@@ -22,6 +22,7 @@ mod mirrored;
 mod open_boundary;
 mod operations;
 mod outline;
+mod outline_follower;
 mod path;
 mod path_bounds;
 mod path_choices;

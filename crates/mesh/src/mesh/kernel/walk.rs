@@ -66,7 +66,16 @@ impl Mesh {
     /// # Panics
     /// Panics when the id is not of this mesh.
     pub fn triangles_around(&self, node: NodeId) -> impl Iterator<Item = TriangleId> + '_ {
-        self.raw_triangles_around(node, self.raw_triangle_at(node)).filter(|&id| self.is_in_domain(id))
+        self.all_triangles_around(node).filter(|&id| self.is_in_domain(id))
+    }
+
+    /// Returns the triangles around `node` as [`Self::triangles_around`] does, those outside a fitted domain
+    /// included.
+    ///
+    /// # Panics
+    /// Panics when the id is not of this mesh.
+    pub fn all_triangles_around(&self, node: NodeId) -> impl Iterator<Item = TriangleId> + '_ {
+        self.raw_triangles_around(node, self.raw_triangle_at(node))
     }
 
     /// Returns the triangles around `node` that can be reached from `start` (one of them) across edges,

@@ -1,0 +1,75 @@
+//! Numbers for nodes and triangles of a mesh: for all of them, or for few.
+
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// A number for some entries of an array.
+pub(super) trait Numbers: Sync {
+    /// Returns no numbers yet, for an array of this length.
+    fn for_entries(count: usize) -> Self;
+    /// Returns the number of an entry.
+    fn get(&self, index: usize) -> Option<u32>;
+    /// Gives an entry a number, and returns whether it had none.
+    fn set(&mut self, index: usize, number: u32) -> bool;
+}
+
+/// Numbers plus one, so that the pages of entries without one are never touched.
+impl Numbers for Vec<u32> {
+    fn for_entries(count: usize) -> Self {
+        vec![0; count]
+    }
+
+    #[inline]
+    fn get(&self, index: usize) -> Option<u32> {
+        self[index].checked_sub(1)
+    }
+
+    #[inline]
+    fn set(&mut self, index: usize, number: u32) -> bool {
+        std::mem::replace(&mut self[index], number + 1) == 0
+    }
+}
+
+/// A map by numbers that are spread by a multiplication: no one chooses them to collide.
+pub(super) type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
+
+impl Numbers for NumberMap<u32, u32> {
+    fn for_entries(_: usize) -> Self {
+        Self::default()
+    }
+
+    #[inline]
+    fn get(&self, index: usize) -> Option<u32> {
+        HashMap::get(self, &(index as u32)).copied()
+    }
+
+    #[inline]
+    fn set(&mut self, index: usize, number: u32) -> bool {
+        self.insert(index as u32, number).is_none()
+    }
+}
+
+/// Hashes numbers of 32 and 64 bits.
+#[derive(Clone, Copy, Default)]
+pub(super) struct NumberHasher(u64);
+
+impl Hasher for NumberHasher {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(u64::from(byte)));
+    }
+
+    #[inline]
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(u64::from(number));
+    }
+
+    #[inline]
+    fn write_u64(&mut self, number: u64) {
+        let spread = (self.0 ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = spread ^ (spread >> 32);
+    }
+}

@@ -1,0 +1,160 @@
+//! Nodes on an outline that are kept in step with a mesh, against those derived from scratch.
+
+use fastrand::Rng;
+use glam::{DVec2, dvec2};
+use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_mesh::geometry::LatticePoint;
+use meshbrush_mesh::mesh::{Cleaning, Mesh};
+
+use crate::random_coast::{place, random_coast};
+use crate::runs::runs;
+
+/// Returns the triangles of a derived mesh, by their corners, in ascending order.
+fn triangles(mesh: &Mesh, derived: &DerivedMesh) -> Vec<[LatticePoint; 3]> {
+    let extract = derived.extract(mesh);
+    let turned = |cell: meshbrush_mesh::mesh::Cell| {
+        let corners = cell.corners.map(|node| extract.nodes()[node]);
+        let lowest = (0..3).min_by_key(|&i| corners[i]).unwrap();
+        [0, 1, 2].map(|i| corners[(lowest + i) % 3])
+    };
+    let mut triangles: Vec<_> = extract.cells().map(turned).collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// A document with nodes on its outline.
+struct Scene {
+    document: Document,
+    follower: Follower,
+    outline: OutlineFollower,
+    finest: f64,
+    name: String,
+}
+
+impl Scene {
+    /// Returns a random coast, in cells that are not square for every third number.
+    fn new(seed: u64) -> Self {
+        let mut random = Rng::with_seed(seed);
+        let stretch = if seed.is_multiple_of(3) { dvec2(1.0, 0.73 + 0.2 * random.f64()) } else { DVec2::ONE };
+        let mut polygons = random_coast(&mut random);
+        polygons.iter_mut().flatten().flatten().for_each(|p| *p *= stretch);
+        let domain = Domain::of_polygons(&polygons).unwrap();
+        let size = domain.bounds.size().max_element();
+        let diameter = size * 0.012 * 4f64.powf(random.f64());
+        let mut settings = Settings::for_domain("coast".into(), domain);
+        settings.boundary = BoundaryTreatment::OnOutline { diameter };
+        settings.layers = Layer::usual(LayerKind::constant(0.2 * size));
+        let finest = 0.2 * diameter;
+        (settings.transfer.h_min, settings.transfer.h_risk) = (finest, finest);
+        let mut document = Document::new(settings, None).unwrap();
+        let mut follower = Follower::new(&mut document).unwrap();
+        follower.take_change();
+        let outline = OutlineFollower::new(follower.mesh(), follower.domain()).unwrap();
+        Self { document, follower, outline, finest, name: format!("seed {seed}") }
+    }
+
+    /// Paints or erases a dab, mostly at the coast, or changes the layers or takes something back.
+    fn edit(&mut self, random: &mut Rng) {
+        let bounds = self.document.settings().domain.bounds;
+        let at = bounds.min + place(random) * bounds.size();
+        match random.u32(..6) {
+            0 => _ = self.document.undo(),
+            1 => _ = self.document.redo(),
+            2 => {
+                let mut layers = self.document.settings().layers.clone();
+                let last = layers.len() - 1;
+                layers[last].visible ^= true;
+                self.document.set(Setting::Layers(layers)).unwrap();
+                self.document.end_gesture();
+            }
+            _ => {
+                let diameter = self.finest * 8f64.powf(random.f64());
+                let change =
+                    if random.u32(..3) == 0 { DiameterChange::Coarser } else { DiameterChange::Finer };
+                let radius = self.finest * (4.0 + 30.0 * random.f64());
+                let (medium, hardness) = (Medium::Diameter(diameter, change), random.f64());
+                self.document.begin_stroke(Brush { medium, radius, hardness, strength: 1.0 });
+                self.document.draw_to(at);
+                if random.bool() {
+                    self.document.draw_to(at + 4.0 * radius * (place(random) - 0.5));
+                }
+                self.document.end_stroke();
+            }
+        }
+    }
+
+    /// Follows the document up to a random slice or to rest, and returns whether the mesh changed.
+    fn follow(&mut self, random: &mut Rng) -> bool {
+        let slices = if random.bool() { usize::MAX } else { random.usize(1..4) };
+        for _ in 0..slices {
+            if self.follower.advance(&mut self.document, 2000).unwrap() == Stage::InStep {
+                break;
+            }
+        }
+        match self.follower.take_change() {
+            None => false,
+            Some(MeshChange::Within(changes)) => {
+                self.outline.update(self.follower.mesh(), &changes);
+                true
+            }
+            Some(MeshChange::Replaced) => {
+                self.outline = OutlineFollower::new(self.follower.mesh(), self.follower.domain()).unwrap();
+                true
+            }
+        }
+    }
+
+    fn check(&self, edit: usize) {
+        let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
+        let scratch = DerivedMesh::new(mesh, domain, &Cleaning::NONE);
+        let kept = DerivedMesh::of_follower(mesh, &self.outline, &Cleaning::NONE);
+        let name = format!("{}, edit {edit}", self.name);
+        assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
+        assert_eq!(kept.fit(), scratch.fit(), "{name}");
+        assert_eq!(kept.violations(&kept.extract(mesh)), [], "{name}");
+    }
+}
+
+#[test]
+fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
+    let mut changed = 0;
+    for seed in 0..runs(10) {
+        let (mut scene, mut random) = (Scene::new(seed), Rng::with_seed(seed));
+        for edit in 0..25 {
+            scene.edit(&mut random);
+            if scene.follow(&mut random) {
+                scene.check(edit);
+                changed += 1;
+            }
+        }
+    }
+    assert!(changed > 60, "{changed} edits changed the mesh");
+}
+
+#[test]
+fn the_result_does_not_depend_on_the_number_of_threads() {
+    let in_pool = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let (mut scene, mut random) = (Scene::new(4), Rng::with_seed(7));
+            for _ in 0..8 {
+                scene.edit(&mut random);
+                scene.follow(&mut random);
+            }
+            let (mesh, domain) = (scene.follower.mesh(), scene.follower.domain());
+            let scratch = DerivedMesh::new(mesh, domain, &Cleaning::NONE);
+            (
+                scratch.patch().clone(),
+                triangles(mesh, &DerivedMesh::of_follower(mesh, &scene.outline, &Cleaning::NONE)),
+            )
+        })
+    };
+    let one = in_pool(1);
+    for threads in [2, 3, 8] {
+        assert!(in_pool(threads) == one, "{threads} threads");
+    }
+}
