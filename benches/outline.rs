@@ -1,0 +1,146 @@
+//! Nodes on an outline: derived from scratch, and kept in step with the mesh after a dab.
+//!
+//! *lake*: 1.8 million triangles, an outline of 200,000 corners, most of them closer to each other than the
+//! triangles. *coast*: half a million triangles, all of them at a rough outline of 197,000 corners. Documents
+//! and followers are those of the window. For one thread and for all: the shortest of a few runs from
+//! scratch, without and with the removal of parts and pinches, and the median of dabs on the outline, painted
+//! and taken back.
+
+use std::time::{Duration, Instant};
+
+use glam::{DVec2, dvec2};
+use meshbrush_benches::window::{MESH_SLICE, wave};
+use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_mesh::mesh::{Changes, Cleaning};
+
+/// Runs from scratch.
+const RUNS: usize = 5;
+/// Dabs, each painted and taken back.
+const DABS: usize = 20;
+
+struct Scene {
+    name: &'static str,
+    document: Document,
+    /// A circle near the outline.
+    radius: f64,
+    /// The boundary diameter.
+    diameter: f64,
+}
+
+impl Scene {
+    fn new(
+        name: &'static str,
+        polygons: &[Vec<Vec<DVec2>>],
+        diameter: f64,
+        base: LayerKind,
+        radius: f64,
+    ) -> Self {
+        let domain = Domain::of_polygons(polygons).expect("rings");
+        let boundary = BoundaryTreatment::OnOutline { diameter };
+        let layers = Layer::stack([base, LayerKind::Paint(Quantity::Diameter)]);
+        let mut settings = Settings { domain, boundary, layers, ..Settings::default() };
+        (settings.transfer.h_min, settings.transfer.h_risk) = (0.2 * diameter, 0.2 * diameter);
+        Self { name, document: Document::new(settings, None).expect("valid settings"), radius, diameter }
+    }
+
+    /// The lake with an island of the bench *frame*.
+    fn lake() -> Self {
+        const CORNERS: u32 = 100_000;
+        let ring = |radius: f64| -> Vec<DVec2> {
+            let corner = |k: u32| {
+                let angle = f64::from(k) / f64::from(CORNERS) * std::f64::consts::TAU;
+                let bays = 0.01 * (99.0 * angle).sin() + 0.0005 * (4999.0 * angle).sin();
+                dvec2(0.5, 0.5) + (radius + bays) * DVec2::from_angle(angle)
+            };
+            (0..CORNERS).map(corner).collect()
+        };
+        Self::new("lake", &[vec![ring(0.48), ring(0.25)]], 0.0011, wave(0.65, 0.0011), 0.48)
+    }
+
+    /// A line whose edges are halved and bent fourteen times.
+    fn coast() -> Self {
+        let mut random = fastrand::Rng::with_seed(3);
+        let corner =
+            |k: u32| dvec2(0.5, 0.5) + 0.42 * DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 12.0);
+        let mut ring: Vec<DVec2> = (0..12).map(corner).collect();
+        for _ in 0..14 {
+            let bent =
+                |(a, b): (DVec2, DVec2)| [a, 0.5 * (a + b) + 0.5 * (random.f64() - 0.5) * (b - a).perp()];
+            let next = ring.iter().skip(1).chain(&ring[..1]);
+            ring = ring.iter().copied().zip(next.copied()).flat_map(bent).collect();
+        }
+        Self::new("coast", &[vec![ring]], 0.00012, LayerKind::constant(0.02), 0.42)
+    }
+
+    fn measure(&mut self, threads: usize) {
+        let mut follower = Follower::new(&mut self.document).expect("it has a mesh");
+        follower.take_change();
+        let count = follower.mesh().raw_triangle_count();
+        eprintln!("{}, {count} triangles, {threads} threads", self.name);
+        for (name, cleaning) in [("from scratch", Cleaning::NONE), ("and cleaned", Cleaning::FOR_SOLVERS)] {
+            let runs = (0..RUNS)
+                .map(|_| measured(|| _ = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning)));
+            report(name, runs.min().expect("some runs"));
+        }
+        let mut outline = OutlineFollower::new(follower.mesh(), follower.domain()).expect("on the outline");
+        let (mut times, mut changed) = (Vec::new(), 0);
+        for n in 0..DABS {
+            self.dab(n);
+            for undone in [false, true] {
+                if undone {
+                    self.document.undo();
+                }
+                let Some(changes) = follow(&mut self.document, &mut follower) else { continue };
+                changed += changes.triangles.iter().map(ExactSizeIterator::len).sum::<usize>();
+                times.push(measured(|| _ = outline.update(follower.mesh(), &changes)));
+            }
+        }
+        times.sort();
+        let each = changed / times.len().max(1);
+        eprintln!("  {} changes of {each} triangles on average", times.len());
+        report("after a dab", times[times.len() / 2]);
+    }
+
+    /// Paints triangles half as large as those along the outline, eight of these wide.
+    fn dab(&mut self, number: usize) {
+        let medium = Medium::Diameter(0.5 * self.diameter, DiameterChange::Finer);
+        let radius = 4.0 * self.diameter;
+        self.document.begin_stroke(Brush { medium, radius, hardness: 1.0, strength: 1.0 });
+        let direction = DVec2::from_angle(number as f64 / DABS as f64 * std::f64::consts::TAU);
+        self.document.draw_to(dvec2(0.5, 0.5) + self.radius * direction);
+        self.document.end_stroke();
+    }
+}
+
+/// Follows a document to rest, and returns what changed.
+fn follow(document: &mut Document, follower: &mut Follower) -> Option<Changes> {
+    while follower.advance(document, MESH_SLICE).expect("the budget is far") != Stage::InStep {}
+    match follower.take_change()? {
+        MeshChange::Within(changes) => Some(changes),
+        MeshChange::Replaced => unreachable!("paint changes the mesh where it is"),
+    }
+}
+
+/// Returns the wall time of some work.
+fn measured(work: impl FnOnce()) -> Duration {
+    let began = Instant::now();
+    work();
+    began.elapsed()
+}
+
+fn report(name: &str, time: Duration) {
+    eprintln!("  {name:12} {:8.2} ms", 1e3 * time.as_secs_f64());
+}
+
+fn main() {
+    for mut scene in [Scene::lake(), Scene::coast()] {
+        for threads in [1, rayon::current_num_threads()] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| scene.measure(threads));
+        }
+    }
+}
