@@ -335,21 +335,18 @@ fn large_edits_row(page: &mut String, scene: &mut Scene, threads: usize, gradati
             }
         }
     };
-    let mut times: [[Vec<Duration>; 2]; 3] = Default::default();
+    let mut times: [[Vec<Duration>; 2]; 4] = Default::default();
     for _ in 0..5 {
-        let edits: [(usize, &dyn Fn(&mut Layer)); 4] = [
-            (0, &move_to(0.5)),
-            (0, &move_to(0.0)),
-            (1, &|layer: &mut Layer| layer.visible = false),
-            (2, &|layer: &mut Layer| layer.visible = true),
-        ];
-        for (place, edit) in edits {
+        let (there, back) = (move_to(0.5), move_to(0.0));
+        let [hide, show] = [false, true].map(|visible| move |layer: &mut Layer| layer.visible = visible);
+        for place in [0, 1, 2, 3] {
+            let edit = [&there as &dyn Fn(&mut Layer), &hide, &show, &back][place];
             let [first, rest] = scene.edit(|document| change(document, edit));
             times[place][0].push(first);
             times[place][1].push(rest);
         }
     }
-    let [moved, hidden, shown] = times.map(|times| {
+    let [moved, hidden, shown, _] = times.map(|times| {
         let [first, rest] = times.map(median_ms);
         format!("{first:.1} / {rest:.1}")
     });

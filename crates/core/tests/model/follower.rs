@@ -120,7 +120,7 @@ fn the_mesh_moves_while_a_setting_is_dragged_and_ends_as_from_scratch() {
     let (mut document, mut follower) = large();
     // One mesh takes more slices than there are between two moves.
     let spacing = |t| Setting::Spacing(1.0 / 24.0 + 0.01 * t);
-    let [replaced, _] = drag(&mut document, &mut follower, 200, 20, spacing);
+    let [replaced, _] = drag(&mut document, &mut follower, 200, 4, spacing);
     assert!((5..200).contains(&replaced), "{replaced} meshes in 200 moves");
     settle(&mut follower, &mut document);
     assert_as_from_scratch(&follower, &document);
@@ -186,7 +186,8 @@ fn limits_that_change_most_of_a_large_mesh_make_another_one() {
     let count = follower.mesh().raw_triangle_count();
     assert!(count > 250_000, "{count}");
     follower.take_change();
-    for (h_min, is_replaced) in [(0.012, true), (0.003, false), (0.0028, true)] {
+    // The last one concerns the whole mesh, and changes only what is painted.
+    for (h_min, is_replaced) in [(0.012, true), (0.003, false), (0.0028, false)] {
         document.set(Setting::SmallestDiameter(h_min)).unwrap();
         document.end_gesture();
         let before = follower.mesh().fingerprint();

@@ -7,7 +7,7 @@ use crate::detail::{graded, styles};
 use crate::render_agreement::{assert_agree, differences, gpu};
 use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::{LatticePoint, LatticeRect, Rect};
-use meshbrush_mesh::mesh::{Changes, Element, Limits, Mesh, Progress, Updater};
+use meshbrush_mesh::mesh::{Changes, Limits, Mesh, Progress, Updater};
 use meshbrush_render::render::gpu::{ChunkLimits, Offscreen};
 use meshbrush_render::render::{Image, software};
 use meshbrush_render::scene::{Camera, ShownMesh, Style};
@@ -102,11 +102,9 @@ fn edit(mesh: &mut Mesh, at: DVec2) -> Changes {
     let mut updater = Updater::new(Limits::default());
     updater.add(LatticeRect { min: LatticePoint::new(0, 0), max: mesh.lattice().extent() });
     let square = mesh.lattice().rect_around(&Rect::around(at, 0.1)).unwrap();
-    let mut exceeds = |element: &Element| {
-        let level = element.triangle.level();
-        level < if square.touches(element.corners) { 11 } else { 7 }
-    };
-    while updater.advance(mesh, &mut exceeds, usize::MAX).unwrap() == Progress::More {}
+    let exceeds =
+        |corners: [LatticePoint; 3], level: u32| level < if square.touches(corners) { 11 } else { 7 };
+    while updater.advance(mesh, &|| exceeds, usize::MAX).unwrap() == Progress::More {}
     differences(&before, mesh)
 }
 

@@ -26,6 +26,8 @@ const TASK_VISITS: usize = 2048;
 const TASKS: usize = 64;
 /// The most subtrees of a task.
 const MOST_SUBTREES: usize = 64;
+/// The most triangles of the first task.
+const MOST_AT_FIRST: usize = 4096;
 /// The most tasks between two looks at the limits, unless the threads need more.
 const MOST_TASKS: usize = 1024;
 /// The fewest tasks of a slice for each thread: with one task for each, all threads would wait for the
@@ -130,7 +132,10 @@ impl Survey {
         }
         let at_least = TASKS_PER_THREAD * rayon::current_num_threads();
         let tasks = (visits / TASK_VISITS).min(MOST_TASKS).max(at_least);
-        let size = (self.round.len() / TASKS).clamp(1, MOST_SUBTREES);
+        let size = match self.is_first_round() {
+            true => self.round.len().min(MOST_AT_FIRST),
+            false => (self.round.len() / TASKS).clamp(1, MOST_SUBTREES),
+        };
         let end = (self.next + tasks * size).min(self.round.len());
         let subtrees = self.round[self.next..end].par_chunks(size).with_max_len(1);
         let found: Vec<_> =
@@ -149,6 +154,12 @@ impl Survey {
         }
         let is_done = self.next == self.round.len() && self.open.is_empty();
         Ok(if is_done { Progress::Done } else { Progress::More })
+    }
+
+    /// Returns whether nothing is known yet. Then one task asks about all triangles: small meshes are done
+    /// before another thread could wake.
+    fn is_first_round(&self) -> bool {
+        self.next == 0 && self.triangles == 0 && self.slots.len() == self.round.len()
     }
 
     /// Takes what the task has found whose first subtree is this one of the round.
