@@ -9,8 +9,8 @@
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::window::{MESH_SLICE, wave};
-use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
+use meshbrush_benches::window::{Slices, wave};
+use meshbrush_core::document::{Document, Follower, MeshChange, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
@@ -118,7 +118,7 @@ impl Scene {
 
 /// Follows a document to rest, and returns what changed.
 fn follow(document: &mut Document, follower: &mut Follower) -> Option<Changes> {
-    while follower.advance(document, MESH_SLICE).expect("the budget is far") != Stage::InStep {}
+    Slices::default().follow(document, follower);
     match follower.take_change()? {
         MeshChange::Within(changes) => Some(changes),
         MeshChange::Replaced => unreachable!("paint changes the mesh where it is"),
