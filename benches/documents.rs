@@ -41,6 +41,7 @@ pub fn painted(level: u8, rows: u32) -> Document {
         layers: Layer::stack([LayerKind::Paint(Quantity::Diameter)]),
         gradation: None,
         max_memory: MEMORY,
+        max_triangles: TRIANGLES,
         ..Settings::default()
     };
     Document::new(settings, Some(paint)).expect("valid settings")
@@ -48,6 +49,7 @@ pub fn painted(level: u8, rows: u32) -> Document {
 
 /// Enough for the largest mesh.
 const MEMORY: usize = 12_000_000_000;
+const TRIANGLES: usize = 100_000_000;
 
 /// Returns the diameter of triangles of a level, with the coarse spacing of [`painted`].
 pub fn diameter(level: u8) -> f64 {
@@ -78,8 +80,13 @@ fn set(raster: &mut TiledRaster, area: PixelRect, level: u8) {
 /// Returns a document with eight layers on the unit square; `fine` decides the size of the mesh, 0.0011 for two
 /// million triangles.
 pub fn layered(fine: f64, gradation: Option<f64>) -> Document {
-    let mut settings =
-        Settings { layers: layers(fine), gradation, max_memory: MEMORY, ..Settings::default() };
+    let mut settings = Settings {
+        layers: layers(fine),
+        gradation,
+        max_memory: MEMORY,
+        max_triangles: TRIANGLES,
+        ..Settings::default()
+    };
     (settings.transfer.h_min, settings.transfer.h_risk) = (fine, fine);
     Document::new(settings, None).expect("valid settings")
 }
