@@ -78,7 +78,7 @@ fn the_mesh_does_not_depend_on_the_number_of_threads() {
     let pools = [1, 2, 3, 8]
         .map(|threads| (threads, rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()));
     let (mut equal, mut all) = (0, 0);
-    for seed in seeds(4) {
+    for seed in seeds(2) {
         let [(_, alone), others @ ..] = &pools;
         let expected = alone.install(|| edit(seed, SMALL, &mut Seen::default()));
         for (threads, pool) in others {
@@ -93,7 +93,7 @@ fn the_mesh_does_not_depend_on_the_number_of_threads() {
         }
     }
     eprintln!("{equal} of {all} meshes compared");
-    assert!(equal > 30 && 10 * equal > 9 * all, "{equal} of {all}");
+    assert!(equal > 15 && 10 * equal > 9 * all, "{equal} of {all}");
 }
 
 fn run(scale: Scale, usual: u64) {
