@@ -292,7 +292,7 @@ impl Refinement {
         let criterion = RefinementCriterion::new(domain, field, *rule, paint);
         match &mut self.refiner {
             RefinerByRule::Area(refiner, known) => refiner
-                .advance(mesh, &criterion.shared_with(known), budget)
+                .advance(mesh, &criterion.shared_with(known, field.questions_per_thread()), budget)
                 .map_err(|error| error.map_rule(|never| match never {})),
             RefinerByRule::Vertex(refiner, vertex_rule) => {
                 let mut criterion = criterion.resumed(std::mem::take(vertex_rule));

@@ -71,13 +71,18 @@ impl<'a> RefinementCriterion<'a> {
 
     /// Returns the area rule in a form that several threads can share.
     pub fn shared(&self) -> impl SharedRule<Error = Infallible> {
-        SharedArea { criterion: self, known: SettledPool::default() }
+        let questions_per_thread = self.field.questions_per_thread();
+        SharedArea { criterion: self, known: SettledPool::default(), questions_per_thread }
     }
 
     /// Returns the area rule as [`Self::shared`] does. `known` keeps what the threads find out: it must have
-    /// been used for this field and these pixels only.
-    pub(crate) fn shared_with<'b>(&'b self, known: &'b SettledPool) -> impl SharedRule<Error = Infallible> {
-        SharedArea { criterion: self, known }
+    /// been used for this field and these pixels only. So many questions are worth another thread.
+    pub(crate) fn shared_with<'b>(
+        &'b self,
+        known: &'b SettledPool,
+        questions_per_thread: usize,
+    ) -> impl SharedRule<Error = Infallible> {
+        SharedArea { criterion: self, known, questions_per_thread }
     }
 
     /// Returns whether a triangle, by its corners and level, exceeds its target by the area rule.
@@ -134,6 +139,7 @@ impl<'a> RefinementCriterion<'a> {
 struct SharedArea<'a, K> {
     criterion: &'a RefinementCriterion<'a>,
     known: K,
+    questions_per_thread: usize,
 }
 
 impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
@@ -145,7 +151,7 @@ impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
     }
 
     fn questions_per_thread(&self) -> usize {
-        self.criterion.field.questions_per_thread()
+        self.questions_per_thread
     }
 }
 

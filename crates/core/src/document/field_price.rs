@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::pace::questions_per_thread;
 use super::pricer::{Price, price_of};
 use super::{Document, Follower, Settings};
 use crate::build::RefinementCriterion;
@@ -36,7 +37,7 @@ impl FieldPrice {
         let domain = follower.domain();
         let criterion = RefinementCriterion::by_area(domain, &self.field, document.paint());
         let is_in_domain = |corners, _| !domain.excludes_at(corners);
-        let rule = criterion.shared_with(&self.known);
+        let rule = criterion.shared_with(&self.known, questions_per_thread(visits, &self.field));
         let progress = self.forecast.advance(follower.mesh(), &rule, is_in_domain, visits);
         price_of(progress, &self.forecast)
     }

@@ -1,5 +1,7 @@
 //! How much work fits into a slice.
 
+use crate::layers::SizeField;
+
 /// Chooses the number of triangles of a slice by the time that the slices before took: between half a
 /// millisecond and two.
 ///
@@ -33,6 +35,13 @@ impl Pace {
             self.visits = ((self.visits as f64 * share) as usize).max(*Self::VISITS.start());
         }
     }
+}
+
+/// Returns how many questions to a field are worth another thread in a slice of so many triangles. Where the
+/// pace has shortened the slices, that is an eighth of one: about the eighth of a millisecond.
+pub(super) fn questions_per_thread(visits: usize, field: &SizeField) -> usize {
+    let of_field = field.questions_per_thread();
+    if visits < *Pace::VISITS.end() { of_field.min(visits / 8) } else { of_field }
 }
 
 impl Default for Pace {

@@ -1,7 +1,8 @@
+use super::pace::questions_per_thread;
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::field::RefinementRule;
-use crate::geometry::{LatticeRect, Rect};
+use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SettledSquares, SizeField};
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Preview, Repaint, StrokePlan};
@@ -181,7 +182,7 @@ fn paint_more(
         .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
         .collect();
     let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
-    match affected.into_iter().map(|area| area.rect).reduce(|a, b| union(&a, &b)) {
+    match affected.into_iter().map(|area| area.rect).reduce(|a, b| a.union(&b)) {
         None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
             Work::Known(Price::Nothing(NoChange::OutsideField))
         }
@@ -199,20 +200,14 @@ fn meets(area: &Rect, field: &SizeField) -> bool {
     area.intersection(&field.lattice().bounds()).is_some()
 }
 
-fn union(a: &LatticeRect, b: &LatticeRect) -> LatticeRect {
-    use crate::geometry::LatticePoint;
-    LatticeRect {
-        min: LatticePoint::new(a.min.x.min(b.min.x), a.min.y.min(b.min.y)),
-        max: LatticePoint::new(a.max.x.max(b.max.x), a.max.y.max(b.max.y)),
-    }
-}
-
 fn count_more(mut counting: Box<Counting>, question: Question, follower: &Follower, budget: usize) -> Work {
     let Counting { forecast, paint, known } = &mut *counting;
     let domain = follower.domain();
     let criterion = RefinementCriterion::by_area(domain, follower.field(), paint);
     let is_in_domain = |corners, _| !domain.excludes_at(corners);
-    let progress = forecast.advance(follower.mesh(), &criterion.shared_with(known), is_in_domain, budget);
+    let fewest = questions_per_thread(budget, follower.field());
+    let progress =
+        forecast.advance(follower.mesh(), &criterion.shared_with(known, fewest), is_in_domain, budget);
     match price_of(progress, forecast) {
         None => Work::Counting(counting),
         Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {

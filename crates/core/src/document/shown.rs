@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::change::Change;
 use super::following::{Followed, Following};
+use super::pace::questions_per_thread;
 use super::pending::Pending;
 use super::rebuild::Rebuild;
 use super::{Document, Settings};
@@ -53,26 +54,31 @@ const SAMPLE: usize = 256;
 /// parent back takes about so many times as long as to write a triangle of a block.
 const DEARER: usize = 8;
 
-/// Returns whether an update of a mesh in some areas would take longer than another mesh, by a sample of the
-/// triangles that would be bisected or removed.
+/// Returns whether an update of a mesh in some areas would take longer than another mesh, by a sample of its
+/// triangles: where about as many questions would be asked as the mesh has triangles, or many triangles
+/// bisected or removed. Questions about another mesh are fewer, as most answers are for many triangles.
 fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
     let rule = criterion.shared();
     let mut answers = rule.answers();
     let mut exceeds = |corners, level| answers.exceeds(corners, level).unwrap_or(false);
-    let mut changes = |triangle: TreeTriangle| {
+    let count = mesh.raw_triangle_count();
+    let (mut asked, mut loose, mut changed) = (0, 0, 0);
+    for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
+        let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
         let concerned = areas.iter().filter(|area| area.rect.touches(corners));
         let [asks, loosens] = concerned
             .map(|area| area.concerns(mesh, corners, level))
             .fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]]);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
-        (asks && exceeds(corners, level))
-            || parent.is_some_and(|parent| !exceeds(parent.corners(), parent.level()))
-    };
-    let count = mesh.raw_triangle_count();
-    let sampled = (0..count).step_by(count.div_ceil(SAMPLE).max(1)).map(TriangleId::from_index);
-    let changed = sampled.filter(|&id| changes(TreeTriangle::of(mesh, id))).count();
-    DEARER * changed > SAMPLE
+        asked += usize::from(asks);
+        loose += usize::from(loosens);
+        changed += usize::from(
+            (asks && exceeds(corners, level))
+                || parent.is_some_and(|parent| !exceeds(parent.corners(), parent.level())),
+        );
+    }
+    2 * asked + loose > SAMPLE || DEARER * changed > SAMPLE
 }
 
 impl Shown {
@@ -231,7 +237,8 @@ impl Shown {
         let mesh = Arc::get_mut(mesh).expect("it is not shared, see above");
         let (field, known) = pending.field(field);
         let criterion = RefinementCriterion::by_area(domain, field, paint);
-        let result = updater.advance(mesh, &criterion.shared_with(known), budget);
+        let rule = criterion.shared_with(known, questions_per_thread(budget, field));
+        let result = updater.advance(mesh, &rule, budget);
         result.map(|_| ()).map_err(|error| error.map_rule(|never| match never {}))
     }
 

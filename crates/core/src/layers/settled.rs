@@ -109,12 +109,13 @@ impl Clone for SettledPool {
 }
 
 impl SizeField {
-    /// Returns how many questions to the field are worth another thread: with gradation or formulas, a few.
+    /// Returns how many questions to the field are worth another thread, as far as its kind says that: with
+    /// gradation or formulas, a few.
     pub(crate) fn questions_per_thread(&self) -> usize {
         match self.spec().gradation {
             Some(_) => 16,
-            None if self.compiled().iter().all(CompiledLayer::has_pixels) => 1024,
-            None => 128,
+            None if self.compiled().iter().all(CompiledLayer::has_pixels) => 8192,
+            None => 512,
         }
     }
 

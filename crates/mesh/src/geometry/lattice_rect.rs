@@ -11,6 +11,21 @@ pub struct LatticeRect {
 }
 
 impl LatticeRect {
+    /// Returns the smallest rectangle that contains both.
+    pub fn union(&self, other: &Self) -> Self {
+        let ([a, b], [c, d]) = ([self.min, self.max], [other.min, other.max]);
+        Self {
+            min: LatticePoint::new(a.x.min(c.x), a.y.min(c.y)),
+            max: LatticePoint::new(b.x.max(d.x), b.y.max(d.y)),
+        }
+    }
+
+    /// Returns whether the rectangles have a point in common.
+    pub fn meets(&self, other: &Self) -> bool {
+        let ([a, b], [c, d]) = ([self.min, self.max], [other.min, other.max]);
+        a.x <= d.x && c.x <= b.x && a.y <= d.y && c.y <= b.y
+    }
+
     /// This rectangle with every side moved outwards by `steps`, as far as the lattice goes.
     pub fn expanded(&self, steps: u32, extent: LatticePoint) -> Self {
         let Self { min, max } = *self;

@@ -49,7 +49,7 @@ use coarse::CoarseIndex;
 pub(in crate::mesh) use bitset::Bitset;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::{append_pieces, make_room};
-pub(in crate::mesh) use questions::{Questions, ask_all};
+pub(in crate::mesh) use questions::{Questions, any_exceeds, ask_all};
 pub(in crate::mesh) use search::RectSearch;
 pub(in crate::mesh) use triangle::Kind;
 pub(in crate::mesh) use walk::WalkEnd;

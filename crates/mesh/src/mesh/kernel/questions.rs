@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use super::{RuleAnswers, SharedRule};
+use crate::geometry::LatticePoint;
 
 /// Tasks for each thread: with one task each, all threads would wait for the slowest one.
 const TASKS_PER_THREAD: usize = 4;
@@ -37,4 +38,20 @@ pub(in crate::mesh) fn ask_all<Q: Questions, R: SharedRule>(
     let size = questions.len().div_ceil(TASKS_PER_THREAD * threads).max(fewest / 2);
     // The first error, whichever thread is the first to meet one.
     questions.par_chunks_mut(size).map(ask).collect::<Vec<_>>().into_iter().collect()
+}
+
+/// Returns whether one of some triangles, given by their corners and levels, exceeds its target. Those at the
+/// cap or finer do not.
+#[inline]
+pub(in crate::mesh) fn any_exceeds<A: RuleAnswers>(
+    answers: &mut A,
+    level_cap: u32,
+    triangles: impl IntoIterator<Item = ([LatticePoint; 3], u32)>,
+) -> Result<bool, A::Error> {
+    for (corners, level) in triangles {
+        if level < level_cap && answers.exceeds(corners, level)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }

@@ -21,7 +21,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
     Bitset, LevelsWithin, Limits, Mesh, Progress, Questions, RectSearch, RefineError, RuleAnswers,
-    SharedRule, TreeTriangle, TriangleId, WalkEnd, ask_all,
+    SharedRule, TreeTriangle, TriangleId, WalkEnd, any_exceeds, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -110,8 +110,8 @@ impl Questions for OfTree {
     #[inline]
     fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
         let (corners, level) = (asked.triangle.corners(), asked.triangle.level());
-        if level < self.level_cap && asked.known.exceeds(level).is_none() {
-            asked.known = asked.known.and(answers.levels_within(corners, level)?);
+        if level < self.level_cap {
+            asked.known = asked.known.or_ask(level, || answers.levels_within(corners, level))?;
         }
         Ok(())
     }
@@ -144,11 +144,8 @@ impl Questions for OfParents {
 
     #[inline]
     fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
-        for parent in loose.parents.iter().flatten() {
-            let level = parent.level();
-            loose.is_needed =
-                loose.is_needed || (level < self.level_cap && answers.exceeds(parent.corners(), level)?);
-        }
+        let parents = loose.parents.iter().flatten().map(|parent| (parent.corners(), parent.level()));
+        loose.is_needed = any_exceeds(answers, self.level_cap, parents)?;
         Ok(())
     }
 }

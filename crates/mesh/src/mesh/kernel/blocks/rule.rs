@@ -12,8 +12,8 @@ pub trait SharedRule: Sync {
     /// Returns the answers for one thread, which may keep what helps with the next triangles nearby.
     fn answers(&self) -> impl RuleAnswers<Error = Self::Error>;
 
-    /// Returns how many questions are worth another thread: they should take longer than the hundredth of a
-    /// millisecond in which it wakes.
+    /// Returns how many questions are worth another thread: they should take longer than the tenth of a
+    /// millisecond in which it wakes and works.
     fn questions_per_thread(&self) -> usize {
         1024
     }
@@ -100,6 +100,20 @@ impl LevelsWithin {
         match self.exceeds(level) {
             Some(_) => self,
             None => self.and(Self::of_one(level, exceeds())),
+        }
+    }
+
+    /// Returns these answers if that for a triangle of `level` itself is among them, else those that `ask`
+    /// adds.
+    #[inline]
+    pub(in crate::mesh) fn or_ask<E>(
+        self,
+        level: u32,
+        ask: impl FnOnce() -> Result<Self, E>,
+    ) -> Result<Self, E> {
+        match self.exceeds(level) {
+            Some(_) => Ok(self),
+            None => Ok(self.and(ask()?)),
         }
     }
 

@@ -296,10 +296,7 @@ impl<A: RuleAnswers> Task<A> {
     /// before.
     #[inline]
     fn ask(&mut self, triangle: &Subtree, known: LevelsWithin) -> Result<LevelsWithin, A::Error> {
-        Ok(match known.exceeds(triangle.level) {
-            Some(_) => known,
-            None => known.and(self.answers.levels_within(triangle.corners, triangle.level)?),
-        })
+        known.or_ask(triangle.level, || self.answers.levels_within(triangle.corners, triangle.level))
     }
 
     /// Returns whether a triangle exceeds its target and may be bisected.

@@ -10,16 +10,17 @@
 //!
 //! # What is done
 //!
-//! Three kinds of work for one changed rectangle after the other: *search* for the triangles that touch it;
-//! *refine* those that exceed their target, until none does; *coarsen*: remove nodes that are no longer
-//! needed, until there is none. A large rectangle is searched in parts, and each part is refined and
-//! coarsened before the next one: the mesh begins to follow at once.
+//! Three kinds of work: *search* for the triangles that touch a changed rectangle; *refine* those that exceed
+//! their target, until none does; *coarsen*: remove nodes that are no longer needed, until there is none.
+//! Rectangles that touch are all searched before the mesh changes: afterwards there may be a hundred times
+//! as many triangles in both. Others wait until the mesh has changed, and a large rectangle is searched in
+//! parts, of which each is refined and coarsened before the next one: the mesh begins to follow at once.
 //!
 //! Each kind of work is done in batches: one thread collects triangles, all threads ask the rule about them,
 //! and one thread changes the mesh.
 //!
 //! ```text
-//!   search     collect triangles    ask: can it exceed its target?      mark
+//!   search     collect triangles    ask: does it exceed its target?     mark
 //!   refine     take marked ones     ask: does it, and those within it?  bisect, and mark the children
 //!   coarsen    take marked stars    ask: does a parent exceed?          put the parents back, and mark them
 //!              one thread           all threads                         one thread
@@ -104,8 +105,8 @@ const BATCH: usize = 4096;
 /// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made
 /// from scratch, up to the order of its entries. The minimum of a target over the closed triangle is such a
 /// rule; the report's Eq. (12), the minimum over the vertices, is not. Time and memory go with the triangles
-/// that touch the changed rectangles, and those that change, and not with the mesh. The mesh is conforming
-/// after every slice.
+/// that touch the changed rectangles, and those that change, and not with the mesh; only for a rectangle that
+/// covers an eighth of the lattice, all triangles are looked at. The mesh is conforming after every slice.
 ///
 /// ```
 /// use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
@@ -141,12 +142,16 @@ pub struct Updater {
     areas: Vec<Area>,
     /// The search under way.
     search: Option<Search>,
+    /// The hull of the rectangles that were searched since the mesh had no marks.
+    searched: Option<LatticeRect>,
     /// Triangles found by a search from neighbour to neighbour; otherwise empty.
     reached: Bitset,
     /// Triangles that may exceed their target.
     exceeding: Bitset,
     /// The same as a list, unless it is empty: the last ones are asked about first.
     open: Vec<Open>,
+    /// So many entries of the list have answers of a former rule.
+    outdated: usize,
     /// What is known of the triangles in this list.
     known: KnownLevels,
     /// Triangles whose newest vertex may have become free to go.
@@ -180,9 +185,11 @@ impl Updater {
             limits,
             areas: Vec::new(),
             search: None,
+            searched: None,
             reached: Bitset::default(),
             exceeding: Bitset::default(),
             open: Vec::new(),
+            outdated: 0,
             known: KnownLevels::EMPTY,
             loose: Bitset::default(),
             is_short: false,
@@ -230,12 +237,13 @@ impl Updater {
     /// Empties the list of marked triangles; the marks stay.
     fn forget(&mut self) {
         self.open.clear();
+        self.outdated = 0;
         self.known.clear();
     }
 
     fn push(&mut self, area: Area) {
-        // What is known of marked triangles was the answer of the former rule.
-        self.forget();
+        self.outdated = self.open.len();
+        self.known.clear();
         self.areas.push(area);
     }
 
@@ -249,9 +257,15 @@ impl Updater {
         self.search.is_some() || !self.areas.is_empty()
     }
 
+    /// Returns the place of a rectangle that touches those searched since the mesh had no marks.
+    fn area_beside(&self) -> Option<usize> {
+        let searched = self.searched.filter(|_| self.search.is_none())?;
+        self.areas.iter().rposition(|area| area.changed.rect.meets(&searched))
+    }
+
     fn next_work(&self) -> Work {
         let is_flooding = matches!(self.search, Some(Search { way: Way::Flood(_), .. }));
-        if is_flooding || (self.is_short && self.has_areas()) {
+        if is_flooding || (self.is_short && self.has_areas()) || self.area_beside().is_some() {
             Work::Search
         } else if self.is_short && self.loose.count() > 0 {
             Work::Coarsen
@@ -271,7 +285,7 @@ impl Updater {
     pub fn cancel(&mut self) {
         self.areas.clear();
         self.forget();
-        (self.search, self.is_short) = (None, false);
+        (self.search, self.searched, self.is_short) = (None, None, false);
         for marks in [&mut self.reached, &mut self.exceeding, &mut self.loose] {
             marks.clear();
         }

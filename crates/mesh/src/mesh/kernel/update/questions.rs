@@ -1,46 +1,28 @@
 //! What updates ask a rule.
 
-use super::area::ChangedArea;
 use crate::mesh::kernel::coarsen::Star;
-use crate::mesh::kernel::{LevelsWithin, Mesh, Questions, RuleAnswers, TriangleId};
+use crate::mesh::kernel::{LevelsWithin, Mesh, Questions, RuleAnswers, Triangle, TriangleId, any_exceeds};
 
-/// A triangle that a search has found, or that may touch its area.
+/// A triangle that a search has found, and that a change can have made exceed its target.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     pub(super) id: TriangleId,
-    /// Whether it touches the area.
-    pub(super) touches: bool,
-    /// Whether it exceeds its target, which the change can have caused.
+    /// Whether it exceeds its target.
     pub(super) exceeds: bool,
-    /// Whether its newest vertex can have become free to go.
-    pub(super) is_loose: bool,
 }
 
-impl Found {
-    pub(super) fn new(id: TriangleId) -> Self {
-        Self { id, touches: false, exceeds: false, is_loose: false }
-    }
-}
-
-/// Asks what a change in an area can have done to triangles.
-pub(super) struct InArea<'a> {
+/// Asks whether entries of the mesh exceed their targets: most do not.
+pub(super) struct OfEntries<'a> {
     pub(super) mesh: &'a Mesh,
-    pub(super) area: &'a ChangedArea,
-    pub(super) level_cap: u32,
 }
 
-impl Questions for InArea<'_> {
+impl Questions for OfEntries<'_> {
     type Question = Found;
 
     #[inline]
     fn ask<A: RuleAnswers>(&self, found: &mut Found, answers: &mut A) -> Result<(), A::Error> {
         let (corners, level) = (self.mesh.corners(found.id), self.mesh.triangle(found.id).level());
-        found.touches = self.area.rect.touches(corners);
-        if found.touches {
-            let [asks, loosens] = self.area.concerns(self.mesh, corners, level);
-            found.exceeds = asks && level < self.level_cap && answers.exceeds(corners, level)?;
-            found.is_loose = loosens;
-        }
+        found.exceeds = answers.exceeds(corners, level)?;
         Ok(())
     }
 }
@@ -66,8 +48,8 @@ impl Questions for Within<'_> {
     #[inline]
     fn ask<A: RuleAnswers>(&self, open: &mut Open, answers: &mut A) -> Result<(), A::Error> {
         let &mut Open { id, level, known } = open;
-        if self.mesh.triangle(id).level() == level && known.exceeds(level).is_none() {
-            open.known = known.and(answers.levels_within(self.mesh.corners(id), level)?);
+        if self.mesh.triangle(id).level() == level {
+            open.known = known.or_ask(level, || answers.levels_within(self.mesh.corners(id), level))?;
         }
         Ok(())
     }
@@ -92,12 +74,10 @@ impl Questions for OfParents<'_> {
 
     #[inline]
     fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
-        for parent in self.mesh.parents(&loose.star).iter().flatten() {
-            let corners = parent.vertices.map(|node| self.mesh.node(node));
-            let level = parent.level();
-            loose.is_needed =
-                loose.is_needed || (level < self.level_cap && answers.exceeds(corners, level)?);
-        }
+        let parents = self.mesh.parents(&loose.star);
+        let of_parent =
+            |parent: &Triangle| (parent.vertices.map(|node| self.mesh.node(node)), parent.level());
+        loose.is_needed = any_exceeds(answers, self.level_cap, parents.iter().flatten().map(of_parent))?;
         Ok(())
     }
 }

@@ -19,7 +19,10 @@ impl Updater {
         }
         let from = self.open.len().saturating_sub(most);
         let mut batch = std::mem::take(&mut self.batch);
+        let outdated = self.outdated.saturating_sub(from);
+        self.outdated -= outdated;
         batch.extend(self.open.drain(from..));
+        batch[..outdated].iter_mut().for_each(|open| open.known = LevelsWithin::UNKNOWN);
         let asked = ask_all(&Within { mesh }, &mut batch, rule).map_err(RefineError::Rule);
         batch.iter().for_each(|open| self.known.set(open.id, open.known));
         let mut done = 0;
