@@ -71,33 +71,31 @@ impl SizeField {
         Self { lattice: *lattice, lengths, square_bits, layers, spec }
     }
 
-    /// Returns the field of some layers alone.
+    /// Returns the field of some layers without the others that ask for smaller diameters.
     ///
     /// Let nothing have changed since a triangle met its target, except that these layers ask for smaller
-    /// diameters in places. Then the triangle exceeds its target exactly if it exceeds that of these layers
-    /// alone: h̄ is the minimum of what they ask for and of the rest, which the triangle meets.
+    /// diameters in places. Then the triangle exceeds its target exactly if it exceeds that of this field: h̄
+    /// is the minimum of what they ask for and of the rest, which the triangle meets. Floors and replacements
+    /// above them change what they ask for, and stay.
     ///
-    /// `None` where that is not so: a floor or a replacement changes what one of them asks for, or one of
-    /// them is not visible.
+    /// `None` where that is not so: one of them is not visible, or a floor or a replacement itself.
     pub fn of_layers_alone(&self, ids: &[LayerId]) -> Option<Self> {
         let is_one = |layer: &CompiledLayer| ids.contains(&layer.id);
         let first = self.layers.iter().position(is_one)?;
-        let above = &self.layers[first..];
-        let decide = above.iter().all(CompiledLayer::is_plain)
-            && above.iter().filter(|layer| is_one(layer)).count() == ids.len();
-        if !decide || !self.spec.is_ordered(self.longest()) {
+        let ones = self.layers.iter().filter(|layer| is_one(layer) && layer.is_plain());
+        if ones.count() < ids.len() || !self.spec.is_ordered(self.longest()) {
             return None;
         }
-        let SizeFieldSpec { layers, transfer, unasked, outline, gradation } = &self.spec;
-        let layers = layers.iter().filter(|layer| ids.contains(&layer.id)).cloned().collect();
-        let (outline, transfer) = (outline.clone(), *transfer);
-        Some(Self {
-            spec: SizeFieldSpec { layers, transfer, unasked: *unasked, outline, gradation: *gradation },
-            lattice: self.lattice,
-            lengths: self.lengths.clone(),
-            square_bits: self.square_bits.clone(),
-            layers: above.iter().filter(|layer| is_one(layer)).cloned().collect(),
-        })
+        let kept = self.layers[first..].iter().filter(|layer| is_one(layer) || !layer.is_plain());
+        let layers: Vec<CompiledLayer> = kept.cloned().collect();
+        let is_kept = |layer: &&Layer| layers.iter().any(|kept| kept.id == layer.id);
+        let spec = SizeFieldSpec {
+            layers: self.spec.layers.iter().filter(is_kept).cloned().collect(),
+            outline: self.spec.outline.clone(),
+            ..self.spec
+        };
+        let (lengths, square_bits) = (self.lengths.clone(), self.square_bits.clone());
+        Some(Self { lattice: self.lattice, lengths, square_bits, layers, spec })
     }
 
     /// Returns this field without models of its functions: searches use bounds only.

@@ -186,8 +186,7 @@ fn limits_that_change_most_of_a_large_mesh_make_another_one() {
     let count = follower.mesh().raw_triangle_count();
     assert!(count > 250_000, "{count}");
     follower.take_change();
-    // The last one concerns the whole mesh, and changes only what is painted.
-    for (h_min, is_replaced) in [(0.012, true), (0.003, false), (0.0028, false)] {
+    for (h_min, is_replaced) in [(0.012, true), (0.003, false), (0.0028, true)] {
         document.set(Setting::SmallestDiameter(h_min)).unwrap();
         document.end_gesture();
         let before = follower.mesh().fingerprint();
@@ -321,8 +320,8 @@ fn layers_as_small_as_the_squares_of_functions_leave_nothing_behind() {
     }
 }
 
-/// Paint that asks for more is followed by questions about the painted layers alone. A floor above one of
-/// them changes what it asks for, also while the mesh still follows paint on another one.
+/// Paint that asks for more is followed by questions about the painted layers, and the floors above them,
+/// which change what they ask for; also while the mesh still follows paint on another layer.
 #[test]
 fn paint_below_a_floor_is_followed_as_the_whole_stack_asks() {
     let mut layers = Layer::stack([
