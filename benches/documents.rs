@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::field::Transfer;
@@ -75,6 +75,21 @@ fn set(raster: &mut TiledRaster, area: PixelRect, level: u8) {
             }
         });
     }
+}
+
+/// Returns the outlines of a lake and of its island on the unit square: 200,000 corners, most of them closer to
+/// each other than the triangles of a mesh of two million.
+pub fn lake() -> Vec<Vec<Vec<DVec2>>> {
+    const CORNERS: u32 = 100_000;
+    let ring = |radius: f64| -> Vec<DVec2> {
+        let corner = |k: u32| {
+            let angle = f64::from(k) / f64::from(CORNERS) * std::f64::consts::TAU;
+            let bays = 0.01 * (99.0 * angle).sin() + 0.0005 * (4999.0 * angle).sin();
+            dvec2(0.5, 0.5) + (radius + bays) * DVec2::from_angle(angle)
+        };
+        (0..CORNERS).map(corner).collect()
+    };
+    vec![vec![ring(0.48), ring(0.25)]]
 }
 
 /// Returns a document with eight layers on the unit square; `fine` decides the size of the mesh, 0.0011 for two

@@ -21,6 +21,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
+use meshbrush_benches::documents;
 use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, Slices, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
@@ -65,17 +66,7 @@ fn square() -> Document {
 
 /// Returns a document with the field in a lake with an island, with nodes on both outlines.
 fn lake() -> Document {
-    const CORNERS: u32 = 100_000;
-    let ring = |radius: f64| -> Vec<DVec2> {
-        let corner = |k: u32| {
-            let angle = f64::from(k) / f64::from(CORNERS) * std::f64::consts::TAU;
-            let bays = 0.01 * (99.0 * angle).sin() + 0.0005 * (4999.0 * angle).sin();
-            dvec2(0.5, 0.5) + (radius + bays) * DVec2::from_angle(angle)
-        };
-        (0..CORNERS).map(corner).collect()
-    };
-    let polygons = [vec![ring(0.48), ring(0.25)]];
-    let domain = Domain::of_polygons(&polygons).expect("two rings");
+    let domain = Domain::of_polygons(&documents::lake()).expect("two rings");
     let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };
     let settings = Settings { domain, boundary, ..settings(0.65) };
     Document::new(settings, None).expect("valid settings")

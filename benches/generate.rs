@@ -5,7 +5,7 @@
 //! - *asked*: as *blocks*, but the rule is asked about each triangle.
 //! - *field*: in blocks by the area rule on the pixels of a raster, as the window works.
 //! - *graded*: as *field*, where the target diameter changes everywhere; the number of triangles is another.
-//! - *writes*: 40 bytes for each triangle and nothing else: what the memory of this machine permits.
+//! - *writes*: 38 bytes for each triangle and nothing else: what the memory of this machine permits.
 //!
 //! *fresh* builds in newly allocated memory, as a first mesh does; mapping its pages takes a third of the
 //! time or more. *reused* builds into the arrays of the previous mesh. The time to drop a mesh is not
@@ -16,11 +16,10 @@ use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use meshbrush_benches::{diamond, field};
+use meshbrush_benches::{diamond, field, memory};
 use meshbrush_core::layers::SizeField;
 use meshbrush_mesh::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 use rayon::ThreadPool;
-use rayon::prelude::*;
 
 /// Level, and the number of triangles there.
 const SERIES: [(u32, u64); 7] = [
@@ -32,8 +31,6 @@ const SERIES: [(u32, u64); 7] = [
     (15, 8_421_800),
     (17, 33_620_408),
 ];
-/// Bytes of a triangle and its share of the nodes.
-const BYTES: u64 = 40;
 
 /// Measures `make` in new memory and in the memory of the mesh before.
 fn measure(
@@ -84,13 +81,10 @@ fn graded_triangles(field: &SizeField) -> u64 {
 /// First writes to memory, and writes to memory that is mapped, each by all threads of the pool.
 fn writes(group: &mut BenchmarkGroup<WallTime>, pool: &ThreadPool, triangles: u64) {
     let threads = pool.current_num_threads();
-    let words = (triangles * BYTES / 8) as usize;
-    let write = |memory: &mut Vec<u64>| {
-        let part = words.div_ceil(threads);
-        pool.install(|| memory.par_chunks_mut(part).for_each(|part| part.fill(black_box(7))));
-    };
+    let unmapped = || memory::unmapped(triangles as usize);
+    let write = |memory: &mut Vec<u64>| pool.install(|| memory::write(memory));
     group.bench_function(BenchmarkId::new(format!("writes, {threads} threads, reused"), triangles), |b| {
-        let mut memory = vec![0; words];
+        let mut memory = unmapped();
         write(&mut memory);
         b.iter(|| write(&mut memory));
     });
@@ -98,8 +92,7 @@ fn writes(group: &mut BenchmarkGroup<WallTime>, pool: &ThreadPool, triangles: u6
         b.iter_custom(|rounds| {
             let fresh = |_| {
                 let start = Instant::now();
-                // Zeros are mapped when they are written.
-                let mut memory = vec![0; words];
+                let mut memory = unmapped();
                 write(&mut memory);
                 let time = start.elapsed();
                 black_box(memory);

@@ -3,5 +3,7 @@
 pub mod diamond;
 pub mod documents;
 pub mod field;
+pub mod memory;
+pub mod scene;
 pub mod risks;
 pub mod window;

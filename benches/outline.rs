@@ -9,6 +9,7 @@
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
+use meshbrush_benches::documents::lake;
 use meshbrush_benches::window::{Slices, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
@@ -49,16 +50,7 @@ impl Scene {
 
     /// The lake with an island of the bench *frame*.
     fn lake() -> Self {
-        const CORNERS: u32 = 100_000;
-        let ring = |radius: f64| -> Vec<DVec2> {
-            let corner = |k: u32| {
-                let angle = f64::from(k) / f64::from(CORNERS) * std::f64::consts::TAU;
-                let bays = 0.01 * (99.0 * angle).sin() + 0.0005 * (4999.0 * angle).sin();
-                dvec2(0.5, 0.5) + (radius + bays) * DVec2::from_angle(angle)
-            };
-            (0..CORNERS).map(corner).collect()
-        };
-        Self::new("lake", &[vec![ring(0.48), ring(0.25)]], 0.0011, wave(0.65, 0.0011), 0.48)
+        Self::new("lake", &lake(), 0.0011, wave(0.65, 0.0011), 0.48)
     }
 
     /// A line whose edges are halved and bent fourteen times.

@@ -12,17 +12,13 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use glam::{DVec2, dvec2};
-use meshbrush_benches::documents::{SIDE, THREATS, diameter, layered, moved_threat, painted};
-use meshbrush_benches::window::{BRUSH, FRAME_BUDGET, Pool, Slices, median_ms, pools};
-use meshbrush_benches::{diamond, field};
-use meshbrush_core::document::{Document, Follower, Pricer, Setting};
-use meshbrush_core::layers::{Layer, LayerKind};
-use meshbrush_core::paint::{Brush, DiameterChange, Medium, StrokePlan};
-use meshbrush_mesh::mesh::{Limits, Mesh, Progress, Refiner, SharedRule, bisection_edge_length};
-use rayon::prelude::*;
-
-/// Bytes of a triangle and its share of the nodes.
-const BYTES: f64 = 38.0;
+use meshbrush_benches::documents::{SIDE, diameter, layered, painted};
+use meshbrush_benches::scene::{Scene, Times, figure_eight, move_threat, show_threats};
+use meshbrush_benches::window::{BRUSH, Pool, median_ms, pools};
+use meshbrush_benches::{diamond, field, memory};
+use meshbrush_core::document::Document;
+use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_mesh::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 
 fn main() {
     let is_short = std::env::args().any(|argument| argument == "short");
@@ -111,7 +107,7 @@ fn generation_row(page: &mut String, pool: &Pool, level: u32, alberta: Option<f6
             began.elapsed()
         })
     });
-    let [write_new, write_used] = pool.run(|| writes(rounds, triangles, pool.threads));
+    let [write_new, write_used] = pool.run(|| writes(rounds, triangles));
     let optional = |seconds: Option<f64>| seconds.map_or(String::new(), rate);
     write_line(
         page,
@@ -149,25 +145,20 @@ fn again(
 }
 
 /// Writes the bytes of a mesh, to new memory and again. Returns the seconds.
-fn writes(rounds: usize, triangles: usize, threads: usize) -> [f64; 2] {
-    let words = (triangles as f64 * BYTES / 8.0) as usize;
-    let write = |memory: &mut Vec<u64>| {
-        memory.par_chunks_mut(words.div_ceil(threads)).for_each(|part| part.fill(std::hint::black_box(7)));
-    };
+fn writes(rounds: usize, triangles: usize) -> [f64; 2] {
     let new = median(rounds, || {
         let began = Instant::now();
-        // Zeros are mapped when they are written.
-        let mut memory = vec![0; words];
-        write(&mut memory);
+        let mut memory = memory::unmapped(triangles);
+        memory::write(&mut memory);
         let time = began.elapsed();
         std::hint::black_box(memory);
         time
     });
-    let mut memory = vec![0; words];
-    write(&mut memory);
+    let mut memory = memory::unmapped(triangles);
+    memory::write(&mut memory);
     let used = median(rounds, || {
         let began = Instant::now();
-        write(&mut memory);
+        memory::write(&mut memory);
         began.elapsed()
     });
     [new, used]
@@ -189,65 +180,6 @@ fn alberta_rate(program: &Path, level: u32) -> Option<f64> {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let (triangles, seconds) = text.lines().last()?.split_once(' ')?;
     Some(triangles.parse::<f64>().ok()? / seconds.parse::<f64>().ok()? / 1e6)
-}
-
-/// A document that is followed as in the window.
-struct Scene {
-    document: Document,
-    follower: Follower,
-    slices: Slices,
-    /// Milliseconds to make it.
-    scratch: f64,
-}
-
-impl Scene {
-    fn new(mut document: Document) -> Self {
-        let began = Instant::now();
-        let follower = Follower::new(&mut document).expect("it has a mesh");
-        Self { document, follower, slices: Slices::default(), scratch: 1e3 * began.elapsed().as_secs_f64() }
-    }
-
-    fn triangles(&self) -> usize {
-        self.follower.mesh().raw_triangle_count()
-    }
-
-    fn follow(&mut self) -> Duration {
-        self.slices.follow(&mut self.document, &mut self.follower)
-    }
-
-    /// Makes an edit. Returns the times until the mesh begins to change and until it is up to date.
-    fn edit(&mut self, edit: impl FnOnce(&mut Document)) -> [Duration; 2] {
-        self.follower.take_change();
-        let began = Instant::now();
-        edit(&mut self.document);
-        let mut first = None;
-        loop {
-            let Self { document, follower, slices, .. } = self;
-            let is_done = slices
-                .one(|visits| follower.advance(document, visits).expect("the budget is far").is_settled());
-            if first.is_none() && self.follower.take_change().is_some() {
-                first = Some(began.elapsed());
-            }
-            if is_done {
-                let rest = began.elapsed();
-                return [first.unwrap_or(rest), rest];
-            }
-        }
-    }
-
-    fn dab(&mut self, brush: Brush, at: DVec2) -> Duration {
-        self.document.begin_stroke(brush);
-        self.document.draw_to(at);
-        self.document.end_stroke();
-        self.follow()
-    }
-
-    fn price(&mut self, brush: Brush, at: DVec2) -> Duration {
-        let mut pricer = Pricer::default();
-        pricer.ask(Some(StrokePlan::click(brush, at)), &self.document, &self.follower);
-        let Self { document, follower, slices, .. } = self;
-        slices.run(|visits| pricer.advance(document, follower, visits) == Progress::Done)
-    }
 }
 
 /// The dab of the bench *update*, and one of as many triangles on layers.
@@ -288,10 +220,10 @@ fn dab_rows(page: &mut String, pools: &[Pool], name: &str, mut scene: Scene, bru
         let mut changes = 0;
         pool.run(|| {
             for _ in 0..rounds {
-                times[2].push(scene.price(brush, at));
+                times[2].push(scene.price(brush, at).0);
                 times[0].push(scene.dab(brush, at));
                 changes = scene.triangles().abs_diff(count);
-                times[3].push(scene.price(eraser, at));
+                times[3].push(scene.price(eraser, at).0);
                 times[1].push(scene.dab(eraser, at));
             }
         });
@@ -300,7 +232,8 @@ fn dab_rows(page: &mut String, pools: &[Pool], name: &str, mut scene: Scene, bru
             page,
             format_args!(
                 "| {name} | {count} | {} | {changes} | {paint:.2} | {erase:.2} | {price:.2} | {price_of_erasing:.2} | {:.1} |",
-                pool.threads, scene.scratch
+                pool.threads,
+                1e3 * scene.scratch.as_secs_f64()
             ),
         );
     }
@@ -323,36 +256,24 @@ fn large_edits(page: &mut String, pools: &[Pool], is_short: bool) {
 }
 
 fn large_edits_row(page: &mut String, scene: &mut Scene, threads: usize, gradation: Option<f64>) {
-    let change = |document: &mut Document, change: &dyn Fn(&mut Layer)| {
-        let mut layers = document.settings().layers.clone();
-        layers.iter_mut().filter(|layer| layer.id == THREATS).for_each(change);
-        document.set(Setting::Layers(layers)).expect("valid layers");
-        document.end_gesture();
-    };
     let move_to = |share: f64| {
-        move |layer: &mut Layer| {
-            if let LayerKind::Threats(threats) = &mut layer.kind {
-                threats.set(0, moved_threat(share)).expect("a valid threat");
-            }
+        move |document: &mut Document| {
+            move_threat(document, share);
+            document.end_gesture();
         }
     };
-    let mut times: [[Vec<Duration>; 2]; 4] = Default::default();
+    let mut times: [Vec<Times>; 3] = Default::default();
     for _ in 0..5 {
-        let (there, back) = (move_to(0.5), move_to(0.0));
-        let [hide, show] = [false, true].map(|visible| move |layer: &mut Layer| layer.visible = visible);
-        for place in [0, 1, 2, 3] {
-            let edit = [&there as &dyn Fn(&mut Layer), &hide, &show, &back][place];
-            let [first, rest] = scene.edit(|document| change(document, edit));
-            times[place][0].push(first);
-            times[place][1].push(rest);
-        }
+        times[0].push(scene.edit(move_to(0.5)));
+        times[1].push(scene.edit(|document| show_threats(document, false)));
+        times[2].push(scene.edit(|document| show_threats(document, true)));
+        scene.edit(move_to(0.0));
     }
-    let [moved, hidden, shown, _] = times.map(|times| {
-        let [first, rest] = times.map(median_ms);
-        format!("{first:.1} / {rest:.1}")
+    let [moved, hidden, shown] = times.map(|times| {
+        let median = |time: fn(&Times) -> Duration| median_ms(times.iter().map(time).collect());
+        format!("{:.1} / {:.1}", median(|times| times.first), median(|times| times.rest))
     });
-    let (mut frames, behind) = stroke(scene);
-    frames.sort();
+    let (frames, behind) = scene.gesture(120, figure_eight(BRUSH));
     let of = |share: usize| 1e3 * frames[frames.len() * share / 100].as_secs_f64();
     let gradation = gradation.map_or("none".into(), |slope| slope.to_string());
     write_line(
@@ -363,31 +284,7 @@ fn large_edits_row(page: &mut String, scene: &mut Scene, threads: usize, gradati
             of(50),
             of(99),
             1e3 * behind.as_secs_f64(),
-            scene.scratch
+            1e3 * scene.scratch.as_secs_f64()
         ),
     );
-}
-
-/// A stroke, and its undo. Returns the work of each frame, and the time to the mesh that is up to date after
-/// the last one.
-fn stroke(scene: &mut Scene) -> (Vec<Duration>, Duration) {
-    const FRAMES: usize = 120;
-    let mut frames = Vec::new();
-    scene.document.begin_stroke(BRUSH);
-    for frame in 0..FRAMES {
-        let angle = 0.4 + 5.6 * frame as f64 / (FRAMES - 1) as f64;
-        let began = Instant::now();
-        scene.document.draw_to(dvec2(0.5 + 0.36 * angle.cos(), 0.5 + 0.3 * (2.0 * angle).sin()));
-        let deadline = Instant::now() + FRAME_BUDGET;
-        let Scene { document, follower, slices, .. } = scene;
-        let slice = |visits| follower.advance(document, visits).expect("the budget is far").is_settled();
-        let mut slice = slice;
-        while !slices.one(&mut slice) && Instant::now() < deadline {}
-        frames.push(began.elapsed());
-    }
-    scene.document.end_stroke();
-    let behind = scene.follow();
-    assert!(scene.document.undo());
-    scene.follow();
-    (frames, behind)
 }
