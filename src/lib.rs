@@ -92,6 +92,11 @@ pub use meshbrush_study::levels::{Bisections, LevelFigures};
 
 // Read and write files.
 #[doc(inline)]
+pub use meshbrush_core::earth::{
+    GeographicExtent, Projection, ProjectionChoice, ProjectionError, ProjectionKind, ProjectionTextError,
+    projected_polygons,
+};
+#[doc(inline)]
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};
 #[doc(inline)]
 pub use meshbrush_io::io::{

@@ -132,7 +132,10 @@ pub fn export(
             let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
             let (boundary, parts) = (&boundary, &parts);
             let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
-            let files = format.write(&file, &mesh, &extract, &data, &look, meter)?;
+            let placed =
+                settings.domain.geographic_nodes(&extract).map(|nodes| extract.with_coordinates(nodes));
+            let placed = placed.as_ref().unwrap_or(&extract);
+            let files = format.write(&file, &mesh, placed, &data, &look, meter)?;
             Ok((files, extract.triangles().len()))
         };
         match write() {

@@ -2,6 +2,7 @@
 
 mod causes;
 mod cli;
+mod earth;
 mod folder;
 mod layer_files;
 mod located;

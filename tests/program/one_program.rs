@@ -86,8 +86,9 @@ fn domain(random: &mut fastrand::Rng) -> Domain {
     let polygons = Domain::of_polygons(&[vec![coast, hole], vec![islet]]).unwrap();
     match random.u8(..5) {
         0 => Domain::rectangle(square),
-        1 => Domain { bounds: square, shape: DomainShape::Formula(formula("x*y < 3")) },
+        1 => Domain { bounds: square, shape: DomainShape::Formula(formula("x*y < 3")), projection: None },
         2 => polygons.with_bounds(Rect::new(dvec2(-0.5, -0.25), dvec2(4.5, 4.5))),
+        3 => Domain { projection: Some("+proj=lcc +lat_0=50.5 +lon_0=9.1".parse().unwrap()), ..polygons },
         _ => polygons,
     }
 }

@@ -162,6 +162,7 @@ fn documents() -> Vec<Document> {
         domain: Domain {
             bounds: Rect::new(dvec2(-1.0, 0.1), dvec2(1.0, 0.7)),
             shape: DomainShape::Formula(formula("r < 0.9")),
+            projection: None,
         },
         boundary: BoundaryTreatment::Report,
         layers: Layer::usual(raster_layer("slope.png", raster)),
@@ -443,7 +444,7 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 5";
+const VERSION: &str = "\"version\": 6";
 
 /// Returns the settings as if an older program had written them.
 fn of_version(text: &str, version: u32) -> String {
@@ -457,7 +458,7 @@ fn a_newer_version_is_named() {
         let newer = text.replace(VERSION, "\"version\": 7, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 5"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 6"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.
@@ -473,8 +474,8 @@ fn in_a_project_of_version_3_the_diameter_at_risk_1_is_the_smallest() {
 }
 
 #[test]
-fn projects_of_versions_2_and_4_open() {
-    for version in [2, 4] {
+fn projects_of_versions_2_4_and_5_open() {
+    for version in [2, 4, 5] {
         let older = rewritten(|text| of_version(text, version));
         assert!(opened(&older).unwrap() == small(), "version {version}");
     }
@@ -483,7 +484,7 @@ fn projects_of_versions_2_and_4_open() {
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        (VERSION, "\"version\": 5, \"seasons\": 4", &["line 3", "seasons"]),
+        (VERSION, "\"version\": 6, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),

@@ -10,9 +10,9 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 24] = [
-    "text", "geometry", "mesh", "raster", "field", "domain", "layers", "outline", "paint", "build", "path",
-    "explain", "document", "plot", "steps", "levels", "pixels", "report", "io", "colormap", "scene",
+const MODULES: [&str; 25] = [
+    "text", "geometry", "mesh", "earth", "raster", "field", "domain", "layers", "outline", "paint", "build",
+    "path", "explain", "document", "plot", "steps", "levels", "pixels", "report", "io", "colormap", "scene",
     "render", "cli", "app",
 ];
 

@@ -3,6 +3,7 @@
 
 use meshbrush_mesh::{geometry, mesh, text};
 
+pub mod earth;
 pub mod raster;
 pub mod field;
 pub mod domain;

@@ -148,6 +148,7 @@ fn impossible_settings_are_refused_with_a_sentence() {
         Setting::Domain(Domain {
             bounds: meshbrush_mesh::geometry::Rect::UNIT,
             shape: DomainShape::Formula(Formula::parse("x > 9").unwrap()),
+            projection: None,
         }),
     ] {
         set(&mut window, setting.clone());

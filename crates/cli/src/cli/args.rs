@@ -158,6 +158,15 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
+    /// Mesh longitudes and latitudes of the region in metres, in the plane of a conformal projection
+    ///
+    /// All lengths are then in metres, and no edge of the mesh is longer on the Earth than in the plane. auto
+    /// chooses what suits the region: merc (Mercator), tmerc (transverse Mercator), stere (polar
+    /// stereographic) or lcc (Lambert). A projection as PROJ writes it, with all its numbers, says that the
+    /// files are in its plane already. none takes degrees for lengths in a plane [default: none]
+    #[arg(long, value_name = "auto|none|merc|tmerc|stere|lcc|PROJ")]
+    pub projection: Option<String>,
+
     /// How the mesh meets the outline of a region
     ///
     /// [default: outline]
@@ -328,6 +337,10 @@ pub struct MeshArguments {
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
 
+    /// Coordinates in files: longitude and latitude, or those of the plane of --projection
+    #[arg(long, value_enum, default_value_t, value_name = "SYSTEM", help_heading = "Output")]
+    pub out_crs: OutputCoordinates,
+
     /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
     /// repeated
     ///
@@ -346,6 +359,16 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub picture: PictureArguments,
+}
+
+/// Coordinates in files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum OutputCoordinates {
+    /// Degrees, where the domain lies on the Earth.
+    #[default]
+    Lonlat,
+    /// World units.
+    Plane,
 }
 
 /// The usual width of a picture, in pixels.

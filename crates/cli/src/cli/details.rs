@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::args::OutputCoordinates;
 use super::build::FinishedMesh;
 use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
@@ -20,10 +21,19 @@ pub struct MeshDetails {
 
 impl MeshDetails {
     /// Collects the details of an exported mesh that the command `line` requested.
-    pub fn of(finished: &FinishedMesh, extract: &Extract, line: &str, input: &Input) -> Self {
-        let coordinates = match input.settings.domain.region.as_ref().or(input.project.as_ref()) {
-            Some(file) => format!("x, y as in {}", file.display()),
-            None => "x, y".to_owned(),
+    pub fn of(
+        finished: &FinishedMesh,
+        extract: &Extract,
+        line: &str,
+        input: &Input,
+        coordinates: OutputCoordinates,
+    ) -> Self {
+        let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
+        let coordinates = match (finished.domain().projection, coordinates, file) {
+            (Some(plane), OutputCoordinates::Lonlat, _) => format!("longitude, latitude; meshed in {plane}"),
+            (Some(plane), OutputCoordinates::Plane, _) => format!("x, y in {plane}"),
+            (None, _, Some(file)) => format!("x, y as in {}", file.display()),
+            (None, _, None) => "x, y".to_owned(),
         };
         let fingerprint = finished.mesh().fingerprint();
         let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &coordinates);

@@ -200,6 +200,7 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--domain", typed.domain.is_some()),
         ("--inside", typed.inside.is_some()),
         ("--region", typed.region.is_some()),
+        ("--projection", typed.projection.is_some()),
         ("--target", !typed.target.is_empty()),
         ("--risk", !typed.risk.is_empty()),
         ("--target-raster", !typed.target_raster.is_empty()),

@@ -46,7 +46,8 @@ pub fn run(
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
     let (details, summary) = terminal.while_working("measuring the mesh", || {
-        let details = wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input));
+        let details =
+            wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, typed.out_crs));
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
         (details, summary)
     });
@@ -56,7 +57,7 @@ pub fn run(
     note_capped(&finished, terminal);
     note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = &details {
-        write_files(&files, &finished, &extract, details, terminal)?;
+        write_files(&files, &finished, &extract, details, typed.out_crs, terminal)?;
     }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;

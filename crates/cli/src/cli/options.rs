@@ -22,12 +22,19 @@ const USUAL_SLOPE: f64 = 0.2;
 /// # Errors
 /// Fails with a sentence that names the option, the value and the rule.
 pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
+    if let (Some(projection), None) = (&typed.projection, &typed.region) {
+        return Err(Failure::Usage(format!(
+            "--projection {projection}: it is for the longitudes and latitudes of a region. Name the file with --region, \
+             or leave it out."
+        )));
+    }
     let layers = layers(typed)?;
     let settings = SavedSettings {
         domain: SavedDomain {
             bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.clone(),
             region: typed.region.clone(),
+            projection: typed.projection.clone(),
             boundary: typed.boundary.map(Into::into),
             boundary_diameter: typed.boundary_diameter,
             parts: typed.parts.as_deref().map(parts).transpose()?,
@@ -109,6 +116,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
         },
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
+            "projection" => "--projection".to_owned(),
             "boundary_diameter" => number("--boundary-diameter", typed.boundary_diameter),
             "spacing" => number("--spacing", typed.spacing),
             "h_min" => number("--h-min", typed.h_min),

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 use serde::Serialize;
 
+use super::args::OutputCoordinates;
 use super::build::{FinishedMesh, build_from};
 use super::details::MeshDetails;
 use super::failure::Failure;
@@ -67,7 +68,7 @@ pub fn run(
     }
     let seconds = start.elapsed().as_secs_f64();
     let export = PathExport::new(&solution, &*density, typed.simplify)?;
-    let provenance = MeshDetails::of(&finished, &extract, line, &input).provenance;
+    let provenance = MeshDetails::of(&finished, &extract, line, &input, OutputCoordinates::Plane).provenance;
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;

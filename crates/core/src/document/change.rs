@@ -97,8 +97,9 @@ impl Settings {
     /// Returns whether the mesh can follow from another domain to this one in place: only where it is fitted,
     /// so that triangles outside stay in it, marked.
     fn can_follow_outline(&self, old: &Domain) -> bool {
-        let Domain { bounds, shape: _ } = &self.domain;
-        let Domain { bounds: old_bounds, shape: _ } = old;
+        // A projection gives coordinates their meaning, and changes none.
+        let Domain { bounds, shape: _, projection: _ } = &self.domain;
+        let Domain { bounds: old_bounds, shape: _, projection: _ } = old;
         bounds == old_bounds
             && [&self.domain, old].iter().all(|domain| domain.formula().is_none())
             && self.boundary.diameter().is_some()

@@ -245,7 +245,7 @@ mod tests {
     fn outline(side: f64) -> Setting {
         let square = vec![corners(&Rect::new(dvec2(0.0, 0.0), dvec2(side, side)))];
         let region = Arc::new(Region::new(&[square], Rect::UNIT));
-        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region) })
+        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region), projection: None })
     }
 
     fn picture(side: u32) -> Setting {

@@ -70,7 +70,7 @@ impl Domain {
     pub fn reshaped(&self, cut_shape: &CutShape, adds: bool) -> Option<Self> {
         let (region, rings) = (self.as_region()?, cut_shape.rings());
         let region = if adds { region.with(&rings) } else { region.without(&rings) };
-        Some(Self { bounds: self.bounds, shape: DomainShape::Region(Arc::new(region)) })
+        Some(Self { shape: DomainShape::Region(Arc::new(region)), ..self.clone() })
     }
 }
 

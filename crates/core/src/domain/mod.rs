@@ -18,8 +18,13 @@ mod holes;
 
 use std::sync::Arc;
 
+use glam::DVec2;
+use rayon::prelude::*;
+
+use crate::earth::Projection;
 use crate::field::Formula;
-use crate::geometry::Rect;
+use crate::geometry::{LatticePoint, Rect};
+use crate::mesh::Extract;
 use crate::text::Grouped;
 
 pub use boundary::{
@@ -44,6 +49,9 @@ pub struct Domain {
     pub bounds: Rect,
     /// The part of the rectangle.
     pub shape: DomainShape,
+    /// Where the domain lies on the Earth, if it does: world units are metres in the plane of this
+    /// projection.
+    pub projection: Option<Projection>,
 }
 
 /// Why polygons are not a valid domain.
@@ -99,7 +107,7 @@ pub enum DomainShape {
 impl Domain {
     /// Returns the whole of a rectangle.
     pub fn rectangle(bounds: Rect) -> Self {
-        Self { bounds, shape: DomainShape::Whole }
+        Self { bounds, shape: DomainShape::Whole, projection: None }
     }
 
     /// Returns the domain that polygons cover. Its bounds are their bounding rectangle, so that the mesh
@@ -131,7 +139,8 @@ impl Domain {
         if region.is_empty() {
             return Err(RegionError::NoArea);
         }
-        Ok(Self { bounds: *region.frame(), shape: DomainShape::Region(Arc::new(region)) })
+        let (bounds, shape) = (*region.frame(), DomainShape::Region(Arc::new(region)));
+        Ok(Self { bounds, shape, projection: None })
     }
 
     /// Returns the region, if the domain is given by polygons.
@@ -159,6 +168,15 @@ impl Domain {
         }
     }
 
+    /// Returns the longitude and latitude of each node of a mesh of the domain, in degrees; `None` where it
+    /// does not lie on the Earth.
+    pub fn geographic_nodes(&self, mesh: &Extract) -> Option<Vec<DVec2>> {
+        let projection = self.projection?;
+        let place =
+            |&node: &LatticePoint| projection.geographic_from_plane(mesh.lattice().world_from_lattice(node));
+        Some(mesh.nodes().par_iter().map(place).collect())
+    }
+
     /// Returns the domain with other bounds. Polygons are clipped to them.
     pub fn with_bounds(&self, bounds: Rect) -> Self {
         let shape = match &self.shape {
@@ -167,6 +185,6 @@ impl Domain {
             }
             other => other.clone(),
         };
-        Self { bounds, shape }
+        Self { bounds, shape, projection: self.projection }
     }
 }

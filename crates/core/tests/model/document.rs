@@ -154,7 +154,11 @@ fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
         base("x - 0.7"),
         Setting::MaxTriangles(1300),
         Setting::MaxMemory(1_000_000),
-        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Formula(formula("x > 2")) }),
+        Setting::Domain(Domain {
+            bounds: Rect::UNIT,
+            shape: DomainShape::Formula(formula("x > 2")),
+            projection: None,
+        }),
     ];
     for setting in late {
         document.set(setting).unwrap();
@@ -190,7 +194,7 @@ fn outlines_and_pictures_count_for_the_memory_limit_of_the_history() {
     let changes: [(usize, &dyn Fn(usize) -> Setting); 2] = [
         (960_000, &|n| {
             let shape = DomainShape::Region(Arc::new(regions[n % 2].clone()));
-            Setting::Domain(Domain { bounds: Rect::UNIT, shape })
+            Setting::Domain(Domain { bounds: Rect::UNIT, shape, projection: None })
         }),
         (raster.bytes(), &|n| Setting::Layers(Layer::usual(risk_layer(&format!("{n}.png"), raster.clone())))),
     ];

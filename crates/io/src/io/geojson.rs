@@ -9,6 +9,9 @@ use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
 use super::{Counted, Meter};
 use meshbrush_core::domain::{NamedPolygon, Polygon};
+use meshbrush_core::earth::{
+    GeographicExtent, Projection, ProjectionChoice, ProjectionError, projected_polygons,
+};
 use meshbrush_mesh::text::LengthUnit;
 
 /// Largest file read.
@@ -31,6 +34,45 @@ impl Outline {
         let rings = || self.polygons.iter().flat_map(|named| &named.polygon);
         self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
     }
+
+    /// Returns longitudes and latitudes in the plane of a projection. Coordinates beside a given projection
+    /// are in its plane already.
+    ///
+    /// # Errors
+    /// Fails when the coordinates are not longitudes and latitudes, or no projection suits them.
+    pub fn projected(self, choice: ProjectionChoice) -> Result<(Self, Projection), ProjectOutlineError> {
+        let rings = self.polygons.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
+        let projection = match choice {
+            ProjectionChoice::Given(projection) => {
+                return Ok((Self { unit: LengthUnit::Metre, ..self }, projection));
+            }
+            _ if self.unit != LengthUnit::Degree => return Err(ProjectOutlineError::NotDegrees),
+            _ => match GeographicExtent::of_rings(rings) {
+                Some(extent) => choice.projection(&extent)?,
+                None => return Err(ProjectOutlineError::NotDegrees),
+            },
+        };
+        let plain: Vec<Polygon> = self.polygons.iter().map(|named| named.polygon.clone()).collect();
+        let names = self.polygons.into_iter().map(|named| named.name);
+        let projected = projected_polygons(&plain, &projection);
+        let named = projected.into_iter().zip(names).map(|(polygon, name)| NamedPolygon { polygon, name });
+        Ok((Self { polygons: named.collect(), unit: LengthUnit::Metre }, projection))
+    }
+}
+
+/// Why polygons cannot be projected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProjectOutlineError {
+    /// They do not lie on the Earth, as far as the file says.
+    #[error(
+        "its coordinates are not longitudes and latitudes, so they cannot be projected. Leave the projection out, or \
+         convert the file to EPSG:4326 first."
+    )]
+    NotDegrees,
+    /// No projection suits them.
+    #[error(transparent)]
+    Unsuited(#[from] ProjectionError),
 }
 
 /// Reads every polygon of a file: of a geometry, a feature, or a collection of either. Other geometries are

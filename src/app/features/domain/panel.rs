@@ -167,7 +167,7 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let row = FormulaRow { label: "Domain where", hint, help };
     if let Some(inside) = row.show(ui, state, domain.formula()) {
         let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
-        set_once(Setting::Domain(Domain { bounds: domain.bounds, shape }), commands);
+        set_once(Setting::Domain(Domain { bounds: domain.bounds, shape, projection: None }), commands);
     }
 }
 

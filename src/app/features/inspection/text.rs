@@ -96,6 +96,7 @@ impl<'a> Inspection<'a> {
             Row::new("Diameter", diameter, format::exact(triangle.diameter)).in_unit(self.unit()),
             self.point_row("Point", self.readout.point.to_array()),
         ];
+        rows.extend(self.geographic_row());
         rows.extend(where_on(self.readout.location).map(|on| Row::text("Lies", on)));
         rows.push(Row::new("ζ₁ ζ₂ ζ₃", format!("{a} {b} {c}"), exact_list(&triangle.zeta)));
         rows
@@ -189,6 +190,14 @@ impl<'a> Inspection<'a> {
         rows.extend(self.corner_rows());
         let lines = rows.iter().map(|row| format!("{}: {}\n", row.label, row.unit.after(&row.exact)));
         lines.collect()
+    }
+
+    /// Returns longitude and latitude of the point, where the domain lies on the Earth.
+    fn geographic_row(&self) -> Option<Row> {
+        let projection = self.session.document().settings().domain.projection?;
+        let at = projection.geographic_from_plane(self.readout.point).to_array();
+        let shown = at.map(|degrees| LengthUnit::Degree.after(&format::fixed(degrees, 5))).join(" ");
+        Some(Row::new("Longitude, latitude", shown, exact_list(&at)).in_unit(LengthUnit::Degree))
     }
 
     fn point_row(&self, label: &str, point: [f64; 2]) -> Row {

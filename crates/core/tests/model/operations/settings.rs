@@ -71,7 +71,11 @@ const INSIDES: [&str; 4] =
 fn inside(choices: &mut impl Choices) -> Domain {
     let chosen = choices.below(1 + 2 * INSIDES.len()).checked_sub(1).and_then(|n| INSIDES.get(n));
     let formula = chosen.map(|text| Formula::parse(text).unwrap());
-    Domain { bounds: Rect::UNIT, shape: formula.map_or(DomainShape::Whole, DomainShape::Formula) }
+    Domain {
+        bounds: Rect::UNIT,
+        shape: formula.map_or(DomainShape::Whole, DomainShape::Formula),
+        projection: None,
+    }
 }
 
 /// Returns a setting that no document accepts.
@@ -96,7 +100,11 @@ pub fn domains() -> [Domain; 4] {
     [
         Domain::rectangle(Rect::UNIT),
         Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 0.7))),
-        Domain { bounds: Rect::UNIT, shape: DomainShape::Formula(Formula::parse(INSIDES[0]).unwrap()) },
+        Domain {
+            bounds: Rect::UNIT,
+            shape: DomainShape::Formula(Formula::parse(INSIDES[0]).unwrap()),
+            projection: None,
+        },
         Domain::of_polygons(&[vec![outline, hole]]).unwrap(),
     ]
 }

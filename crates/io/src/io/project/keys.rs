@@ -37,14 +37,14 @@ const PLACES: [(&str, &str); 26] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (5, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (6, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
     spacing transfer base resolution layers gradation rule max_triangles max_memory
 unit: none m km degrees
 background: name part bounds opacity
-domain: bounds shape
+domain: bounds shape projection
 domain.shape: whole formula polygons
 boundary: report fitted_with_diameter on_outline_with_diameter
 cleaning: parts keep_pinches

@@ -17,6 +17,7 @@ use super::stored_layers::{StoredLayer, check_raster_sizes};
 use super::{FORMAT, VERSION};
 use meshbrush_core::document::{Picture, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::earth::Projection;
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::RasterReading;
 use meshbrush_core::raster::{Raster, RasterPyramid, is_raster_size};
@@ -83,6 +84,9 @@ pub(super) struct SavedDomain {
     /// x and y of the lower left corner, then of the upper right one.
     pub(super) bounds: [f64; 4],
     shape: SavedShape,
+    /// As PROJ writes it; since version 6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    projection: Option<String>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -224,6 +228,7 @@ impl Saved {
                     DomainShape::Formula(formula) => SavedShape::Formula(formula.source().into()),
                     DomainShape::Region(_) => SavedShape::Polygons,
                 },
+                projection: settings.domain.projection.map(|projection| projection.to_string()),
             },
             boundary: match settings.boundary {
                 BoundaryTreatment::Report => SavedBoundary::Report,
@@ -287,6 +292,8 @@ impl Saved {
             .into());
         }
         let bounds = rect("domain", self.domain.bounds)?;
+        let projection = self.domain.projection.as_deref().map(str::parse::<Projection>);
+        let projection = projection.transpose().map_err(sentence)?;
         let shape = match self.domain.shape {
             SavedShape::Whole => DomainShape::Whole,
             SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
@@ -307,7 +314,7 @@ impl Saved {
             name: self.name,
             unit: self.unit.into(),
             background,
-            domain: Domain { bounds, shape },
+            domain: Domain { bounds, shape, projection },
             boundary: match self.boundary {
                 SavedBoundary::Report => BoundaryTreatment::Report,
                 SavedBoundary::Fitted(diameter) => BoundaryTreatment::Fitted { diameter },

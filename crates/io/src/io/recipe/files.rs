@@ -1,6 +1,7 @@
 //! The files that a recipe or options name, as the data of the settings of a document.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,16 +10,18 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
-use super::super::{KeyFault, Meter, ReadError, project, shapes, threats};
-use super::notes::{cut_at_antimeridian, notes};
+use super::super::shapes::{self, ShapeFile};
+use super::super::{KeyFault, Meter, ReadError, project, threats};
+use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use meshbrush_core::earth::{Projection, ProjectionChoice, projected_polygons};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
-use meshbrush_mesh::text::abridged;
+use meshbrush_mesh::text::{LengthUnit, abridged};
 
 /// Why settings cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -82,6 +85,7 @@ impl SavedSettings {
             projects: BTreeMap::new(),
             frame: RasterFrame { domain: Rect::UNIT, transfer: Settings::default().transfer },
             paint: PaintLayers::default(),
+            projection: None,
             note: None,
         };
         let settings = self.load(name, &loading.usual, &mut files)?;
@@ -101,6 +105,8 @@ struct Files<'a> {
     projects: BTreeMap<PathBuf, Document>,
     frame: RasterFrame,
     paint: PaintLayers,
+    /// The projection of longitudes and latitudes, where files have them.
+    projection: Option<Projection>,
     /// A sentence for a person about the polygons.
     note: Option<String>,
 }
@@ -140,12 +146,27 @@ impl Storage for Files<'_> {
         layer
     }
 
-    fn region(&mut self, file: &Path, bounds: Option<Rect>) -> Result<ReadRegion, LoadError> {
+    fn region(
+        &mut self,
+        file: &Path,
+        bounds: Option<Rect>,
+        projection: Option<ProjectionChoice>,
+    ) -> Result<ReadRegion, LoadError> {
         let outline = (self.loading.read_outline)(file, self.loading.meter)?;
-        self.note = cut_at_antimeridian(file, &outline);
-        let (domain, marks) = domain_of(&outline.polygons, bounds)
-            .map_err(|error| LoadError::Unsuited(format!("{}: {error}", file.display())))?;
-        Ok(ReadRegion { domain, marks, unit: outline.unit })
+        let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
+        let Some(choice) = projection else {
+            self.note = cut_at_antimeridian(file, &outline);
+            let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
+            return Ok(ReadRegion { domain, marks, unit: outline.unit });
+        };
+        let (outline, projection) = outline.projected(choice).map_err(|error| unsuited(&error))?;
+        self.note = Some(in_the_plane(&outline, &projection));
+        // The other files of a recipe are in the plane where the polygons of its domain are.
+        let is_in_plane = matches!(choice, ProjectionChoice::Given(_));
+        self.projection = Some(projection).filter(|_| !is_in_plane);
+        let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
+        let domain = Domain { projection: Some(projection), ..domain };
+        Ok(ReadRegion { domain, marks, unit: LengthUnit::Metre })
     }
 
     fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<Rect>, LoadError> {
@@ -175,7 +196,12 @@ impl Storage for Files<'_> {
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        Ok(geojson::without_names(geojson::read_named_metered(file, self.loading.meter)?))
+        let outline = geojson::read_outline(file, self.loading.meter)?;
+        let polygons = geojson::without_names(outline.polygons);
+        Ok(match self.projection.filter(|_| outline.unit == LengthUnit::Degree) {
+            Some(projection) => projected_polygons(&polygons, &projection),
+            None => polygons,
+        })
     }
 }
 
@@ -185,6 +211,12 @@ impl LayerData for Files<'_> {
     const STORED: Stored = Stored::InFiles;
 
     fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, LoadError> {
+        if self.projection.is_some() {
+            let problem = "a raster cannot be used where the domain is projected: it is not projected with the domain. \
+                           Convert all files to the plane that the program names first, and give that projection, as \
+                           PROJ writes it, in place of the word.";
+            return Err(layer.error(problem).into());
+        }
         let values = layer.raster_values().unwrap_or(RasterValues::Any);
         self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
             RasterError::Read(error) => error.into(),
@@ -197,7 +229,11 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        Ok(shapes::read(file, self.loading.meter)?.shapes)
+        let ShapeFile { shapes, unit } = shapes::read(file, self.loading.meter)?;
+        Ok(match self.projection.filter(|_| unit == LengthUnit::Degree) {
+            Some(projection) => shapes.projected(&projection),
+            None => shapes,
+        })
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {

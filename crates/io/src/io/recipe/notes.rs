@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::super::geojson::Outline;
 use meshbrush_core::document::Settings;
+use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{Layer, LayerKind, RasterSource};
 use meshbrush_mesh::geometry::Rect;
 
@@ -19,6 +20,17 @@ pub fn cut_at_antimeridian(path: &Path, outline: &Outline) -> Option<String> {
             path.display()
         )
     })
+}
+
+/// Returns how lengths in the plane of a projection differ from those on the Earth.
+pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
+    let corners = outline.polygons.iter().flat_map(|named| named.polygon.iter().flatten());
+    let scales = corners.map(|&corner| projection.scale_at(projection.geographic_from_plane(corner)));
+    let most = 1e-4 * (1e4 * scales.fold(1.0, f64::max)).ceil();
+    format!(
+        "The domain is meshed in metres, in the plane {projection}: a length there is up to {most:.4} times that on the \
+         Earth."
+    )
 }
 
 /// Returns layers that ask for nothing, or only in a part of the domain: that is noted where the domain

@@ -9,6 +9,7 @@ use crate::io::layers::{FindFile, SavedLayer, Stored, compiled, each, point, pos
 use crate::io::{KeyFault, Step};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
+use meshbrush_core::earth::{ProjectionChoice, ProjectionTextError};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
@@ -120,6 +121,7 @@ impl SavedDomain {
     fn check(&self) -> Result<(), KeyFault> {
         self.rect()?;
         self.formula()?;
+        self.projection()?;
         self.boundary_diameter.map_or(Ok(()), |diameter| length("boundary_diameter", diameter))?;
         if let Some(SavedParts::Share(share)) = self.parts
             && !(0.0..=1.0).contains(&share)
@@ -139,8 +141,11 @@ impl SavedDomain {
                 "the domain is given by `region` or by `inside`, not by both.",
             ));
         }
-        let of_outline =
-            [("boundary_diameter", self.boundary_diameter.is_some()), ("boundary", self.boundary.is_some())];
+        let of_outline = [
+            ("boundary_diameter", self.boundary_diameter.is_some()),
+            ("boundary", self.boundary.is_some()),
+            ("projection", self.projection.is_some()),
+        ];
         if let Some((key, _)) =
             of_outline.into_iter().find(|(_, is_given)| *is_given && self.region.is_none())
         {
@@ -158,6 +163,13 @@ impl SavedDomain {
     /// Returns the rectangle that the coarse grid covers, in world units.
     pub(super) fn rect(&self) -> Result<Option<Rect>, KeyFault> {
         self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))
+    }
+
+    /// Returns how the projection of the region is chosen; `None` for the plane of its own coordinates.
+    pub(super) fn projection(&self) -> Result<Option<ProjectionChoice>, KeyFault> {
+        let text = self.projection.as_deref().filter(|&text| text != "none");
+        let choice = text.map(str::parse).transpose();
+        choice.map_err(|error: ProjectionTextError| KeyFault::value("projection", error.to_string()))
     }
 
     /// Returns the formula of the domain.

@@ -8,6 +8,7 @@ use crate::io::KeyFault;
 use crate::io::layers::{SavedLayer, TextError};
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::earth::ProjectionChoice;
 use meshbrush_core::field::{RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerId};
 use meshbrush_mesh::geometry::{Lattice, Rect};
@@ -59,11 +60,17 @@ pub trait Storage {
     /// Returns the keys of a layer.
     fn keys(layer: &Self::Layer) -> &SavedLayer;
 
-    /// Returns the polygons of the domain, in `bounds` where these are given.
+    /// Returns the polygons of the domain, in `bounds` where these are given, in the plane of a projection
+    /// where one is chosen.
     ///
     /// # Errors
     /// Fails when they cannot be read or used.
-    fn region(&mut self, file: &Path, bounds: Option<Rect>) -> Result<ReadRegion, Self::Error>;
+    fn region(
+        &mut self,
+        file: &Path,
+        bounds: Option<Rect>,
+        projection: Option<ProjectionChoice>,
+    ) -> Result<ReadRegion, Self::Error>;
 
     /// Returns the rectangle of the rasters of layers, in world units: the domain where no key says it.
     ///
@@ -144,7 +151,7 @@ impl<L> SavedSettings<L> {
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {
         let bounds = self.domain.rect()?;
         if let Some(file) = &self.domain.region {
-            return storage.region(file, bounds);
+            return storage.region(file, bounds, self.domain.projection()?);
         }
         let bounds = match bounds {
             Some(bounds) => bounds,
@@ -152,7 +159,7 @@ impl<L> SavedSettings<L> {
         };
         let shape = self.domain.formula()?.map_or(DomainShape::Whole, DomainShape::Formula);
         let (marks, unit) = (BoundaryMarks::default(), LengthUnit::None);
-        Ok(ReadRegion { domain: Domain { bounds, shape }, marks, unit })
+        Ok(ReadRegion { domain: Domain { bounds, shape, projection: None }, marks, unit })
     }
 
     /// Returns the limits of h̄ and the curve from risk to diameter.

@@ -66,6 +66,7 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
         },
         DomainShape::Region(_) => SavedDomain {
             region: Some(region_file.into()),
+            projection: settings.domain.projection.map(|projection| projection.to_string()),
             bounds: Some([min.x, min.y, max.x, max.y]),
             unit: Some(rectangle.unit.unwrap_or(SavedUnit::None)),
             boundary: Some(SavedTreatment::of(settings.boundary)),

@@ -67,6 +67,10 @@ pub struct SavedDomain {
     /// The domain is what the polygons of this file cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<PathBuf>,
+    /// How longitudes and latitudes of the region become metres in a plane: "none", "auto", a family, or a
+    /// projection as PROJ writes it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projection: Option<String>,
     /// The unit of coordinates and lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<SavedUnit>,

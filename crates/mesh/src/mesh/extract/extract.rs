@@ -19,6 +19,8 @@ pub struct Extract<'a> {
     /// The index of each triangle of the mesh in the extract; `None` if no triangle was left out.
     pub(super) places: Option<Vec<Neighbour>>,
     pub(super) is_patched: bool,
+    /// See [`Self::with_coordinates`].
+    pub(super) coordinates: Option<Vec<DVec2>>,
 }
 
 /// A triangle in plain numbers, for writers of files.
@@ -75,7 +77,14 @@ impl Mesh {
             return self.extract_with(&MeshPatch::default());
         }
         let (nodes, triangles) = (Cow::Borrowed(&self.nodes[..]), Cow::Borrowed(&self.triangles[..]));
-        Extract { lattice: self.lattice, nodes, triangles, places: None, is_patched: false }
+        Extract {
+            lattice: self.lattice,
+            nodes,
+            triangles,
+            places: None,
+            is_patched: false,
+            coordinates: None,
+        }
     }
 }
 
@@ -99,6 +108,18 @@ impl Extract<'_> {
     pub fn into_owned(self) -> Extract<'static> {
         let (nodes, triangles) = (self.nodes.into_owned(), self.triangles.into_owned());
         Extract { nodes: Cow::Owned(nodes), triangles: Cow::Owned(triangles), ..self }
+    }
+
+    /// Returns the same nodes and triangles with other coordinates in files, as longitudes and latitudes: one
+    /// point for each node, which [`Self::world`] then returns. Lattice coordinates stay.
+    ///
+    /// # Panics
+    /// Panics when there are not as many points as nodes.
+    pub fn with_coordinates(&self, coordinates: Vec<DVec2>) -> Extract<'_> {
+        assert_eq!(coordinates.len(), self.nodes.len(), "one point for each node");
+        let (nodes, triangles) = (Cow::Borrowed(&self.nodes[..]), Cow::Borrowed(&self.triangles[..]));
+        let coordinates = Some(coordinates);
+        Extract { nodes, triangles, places: self.places.clone(), coordinates, ..*self }
     }
 
     /// Returns the index in [`Self::triangles`] of a triangle of the mesh; `None` for a triangle outside the
@@ -139,12 +160,15 @@ impl Extract<'_> {
     /// Panics when there is no such node.
     #[inline]
     pub fn world(&self, id: NodeId) -> DVec2 {
-        self.lattice.world_from_lattice(self.node(id))
+        match &self.coordinates {
+            Some(coordinates) => coordinates[id.index()],
+            None => self.lattice.world_from_lattice(self.node(id)),
+        }
     }
 
     /// Returns the coordinates of all nodes in world units.
     pub fn world_nodes(&self) -> impl ExactSizeIterator<Item = DVec2> + Clone + '_ {
-        self.nodes.iter().map(|&node| self.lattice.world_from_lattice(node))
+        (0..self.nodes.len()).map(|node| self.world(NodeId::from_index(node)))
     }
 
     /// Counts the triangles at each level, from level 0 to the deepest.

@@ -86,6 +86,7 @@ impl Mesh {
             triangles: Cow::Owned(triangles),
             places: Some(places),
             is_patched: !patch.is_empty(),
+            coordinates: None,
         }
     }
 }

@@ -97,7 +97,10 @@ fn on_a_coast_the_panel_says_how_far_the_path_can_cut_capes() {
     assert!(!says(&window, "capes"));
     let ring = vec![dvec2(0.01, 0.01), dvec2(0.99, 0.02), dvec2(0.98, 0.99), dvec2(0.02, 0.98)];
     let region = Arc::new(Region::new(&[vec![ring]], Rect::UNIT));
-    set(&mut window, Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region) }));
+    set(
+        &mut window,
+        Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region), projection: None }),
+    );
     set(&mut window, Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 0.04 }));
     wait_for_paths(&mut window);
     assert!(says(&window, "Along the outline the path can cut capes by up to 0.04, the boundary diameter."));

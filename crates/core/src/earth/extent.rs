@@ -1,0 +1,106 @@
+use glam::DVec2;
+
+use super::wrapped;
+
+/// A part of the Earth between two meridians and two parallels, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeographicExtent {
+    /// The western meridian, −180 to 180.
+    pub west: f64,
+    /// The eastern meridian is so far east of it: 0 to 360.
+    pub width: f64,
+    /// The southern parallel.
+    pub south: f64,
+    /// The northern parallel.
+    pub north: f64,
+    /// The latitude of the pole that a ring goes around: 90 or −90.
+    pub pole: Option<f64>,
+}
+
+impl GeographicExtent {
+    /// Returns the extent of rings of longitudes and latitudes; `None` without corners.
+    ///
+    /// Longitudes may be from −180 to 180 or from 0 to 360. An edge goes the shorter way round the Earth. The
+    /// extent leaves out the widest range of longitudes without corners.
+    pub fn of_rings<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> Option<Self> {
+        let corners = || rings.clone().flatten();
+        let mut longitudes: Vec<f64> = corners().map(|corner| wrapped(corner.x)).collect();
+        longitudes.sort_by(f64::total_cmp);
+        let (&first, &last) = (longitudes.first()?, longitudes.last()?);
+        let mut widest = [first + 360.0 - last, last, first];
+        for pair in longitudes.windows(2) {
+            if pair[1] - pair[0] > widest[0] {
+                widest = [pair[1] - pair[0], pair[0], pair[1]];
+            }
+        }
+        let latitudes = corners().map(|corner| corner.y);
+        let (south, north) = (latitudes.clone().reduce(f64::min)?, latitudes.reduce(f64::max)?);
+        let pole = rings.clone().find_map(pole_within);
+        let goes_round = pole.is_some() || rings.clone().any(goes_along_a_parallel);
+        let [gap, _, west] = widest;
+        let width = if goes_round { 360.0 } else { 360.0 - gap };
+        Some(Self { west, width, south, north, pole })
+    }
+
+    /// The meridian in the middle, −180 to 180.
+    pub fn middle_longitude(&self) -> f64 {
+        wrapped(self.west + 0.5 * self.width)
+    }
+
+    /// The parallel in the middle.
+    pub fn middle_latitude(&self) -> f64 {
+        0.5 * (self.south + self.north)
+    }
+}
+
+fn edges(ring: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&from, &to)| (from, to))
+}
+
+/// Returns the pole that a ring goes around.
+fn pole_within(ring: &[DVec2]) -> Option<f64> {
+    let turn: f64 = edges(ring).map(|(from, to)| wrapped(to.x - from.x)).sum();
+    let middle = ring.iter().map(|corner| corner.y).sum::<f64>();
+    (turn.abs() > 180.0).then_some(90.0_f64.copysign(middle))
+}
+
+/// Returns whether a ring has an edge from −180° to 180° along a parallel, as rectangles around the whole
+/// Earth have.
+fn goes_along_a_parallel(ring: &[DVec2]) -> bool {
+    edges(ring).any(|(from, to)| (to.x - from.x).abs() == 360.0 && from.y == to.y && from.y.abs() < 90.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::dvec2;
+
+    fn extent(corners: &[[f64; 2]]) -> GeographicExtent {
+        let ring: Vec<DVec2> = corners.iter().map(|&corner| corner.into()).collect();
+        GeographicExtent::of_rings([ring.as_slice()].into_iter()).unwrap()
+    }
+
+    #[test]
+    fn an_extent_may_lie_over_the_antimeridian() {
+        let pacific = extent(&[[170.0, -20.0], [-170.0, -20.0], [-175.0, -10.0]]);
+        let same = extent(&[[170.0, -20.0], [190.0, -20.0], [185.0, -10.0]]);
+        assert_eq!(pacific, same);
+        assert_eq!((pacific.west, pacific.width, pacific.middle_longitude()), (170.0, 20.0, 180.0));
+        let greenwich = extent(&[[-10.0, 50.0], [10.0, 50.0], [355.0, 60.0]]);
+        assert_eq!((greenwich.west, greenwich.width, greenwich.pole), (-10.0, 20.0, None));
+    }
+
+    #[test]
+    fn a_ring_around_a_pole_is_recognised() {
+        let around: Vec<DVec2> = (0..36).map(|n| dvec2(wrapped(10.0 * f64::from(n)), -65.0)).collect();
+        let found = GeographicExtent::of_rings([around.as_slice()].into_iter()).unwrap();
+        assert_eq!((found.pole, found.width), (Some(-90.0), 360.0));
+        // As files have it: along the edge of a map in degrees.
+        let mut cut: Vec<DVec2> = (-18..=18).map(|n| dvec2(10.0 * f64::from(n), -65.0)).collect();
+        cut.extend([dvec2(180.0, -90.0), dvec2(-180.0, -90.0)]);
+        let found = GeographicExtent::of_rings([cut.as_slice()].into_iter()).unwrap();
+        assert_eq!((found.pole, found.width, found.south), (Some(-90.0), 360.0, -90.0));
+        let globe = extent(&[[-180.0, -75.0], [180.0, -75.0], [180.0, 75.0], [-180.0, 75.0]]);
+        assert_eq!((globe.pole, globe.width), (None, 360.0));
+    }
+}

@@ -1,0 +1,210 @@
+//! Domains on the Earth, meshed in the plane of a projection. Lengths on the ellipsoid are computed here from
+//! points in space, and not with the projections of the program.
+
+use crate::folder::Folder;
+
+/// Half the equatorial axis in metres, and the eccentricity squared, of WGS 84.
+const A: f64 = 6_378_137.0;
+const E2: f64 = 6.694_379_990_141_317e-3;
+
+/// Returns the place in space of a longitude and latitude on the ellipsoid, in metres.
+fn in_space([longitude, latitude]: [f64; 2]) -> [f64; 3] {
+    let [longitude, latitude] = [longitude, latitude].map(f64::to_radians);
+    let across = A / (1.0 - E2 * latitude.sin().powi(2)).sqrt();
+    let from_axis = across * latitude.cos();
+    [from_axis * longitude.cos(), from_axis * longitude.sin(), across * (1.0 - E2) * latitude.sin()]
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Returns the length of the geodesic between two points that are near each other. The straight line through
+/// the Earth is shorter by s³ / 24 R², and R is at least 6,335 km anywhere.
+fn on_the_ellipsoid(a: [f64; 2], b: [f64; 2]) -> f64 {
+    let chord = distance(in_space(a), in_space(b));
+    chord + chord.powi(3) / (24.0 * 6.335e6_f64.powi(2))
+}
+
+/// Returns the angles of a triangle of points in space, in degrees.
+fn angles(points: [[f64; 3]; 3]) -> [f64; 3] {
+    let side = |i: usize, j: usize| distance(points[i], points[j]);
+    [[0, 1, 2], [1, 2, 0], [2, 0, 1]].map(|[i, j, k]| {
+        let (a, b, c) = (side(j, k), side(i, j), side(i, k));
+        ((b * b + c * c - a * a) / (2.0 * b * c)).acos().to_degrees()
+    })
+}
+
+struct Coast {
+    name: &'static str,
+    /// Longitude and latitude, and half the width in degrees of latitude.
+    at: [f64; 2],
+    size: f64,
+}
+
+/// Ten coasts between 75° S and 80° N, two of them over the antimeridian.
+const COASTS: [Coast; 10] = [
+    Coast { name: "Ross Sea", at: [178.0, -73.0], size: 2.0 },
+    Coast { name: "Magellan", at: [-70.5, -53.0], size: 2.5 },
+    Coast { name: "Tasmania", at: [147.0, -42.0], size: 2.0 },
+    Coast { name: "Fiji", at: [179.5, -17.5], size: 2.0 },
+    Coast { name: "Gabon", at: [9.0, -0.5], size: 2.0 },
+    Coast { name: "Florida", at: [-81.0, 25.0], size: 3.0 },
+    Coast { name: "Sea of Japan", at: [134.0, 39.0], size: 4.0 },
+    Coast { name: "Baltic", at: [20.0, 59.0], size: 4.0 },
+    Coast { name: "Iceland", at: [-19.0, 65.0], size: 3.0 },
+    Coast { name: "Svalbard", at: [18.0, 78.5], size: 1.5 },
+];
+
+impl Coast {
+    /// Returns a rough ring of longitudes from −180 to 180 and latitudes.
+    fn ring(&self, random: &mut fastrand::Rng) -> Vec<[f64; 2]> {
+        let corner = |n: u32, random: &mut fastrand::Rng| {
+            let angle = std::f64::consts::TAU * f64::from(n) / 60.0;
+            let radius = self.size * (0.6 + 0.4 * random.f64());
+            let latitude = self.at[1] + radius * angle.sin();
+            let longitude = self.at[0] + radius * angle.cos() / latitude.to_radians().cos();
+            [(longitude + 180.0).rem_euclid(360.0) - 180.0, latitude]
+        };
+        (0..60).map(|n| corner(n, random)).collect()
+    }
+}
+
+fn polygon(rings: &[Vec<[f64; 2]>]) -> String {
+    serde_json::json!({ "type": "Polygon", "coordinates": rings }).to_string()
+}
+
+/// Returns the longitudes and latitudes of the nodes, and the triangles, of a mesh in files.
+fn mesh_in(folder: &Folder, name: &str) -> (Vec<[f64; 2]>, Vec<[usize; 3]>) {
+    let rows = |ending: &str| -> Vec<Vec<f64>> {
+        let numbers = |line: &str| line.split_whitespace().map(|word| word.parse().unwrap()).collect();
+        let text = folder.read(&format!("{name}.{ending}"));
+        text.lines().skip(1).filter(|line| !line.starts_with('#')).map(numbers).collect()
+    };
+    let nodes = rows("node").iter().map(|row| [row[1], row[2]]).collect();
+    let triangles =
+        rows("ele").iter().map(|row| [row[1] as usize, row[2] as usize, row[3] as usize]).collect();
+    (nodes, triangles)
+}
+
+#[test]
+fn no_edge_is_longer_on_the_ellipsoid_than_its_target() {
+    let folder = Folder::new("earth-edges");
+    let mut random = fastrand::Rng::with_seed(11);
+    let (mut edges, mut longest) = (0, 0.0_f64);
+    for coast in &COASTS {
+        folder.file("coast.geojson", polygon(&[coast.ring(&mut random)]));
+        for projection in ["auto", "merc", "tmerc", "stere", "lcc"] {
+            let command = format!(
+                "mesh --region coast.geojson --projection {projection} --boundary fitted --spacing 60000 \
+                 --target 9000 --boundary-diameter 9000"
+            );
+            let ran = folder.run(format!("{command} -o m.node"));
+            if ran.status != 0 {
+                // Only the equator is on both sides.
+                assert!(
+                    coast.name == "Gabon" && ran.err.contains("both sides of the equator"),
+                    "{}",
+                    ran.err
+                );
+                continue;
+            }
+            assert_eq!(folder.run(format!("{command} --out-crs plane -o p.node")).status, 0);
+            let ((nodes, triangles), (in_plane, _)) = (mesh_in(&folder, "m"), mesh_in(&folder, "p"));
+            assert!(triangles.len() > 1000, "{}: {}", coast.name, triangles.len());
+            for triangle in &triangles {
+                let corners = triangle.map(|node| nodes[node]);
+                for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                    let length = on_the_ellipsoid(corners[a], corners[b]);
+                    assert!(length <= 9000.0, "{} in {projection}: {length} m", coast.name);
+                    longest = longest.max(length);
+                    edges += 1;
+                }
+                let plane = triangle.map(|node| [in_plane[node][0], in_plane[node][1], 0.0]);
+                let (here, there) = (angles(corners.map(in_space)), angles(plane));
+                let off = (0..3).map(|i| (here[i] - there[i]).abs()).fold(0.0, f64::max);
+                assert!(off < 0.2, "{} in {projection}: {off}° from the angles of the plane", coast.name);
+            }
+        }
+    }
+    eprintln!("{edges} edges, the longest {longest} m of 9000");
+    assert!(longest > 8000.0);
+}
+
+#[test]
+fn a_sea_that_is_cut_at_the_antimeridian_is_one() {
+    let folder = Folder::new("earth-antimeridian");
+    let half = |west: f64, east: f64| vec![[west, -19.0], [east, -19.0], [east, -15.0], [west, -15.0]];
+    let halves = [half(176.0, 180.0), half(-180.0, -177.5)];
+    let polygons: Vec<_> = halves.iter().map(|ring| vec![ring.clone()]).collect();
+    let text = serde_json::json!({ "type": "MultiPolygon", "coordinates": polygons }).to_string();
+    folder.file("cut.geojson", text);
+    folder.file("whole.geojson", polygon(&[half(176.0, -177.5)]));
+    let mesh = |file: &str| {
+        let input = format!("--region {file} --projection auto --spacing 50000 --boundary fitted");
+        folder.json("mesh", format!("{input} --target 20000"))
+    };
+    let (cut, whole) = (mesh("cut.geojson"), mesh("whole.geojson"));
+    assert_eq!(cut["parts"], 1);
+    assert_eq!(cut["triangles"], whole["triangles"]);
+}
+
+#[test]
+fn a_continent_around_a_pole_is_meshed() {
+    let folder = Folder::new("earth-pole");
+    let mut ring: Vec<[f64; 2]> = (-180..=180).map(|longitude| [f64::from(longitude), -70.0]).collect();
+    ring.extend([[180.0, -90.0], [-180.0, -90.0]]);
+    folder.file("ice.geojson", polygon(&[ring]));
+    let summary = folder.json("mesh", "--region ice.geojson --projection auto --spacing 400000");
+    // The cap of a sphere of the same surface, drawn at most 1.07 times as large.
+    let cap = std::f64::consts::TAU * 6_371_007.0_f64.powi(2) * (1.0 - 70.0_f64.to_radians().sin());
+    let area = summary["region_area"].as_f64().unwrap();
+    assert!((1.0..1.08).contains(&(area / cap)), "{area} of {cap}");
+}
+
+#[test]
+fn what_cannot_be_projected_is_refused_with_the_reason() {
+    let folder = Folder::new("earth-refused");
+    let frame = |[west, south, east, north]: [f64; 4]| {
+        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
+    };
+    folder.file("globe.geojson", frame([-180.0, -75.0, 180.0, 75.0]));
+    folder.file("plane.geojson", frame([0.0, 0.0, 5000.0, 3000.0]));
+    folder.file("far.geojson", frame([0.0, 0.0, 5.0, 84.0]));
+    folder.file("depth.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n");
+    folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
+    for (arguments, sentence) in [
+        ("--region globe.geojson --projection auto", "goes all around the Earth"),
+        ("--region plane.geojson --projection auto", "not longitudes and latitudes"),
+        ("--region far.geojson --projection merc", "times is the limit"),
+        ("--region sea.geojson --projection mercator", "one of auto, merc, tmerc, stere and lcc"),
+        ("--region sea.geojson --projection +proj=merc+lat_ts=89", "is not a projection of this program"),
+        ("--projection auto", "--projection auto: it is for the longitudes and latitudes of a region"),
+        ("--region sea.geojson --projection auto --target-raster depth.asc", "a raster cannot be used"),
+    ] {
+        let ran = folder.run(format!("mesh {arguments}"));
+        assert_ne!(ran.status, 0, "{arguments}");
+        assert!(ran.err.contains(sentence), "{arguments}: {}", ran.err);
+    }
+}
+
+/// A recipe that a projected document was written to makes the same mesh, and so does one in the plane.
+#[test]
+fn files_in_the_plane_make_the_same_mesh() {
+    let folder = Folder::new("earth-plane");
+    let mut random = fastrand::Rng::with_seed(3);
+    folder.file("coast.geojson", polygon(&[COASTS[7].ring(&mut random)]));
+    let by_degrees = folder.json(
+        "mesh",
+        "--region coast.geojson --projection lcc --spacing 60000 --target 20000 --out-crs plane -o a.node",
+    );
+    let (nodes, _) = mesh_in(&folder, "a");
+    assert!(nodes.iter().any(|node| node[0].abs() > 1e5), "metres");
+    folder.file(
+        "coast.toml",
+        "[domain]\nregion = \"coast.geojson\"\nprojection = \"lcc\"\n[mesh]\nspacing = 60000\n\
+         [[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"20000\"\n",
+    );
+    let by_recipe = folder.json("mesh", "coast.toml");
+    assert_eq!(by_recipe["hash"], by_degrees["hash"]);
+}
