@@ -9,7 +9,7 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
-use super::super::{KeyFault, Meter, ReadError, project, shapes, threats};
+use super::super::{KeyFault, Meter, ReadError, project, shape_format, threats};
 use super::notes::{cut_at_antimeridian, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
@@ -55,7 +55,7 @@ pub struct Loading<'a> {
 impl<'a> Loading<'a> {
     /// Returns all layers, for a document.
     pub fn for_document(meter: &'a Meter) -> Self {
-        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: geojson::read_outline, meter }
+        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: shape_format::read_outline, meter }
     }
 }
 
@@ -175,7 +175,7 @@ impl Storage for Files<'_> {
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        Ok(geojson::without_names(geojson::read_named_metered(file, self.loading.meter)?))
+        Ok(geojson::without_names(shape_format::read_polygons(file, self.loading.meter)?))
     }
 }
 
@@ -197,7 +197,7 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        Ok(shapes::read(file, self.loading.meter)?.shapes)
+        Ok(shape_format::read_shapes(file, self.loading.meter)?.shapes)
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
