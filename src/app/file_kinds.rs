@@ -6,7 +6,7 @@ use super::command::{Command, FileCommand, ShellCommand};
 use super::features::ROWS;
 use crate::app::kit::{FileAct, FileKind, FileRequest};
 use meshbrush_io::io::project::ENDING;
-use meshbrush_io::io::{RasterFormat, recipe, recording};
+use meshbrush_io::io::{RasterFormat, recipe, recording, shape_format};
 use meshbrush_render::render::export::ExportFormat;
 
 /// Returns the kinds of files to open by ending: the first one that accepts the ending counts.
@@ -38,7 +38,10 @@ pub static OPEN_ANY: FileKind = FileKind {
 pub static ADD_DATA: FileKind = FileKind {
     title: "Add data",
     act: FileAct::Add,
-    endings: || RasterFormat::all().map(RasterFormat::ending).chain(["geojson", "json", "csv"]).collect(),
+    endings: || {
+        let rasters = RasterFormat::all().flat_map(RasterFormat::endings).copied();
+        rasters.chain(shape_format::endings()).chain(["csv"]).collect()
+    },
     contents: "Grids, pictures, shapes and tables",
     folder: "data",
     ..FileKind::new(|path| Command::File(FileCommand::AddData(path)))

@@ -629,7 +629,7 @@ fn wrong_arguments_are_explained() {
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),
         ("mesh -o nowhere/m.vtu", 1, "nowhere/m.vtu cannot be written: there is no folder nowhere."),
-        ("mesh --target-raster risk.tif", 2, "a raster ends in .png"),
+        ("mesh --target-raster risk.jpg", 2, "a raster ends in .png"),
         ("mesh --unknown", 2, "unexpected argument"),
         ("locate", 2, "--points"),
         ("locate --points nothing.csv", 1, "nothing.csv: cannot be read"),

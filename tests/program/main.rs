@@ -2,6 +2,7 @@
 
 mod causes;
 mod cli;
+mod data_formats;
 mod earth;
 mod folder;
 mod layer_files;

@@ -16,7 +16,7 @@ pub fn with_mask(
 ) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| {
-        let named = match io::geojson::read_named_metered(&file, meter) {
+        let named = match io::shape_format::read_polygons(&file, meter) {
             Ok(named) => named,
             Err(error) => return Outcome::not_read(error),
         };

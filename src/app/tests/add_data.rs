@@ -30,7 +30,7 @@ const LINE: &str = "{\"type\": \"LineString\", \"coordinates\": [[0.2, 0.2], [0.
 const THREATS: &str = "x,y,range,peak,law\n0.3,0.4,0.1,0.8,radar\n0.6,0.6,0.2,0.5,disc\n";
 const POINTS: &str = "x,y\n0.3,0.4\n0.6,0.6\n0.3,0.4\n";
 
-fn written(test: &str, name: &str, text: &str) -> PathBuf {
+fn written(test: &str, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
     let file = super::folder("app-add-data", test).join(name);
     fs::write(&file, text).unwrap();
     file
@@ -156,6 +156,31 @@ fn polygons_become_a_domain_an_outline_a_mask_or_a_region() {
     drop_and_wait(&mut window, &file);
     choose_role(&mut window, "Keep-out region of paths");
     wait_until(&mut window, |window| settings(window).paths.keep_out.len() == 1);
+}
+
+#[test]
+fn an_array_lies_where_its_world_file_says_or_over_the_document() {
+    let header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3), }";
+    let array =
+        [b"\x93NUMPY\x01\0", &[header.len() as u8, 0][..], header.as_bytes(), &[5, 6, 7, 8, 9, 10]].concat();
+    let file = written("array", "lengths.npy", array);
+    let extent = |window: &Window| match &active(window).kind {
+        LayerKind::Raster { source, reading: RasterReading::Diameter } => source.raster.raster().bounds(),
+        other => panic!("the new layer is selected: {other:?}"),
+    };
+    let [mut window, mut empty] = [window(), window()];
+    let before = settings(&window).layers.len();
+    drop_and_wait(&mut window, &file);
+    assert!(roles(&window).0.iter().any(|role| role == "Target diameter"), "{:?}", roles(&window));
+    choose_role(&mut window, "Target diameter");
+    wait_until(&mut window, |window| settings(window).layers.len() > before);
+    assert_eq!(extent(&window), settings(&window).domain.bounds);
+    fs::write(file.with_extension("nyw"), "2\n0\n0\n-2\n11\n23\n").unwrap();
+    new_document(&mut empty);
+    drop_and_wait(&mut empty, &file);
+    choose_role(&mut empty, "Target diameter");
+    wait_until(&mut empty, |window| settings(window).name == "lengths");
+    assert_eq!(extent(&empty), Rect::new(dvec2(10.0, 20.0), dvec2(16.0, 24.0)));
 }
 
 #[test]

@@ -152,7 +152,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
-    /// Domain with holes: a GeoJSON file with polygons, in its own coordinates; - is standard input
+    /// Domain with holes: a GeoJSON file or shapefile (.shp) with polygons, in its own coordinates; - is
+    /// GeoJSON from standard input
     ///
     /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
@@ -224,7 +225,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.csv")]
     pub threats: Vec<PathBuf>,
 
-    /// Points, lines or polygons from which the target diameter grows with the distance; may be repeated
+    /// Points, lines or polygons (.geojson, .shp) from which the target diameter grows with the distance; may
+    /// be repeated
     #[arg(long, value_name = "FILE.geojson")]
     pub distance: Vec<PathBuf>,
 

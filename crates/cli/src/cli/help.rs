@@ -6,14 +6,15 @@ use meshbrush_render::render::export::ExportFormat;
 /// Returns the endings of the files of grids, or of images.
 fn raster_endings(are_grids: bool) -> String {
     let formats = RasterFormat::all().filter(|format| format.is_grid() == are_grids);
-    formats.map(|format| format!(".{}", format.ending())).collect::<Vec<_>>().join(", ")
+    let endings = formats.flat_map(|format| format.endings());
+    endings.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the help of the file that the window opens.
 pub fn file_help() -> String {
     format!(
-        "File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson), or a greyscale \
-         picture ({}) or grid ({}) as risk",
+        "File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson, .shp), or a \
+         greyscale picture ({}) or grid ({}) as risk",
         raster_endings(false),
         raster_endings(true)
     )
@@ -32,8 +33,8 @@ pub fn target_raster_help() -> String {
 /// Returns the long help of `--target-raster`.
 pub fn target_raster_long_help() -> String {
     format!(
-        "{}\n\nAn image covers the domain's bounding box, a grid lies where its header says. A pixel without a \
-         value (NODATA, or transparent) asks for nothing.",
+        "{}\n\nAn image, and an array (.npy), covers the domain's bounding box; any other grid lies where its file \
+         says. A pixel without a value (NODATA, or transparent) asks for nothing.",
         target_raster_help()
     )
 }

@@ -18,6 +18,7 @@ use meshbrush_io::io::geojson::{self, Outline};
 use meshbrush_io::io::layers::SavedLayer;
 use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
 use meshbrush_io::io::settings::{SavedSettings, SavedTreatment, Usual};
+use meshbrush_io::io::shape_format;
 use meshbrush_io::io::{Meter, ReadError, project};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{CoarseError, Limits, MemoryLimit, bisection_edge_length};
@@ -229,7 +230,7 @@ fn read_recipe(path: &Path) -> Result<Recipe, Failure> {
 fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
     match is_standard_stream(path) {
         true => geojson::read_outline_from(stdin().lock(), Path::new("standard input")),
-        false => geojson::read_outline(path, meter),
+        false => shape_format::read_outline(path, meter),
     }
 }
 

@@ -20,13 +20,14 @@ use super::path_args::PathArguments;
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
+use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
     PathSample, Planner, Solution, Weights,
 };
-use meshbrush_io::io::{self as files, Interruption, Provenance};
+use meshbrush_io::io::{self as files, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
@@ -198,7 +199,8 @@ fn cost_formula(text: &str) -> Result<CostFormula, Failure> {
 }
 
 fn mask(path: &Path) -> Result<Mask, Failure> {
-    let polygons = files::geojson::read(path)?;
+    let named = files::shape_format::read_polygons(path, &Meter::default())?;
+    let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
     Mask::new(&polygons).map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
 }
 

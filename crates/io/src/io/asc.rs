@@ -14,6 +14,7 @@ use glam::DVec2;
 
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
+use super::samples::single;
 use super::{Flaw, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
@@ -21,7 +22,7 @@ use meshbrush_mesh::text::excerpt;
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { ending: "asc", read: ReadRaster::Grid(read_metered) };
+    RasterFormatSpec { endings: &["asc"], read: ReadRaster::Grid(read_placed) };
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
@@ -37,9 +38,14 @@ pub fn read(path: &Path) -> Result<Raster, ReadError> {
 /// # Errors
 /// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
+    read_placed(path, None, meter)
+}
+
+/// Reads a grid over the given rectangle, or else over that of its header.
+fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.metadata()?.len());
-        parse(BufReader::with_capacity(1 << 16, meter.count(file)))
+        parse_over(BufReader::with_capacity(1 << 16, meter.count(file)), place)
     });
     read.map_err(|flaw| flaw.in_file(path))
 }
@@ -133,6 +139,10 @@ impl fmt::Display for Single {
 }
 
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
+    parse_over(source, None)
+}
+
+fn parse_over(source: impl BufRead, place: Option<Rect>) -> Result<Raster, PlacedFlaw> {
     let mut words = Words { source, line: 1, word: String::new() };
     let header = Header::parse(&mut words)?;
     let [columns, rows] = header.size()?;
@@ -149,14 +159,18 @@ fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
             return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
         }
         let value = number(words.text(), words.line)?;
-        values.push(if has_value(value) { single(value, words.line)? } else { f32::NAN });
+        values.push(if has_value(value) {
+            single(value, REMEDY).map_err(|flaw| flaw.at(words.line))?
+        } else {
+            f32::NAN
+        });
         has_word = words.advance()?;
     }
     if values.len() < count {
         return Err(Flaw::CutOff.at(words.line));
     }
     reverse_rows(&mut values, columns);
-    Ok(Raster::from_values(bounds, [columns, rows], values))
+    Ok(Raster::from_values(place.unwrap_or(bounds), [columns, rows], values))
 }
 
 /// The names of the header in lower case, with their numbers.
@@ -254,19 +268,8 @@ fn number(word: &str, line: usize) -> Result<f64, PlacedFlaw> {
     })
 }
 
-/// Returns a value in single precision, as rasters have it.
-fn single(value: f64, line: usize) -> Result<f32, PlacedFlaw> {
-    let single = value as f32;
-    if single.is_finite() {
-        return Ok(single);
-    }
-    let problem =
-        format!("the value {value:e} is too large: a raster has single precision, up to {:.1e}", f32::MAX);
-    Err(Flaw::Syntax(
-        problem + ". If it marks pixels without a value, name it with NODATA_value in the header.",
-    )
-    .at(line))
-}
+/// What helps where a value is too large.
+const REMEDY: &str = "If it marks pixels without a value, name it with NODATA_value in the header.";
 
 /// Words between white space.
 struct Words<R> {

@@ -66,6 +66,9 @@ pub enum Flaw {
     /// The PNG decoder refuses it.
     #[error("this is not a PNG image that can be read ({}). Export it again as PNG.", abridged(_0))]
     Png(String),
+    /// The TIFF decoder refuses it.
+    #[error("this is not a TIFF raster that can be read ({}). Export it again as GeoTIFF.", abridged(_0))]
+    Tiff(String),
     /// A raster with too many pixels, or none.
     #[error(
         "{} × {} pixels cannot be read: a raster has 1 to {} pixels along each side, and at most {} in all. Scale it \

@@ -7,12 +7,17 @@ use std::path::Path;
 use super::coordinates;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
-use super::{Counted, Meter};
+use super::shape_format::ShapeFormatSpec;
+use super::{Counted, Meter, shapes};
 use meshbrush_core::domain::{NamedPolygon, Polygon};
 use meshbrush_core::earth::{
     GeographicExtent, Projection, ProjectionChoice, ProjectionError, projected_polygons,
 };
 use meshbrush_mesh::text::LengthUnit;
+
+/// The format, for the list of all formats of shapes.
+pub static FORMAT: ShapeFormatSpec =
+    ShapeFormatSpec { endings: &["geojson", "json"], read_outline, read_shapes: shapes::read };
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -223,7 +228,7 @@ pub fn write(out: &mut dyn Write, polygons: &[Polygon]) -> io::Result<()> {
     writeln!(out, "]}}")
 }
 
-fn no_polygon(others: &[String]) -> String {
+pub(super) fn no_polygon(others: &[String]) -> String {
     let found = match others.first() {
         Some(kind) => format!("it has {kind}"),
         None => "it has no geometry".into(),

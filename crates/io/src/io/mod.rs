@@ -16,6 +16,7 @@ pub mod asc;
 mod atomic;
 mod blocks;
 mod claim;
+mod coordinate_system;
 mod coordinates;
 pub mod csv;
 mod error;
@@ -26,12 +27,14 @@ mod interrupt;
 mod mesh_file;
 mod meter;
 pub mod geojson;
+pub mod geotiff;
 pub mod journal;
 mod json;
 pub mod layers;
 pub mod located;
 pub mod msh;
 pub mod node;
+pub mod npy;
 pub mod obj;
 mod parallel_rows;
 pub mod path;
@@ -44,8 +47,11 @@ mod raster_file;
 pub mod recipe;
 pub mod recording;
 mod rows;
+mod samples;
 pub mod settings;
+pub mod shape_format;
 pub mod shapes;
+pub mod shp;
 pub mod sms;
 mod stamp;
 pub mod stl;
@@ -62,6 +68,7 @@ use std::io::{self, Write};
 
 pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
+pub use coordinate_system::{CoordinateKind, CoordinateSystem};
 pub use error::{Flaw, Place, ReadError};
 pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
@@ -73,6 +80,7 @@ pub use meter::{Cancelled, Counted, Meter};
 use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
 pub use raster_file::{RasterFormat, RasterFormatSpec, ReadRaster};
+use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 
@@ -81,7 +89,10 @@ static MESH_FORMATS: [&FormatSpec; 7] =
     [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
 
 /// The formats of rasters. A new one is a module and an entry here.
-static RASTER_FORMATS: [&RasterFormatSpec; 2] = [&png::RASTER, &asc::RASTER];
+static RASTER_FORMATS: [&RasterFormatSpec; 4] = [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &npy::RASTER];
+
+/// The formats of shapes. A new one is a module and an entry here.
+static SHAPE_FORMATS: [&ShapeFormatSpec; 2] = [&geojson::FORMAT, &shp::FORMAT];
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
 ///

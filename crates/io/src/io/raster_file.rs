@@ -12,8 +12,8 @@ pub struct RasterFormat(&'static RasterFormatSpec);
 
 /// A file format of rasters, as its module describes it.
 pub struct RasterFormatSpec {
-    /// The file name extension, in lower case and without the dot.
-    pub ending: &'static str,
+    /// The file name extensions, in lower case and without the dot; the usual one first.
+    pub endings: &'static [&'static str],
     /// Reads a file, and counts its bytes.
     pub read: ReadRaster,
 }
@@ -21,8 +21,11 @@ pub struct RasterFormatSpec {
 /// Reads a raster, and counts the bytes of its file. Pixels without a value are NaN.
 #[derive(Clone, Copy)]
 pub enum ReadRaster {
-    /// Reads a grid, which says which rectangle it covers.
-    Grid(fn(&Path, &Meter) -> Result<Raster, ReadError>),
+    /// Reads a grid over the given rectangle, in world units; without one, over the rectangle that the file
+    /// says.
+    Grid(fn(&Path, Option<Rect>, &Meter) -> Result<Raster, ReadError>),
+    /// Reads a grid that does not say which rectangle it covers, over the given one, in world units.
+    Array(fn(&Path, Rect, &Meter) -> Result<Raster, ReadError>),
     /// Reads an image over the given rectangle, in world units, as values from 0 (black) to 1 (white).
     Image(fn(&Path, Rect, Behind, &Meter) -> Result<Raster, ReadError>),
 }
@@ -39,20 +42,32 @@ impl RasterFormat {
     /// Fails with a sentence when it is the ending of no raster.
     pub fn of(path: &Path) -> Result<Self, String> {
         let ending = path.extension().unwrap_or_default();
-        Self::all().find(|format| ending.eq_ignore_ascii_case(format.ending())).ok_or_else(|| {
-            let endings: Vec<String> = Self::all().map(|format| format!(".{}", format.ending())).collect();
-            format!("a raster ends in {}.", endings.join(" or "))
+        let has = |format: &Self| format.endings().iter().any(|known| ending.eq_ignore_ascii_case(known));
+        Self::all().find(has).ok_or_else(|| {
+            let endings = Self::all().flat_map(|format| format.endings()).map(|ending| format!(".{ending}"));
+            let mut endings: Vec<String> = endings.collect();
+            let last = endings.pop().unwrap_or_default();
+            format!("a raster ends in {} or {last}.", endings.join(", "))
         })
     }
 
-    /// The file name extension, in lower case and without the dot.
+    /// The usual file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
-        self.0.ending
+        self.0.endings[0]
     }
 
-    /// Returns whether a file says itself which rectangle it covers, and has any values. The others are
-    /// images.
+    /// All file name extensions, in lower case and without the dot.
+    pub fn endings(self) -> &'static [&'static str] {
+        self.0.endings
+    }
+
+    /// Returns whether a file has any values. The others are images, with values from 0 to 1.
     pub fn is_grid(self) -> bool {
+        !matches!(self.0.read, ReadRaster::Image(_))
+    }
+
+    /// Returns whether a file says itself which rectangle it covers.
+    pub fn has_place(self) -> bool {
         matches!(self.0.read, ReadRaster::Grid(_))
     }
 

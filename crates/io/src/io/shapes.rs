@@ -57,23 +57,29 @@ fn parse(input: impl Read) -> Result<ShapeFile, PlacedFlaw> {
     let crs = object.crs_name();
     let mut shapes = ShapeList::default();
     collect(object, &mut shapes).map_err(Flaw::Syntax)?;
-    if shapes.is_empty() {
-        let problem = "there is no point, line or polygon in it. Export the features, not an empty layer.";
-        return Err(Flaw::Syntax(problem.into()).into());
-    }
-    let count = places(&shapes).count();
-    if count > MOST_CORNERS {
-        let (count, limit) = (Grouped(count), Grouped(MOST_CORNERS));
-        let problem =
-            format!("the shapes have {count} points, and the limit is {limit}. Simplify them first.");
-        return Err(Flaw::Syntax(problem).into());
-    }
+    check(&shapes)?;
     let unit = coordinates::unit(crs.as_deref(), places(&shapes));
     Ok(ShapeFile { shapes, unit })
 }
 
+/// Checks that there are shapes, and not too many points.
+pub(super) fn check(shapes: &ShapeList) -> Result<(), Flaw> {
+    if shapes.is_empty() {
+        let problem = "there is no point, line or polygon in it. Export the features, not an empty layer.";
+        return Err(Flaw::Syntax(problem.into()));
+    }
+    let count = places(shapes).count();
+    if count > MOST_CORNERS {
+        let (count, limit) = (Grouped(count), Grouped(MOST_CORNERS));
+        let problem =
+            format!("the shapes have {count} points, and the limit is {limit}. Simplify them first.");
+        return Err(Flaw::Syntax(problem));
+    }
+    Ok(())
+}
+
 /// Returns all positions of the shapes.
-fn places(shapes: &ShapeList) -> impl Iterator<Item = DVec2> {
+pub(super) fn places(shapes: &ShapeList) -> impl Iterator<Item = DVec2> {
     let rings = shapes.polygons.iter().flatten().flatten();
     shapes.points.iter().chain(shapes.lines.iter().flatten()).chain(rings).copied()
 }

@@ -1,4 +1,4 @@
-//! World files (`.pgw`, `.wld`): six lines with the position of a picture.
+//! World files (`.pgw`, `.tfw`, `.wld`): six lines with the position of a picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,8 +8,15 @@ use glam::dvec2;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use meshbrush_mesh::geometry::Rect;
 
-/// Endings of the world file beside a picture, in the order of search.
-const ENDINGS: [&str; 4] = ["pgw", "pngw", "wld", "PGW"];
+/// Returns the endings of the world file beside a picture, in the order of search: of `.png`, these are
+/// `pgw`, `pngw`, `wld` and `PGW`.
+fn endings(picture: &Path) -> Vec<String> {
+    let own = picture.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let ends = own.chars().next().into_iter().chain(own.chars().last());
+    let short: String = ends.chain(['w']).collect();
+    vec![short.clone(), format!("{own}w"), "wld".into(), short.to_uppercase()]
+}
+
 /// Most bytes of a world file: six numbers take fewer.
 const MOST_BYTES: u64 = 4096;
 
@@ -19,8 +26,8 @@ const MOST_BYTES: u64 = 4096;
 /// # Errors
 /// Fails when the file cannot be read, has no six numbers, or turns or mirrors the picture.
 pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, ReadError> {
-    let files = ENDINGS.iter().map(|ending| picture.with_extension(ending));
-    let Some(file) = files.into_iter().find(|file: &PathBuf| file.is_file()) else { return Ok(None) };
+    let mut files = endings(picture).into_iter().map(|ending| picture.with_extension(ending));
+    let Some(file) = files.find(|file: &PathBuf| file.is_file()) else { return Ok(None) };
     let read = || -> Result<Rect, PlacedFlaw> {
         if fs::metadata(&file)?.len() > MOST_BYTES {
             return Err(Flaw::Syntax("a world file has six lines, and this one is far longer.".into()).into());
@@ -60,6 +67,12 @@ mod tests {
     fn the_six_lines_are_those_of_the_upper_left_pixel() {
         let placed = bounds("0.5\n0\n0\n-0.25\n10.25\n39.875\n", [4, 8]).unwrap();
         assert_eq!(placed, Rect::new(dvec2(10.0, 38.0), dvec2(12.0, 40.0)));
+    }
+
+    #[test]
+    fn the_ending_is_that_of_the_picture() {
+        assert_eq!(endings(Path::new("a/b.png")), ["pgw", "pngw", "wld", "PGW"]);
+        assert_eq!(endings(Path::new("b.TIFF"))[..2], ["tfw", "tiffw"]);
     }
 
     #[test]

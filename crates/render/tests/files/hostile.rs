@@ -12,8 +12,9 @@ use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_io::io::png::{Behind, decode};
-use meshbrush_io::io::{Meter, asc, geojson, points, recipe, recording, shapes, threats};
+use meshbrush_io::io::{Meter, asc, geojson, geotiff, npy, points, recipe, recording, shapes, shp, threats};
 use meshbrush_mesh::geometry::Rect;
+use tiff::tags::Tag;
 
 const NAME: &str = "the file";
 
@@ -51,6 +52,18 @@ fn read_recipe(bytes: &[u8]) -> Result<(), String> {
 
 fn read_png(bytes: &[u8]) -> Result<(), String> {
     decode(Cursor::new(bytes), Rect::UNIT, Behind::Black).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
+}
+
+fn read_geotiff(bytes: &[u8]) -> Result<(), String> {
+    geotiff::decode(Cursor::new(bytes)).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
+}
+
+fn read_npy(bytes: &[u8]) -> Result<(), String> {
+    npy::decode(bytes, Rect::UNIT).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
+}
+
+fn read_shp(bytes: &[u8]) -> Result<(), String> {
+    shp::read_from(bytes, Path::new(NAME)).map(drop).map_err(|error| error.to_string())
 }
 
 fn read_formula(bytes: &[u8]) -> Result<(), String> {
@@ -124,6 +137,39 @@ combine = "floor"
 file = "a.vtu"
 "#;
 
+/// Returns a GeoTIFF of 3 × 2 pixels, of which one has no value.
+fn geotiff_sample() -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = tiff::encoder::TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder.new_image::<tiff::encoder::colortype::Gray32Float>(3, 2).unwrap();
+    let tags = image.encoder();
+    tags.write_tag(Tag::ModelPixelScaleTag, &[2.0, 2.0, 0.0][..]).unwrap();
+    tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 10.0, 20.0, 0.0][..]).unwrap();
+    tags.write_tag(Tag::GeoKeyDirectoryTag, &[1u16, 1, 0, 1, 1025, 0, 1, 2][..]).unwrap();
+    tags.write_tag(Tag::GdalNodata, "-9").unwrap();
+    image.write_data(&[1.0, 2.5, 3.0, 4.0, -9.0, 6.0]).unwrap();
+    bytes.into_inner()
+}
+
+/// Returns an array of 2 × 3 numbers.
+fn npy_sample() -> Vec<u8> {
+    let header = "{'descr': '<i2', 'fortran_order': True, 'shape': (2, 3), }";
+    [b"\x93NUMPY\x01\0".as_slice(), &[header.len() as u8, 0], header.as_bytes(), &[0xff; 12]].concat()
+}
+
+/// Returns a shapefile with a point and a triangle.
+fn shp_sample() -> Vec<u8> {
+    let numbers = |list: &[f64]| list.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
+    let point = [vec![0, 0, 0, 1, 0, 0, 0, 10, 1, 0, 0, 0], numbers(&[7.0, 8.0])].concat();
+    let counts = [1, 4, 0].map(i32::to_le_bytes).concat();
+    let corners = numbers(&[0.0, 0.0, 0.0, 4.0, 4.0, 0.0, 0.0, 0.0]);
+    let triangle = [vec![0, 0, 0, 2, 0, 0, 0, 56, 5, 0, 0, 0], vec![0; 32], counts, corners].concat();
+    let mut header = vec![0; 100];
+    header[..4].copy_from_slice(&9994i32.to_be_bytes());
+    header[27] = ((100 + point.len() + triangle.len()) / 2) as u8;
+    [header, point, triangle].concat()
+}
+
 /// Returns a small valid file of each format with its reader.
 fn samples() -> Vec<(Vec<u8>, Reader)> {
     let mut png = Vec::new();
@@ -139,6 +185,9 @@ fn samples() -> Vec<(Vec<u8>, Reader)> {
         (asc.into(), read_asc),
         ("name,\"Y\", X \n\"a, \"\"b\"\"\",\"2\", 1\n,inf,-2e3\n".into(), read_points),
         (png, read_png),
+        (geotiff_sample(), read_geotiff),
+        (npy_sample(), read_npy),
+        (shp_sample(), read_shp),
         (SHAPES.into(), read_shapes),
         (THREATS.into(), read_threats),
         ("if(abs(x)+θ <= 8 and not y, hypot(x, 2^-y), max(1e-3, r))".into(), read_formula),

@@ -12,7 +12,7 @@ use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{
-    MeshData, MeshFormat, Meter, Provenance, asc, geojson, shapes, stl, vtu, write_file_metered,
+    MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, npy, shapes, stl, vtu, write_file_metered,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
@@ -160,10 +160,14 @@ fn a_cancelled_read_is_an_error() {
     let file = folder.join("a.meshbrush");
     write_file_metered(&file, &Meter::default(), |out| project::write(out, &large_project())).unwrap();
     let grid = grid_file(&folder);
+    let array = folder.join("array.npy");
+    fs::write(&array, b"\x93NUMPY\x01\0").unwrap();
     let meter = Meter::default();
     meter.cancel();
     let bad = [
         asc::read_metered(&grid, &meter).err(),
+        geotiff::read(&grid, &meter).err(),
+        npy::read(&array, Rect::UNIT, &meter).err(),
         shapes::read(Path::new("../../assets/aegean_sea.geojson"), &meter).err(),
         geojson::read_named_metered(Path::new("../../assets/aegean_sea.geojson"), &meter).err(),
         read_png(Path::new("../../assets/jacksboro_slope.png"), Rect::UNIT, Behind::Black, &meter).err(),

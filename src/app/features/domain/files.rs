@@ -2,12 +2,13 @@
 
 use crate::app::command::{Command, DomainCommand};
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
+use meshbrush_io::io::shape_format;
 
 /// Polygons as the domain of a new document.
 pub static OPEN_DOMAIN: FileKind = FileKind {
     title: "Open domain",
     act: FileAct::OpenDocument,
-    endings: || vec!["geojson", "json"],
+    endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
     ..FileKind::new(|path| Command::Domain(DomainCommand::Open(path)))
@@ -17,7 +18,7 @@ pub static OPEN_DOMAIN: FileKind = FileKind {
 pub static ADD_OUTLINE: FileKind = FileKind {
     title: "Add outline to this document",
     act: FileAct::Add,
-    endings: || vec!["geojson", "json"],
+    endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
     ..FileKind::new(|path| Command::Domain(DomainCommand::AddOutline(path)))

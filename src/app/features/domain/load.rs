@@ -27,7 +27,7 @@ pub fn load_domain(background: &mut Background, path: &Path) {
 pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
     let (file, settings) = (path.to_owned(), session.document().settings().clone());
     background.start(Aim::Read, path, move |meter| {
-        let polygons = match io::geojson::read_named_metered(&file, meter) {
+        let polygons = match io::shape_format::read_polygons(&file, meter) {
             Ok(polygons) => polygons,
             Err(error) => return Outcome::not_read(error),
         };
@@ -46,7 +46,7 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
 
 /// Returns a new document on the polygons of a file.
 fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
-    let outline = io::geojson::read_outline(path, meter).map_err(|error| error.to_string())?;
+    let outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

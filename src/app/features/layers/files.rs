@@ -2,14 +2,19 @@
 
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
-use meshbrush_io::io::RasterFormat;
+use meshbrush_io::io::{RasterFormat, shape_format};
 
 fn raster_endings() -> Vec<&'static str> {
-    RasterFormat::all().map(RasterFormat::ending).collect()
+    RasterFormat::all().flat_map(RasterFormat::endings).copied().collect()
 }
 
 fn grid_endings() -> Vec<&'static str> {
-    RasterFormat::all().filter(|format| format.is_grid()).map(RasterFormat::ending).collect()
+    let grids = RasterFormat::all().filter(|format| format.is_grid());
+    grids.flat_map(RasterFormat::endings).copied().collect()
+}
+
+fn shape_and_table_endings() -> Vec<&'static str> {
+    shape_format::endings().into_iter().chain(["csv"]).collect()
 }
 
 /// A picture or a grid as risk.
@@ -51,7 +56,7 @@ pub static OPEN_VALUES: FileKind = FileKind {
 /// Points, lines and polygons as a layer of distances.
 pub static OPEN_SHAPES: FileKind = FileKind {
     title: "Open shapes to measure the distance to",
-    endings: || vec!["geojson", "json", "csv"],
+    endings: shape_and_table_endings,
     contents: "Points, lines and polygons",
     folder: "shapes",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenShapes(path)))
@@ -60,7 +65,7 @@ pub static OPEN_SHAPES: FileKind = FileKind {
 /// Points, lines and polygons in place of those of a layer.
 pub static REPLACE_SHAPES: FileKind = FileKind {
     title: "Open other shapes for this layer",
-    endings: || vec!["geojson", "json", "csv"],
+    endings: shape_and_table_endings,
     contents: "Points, lines and polygons",
     folder: "shapes",
     ..FileKind::new(|path| Command::Layer(LayerCommand::ReplaceShapes(path)))
@@ -69,7 +74,7 @@ pub static REPLACE_SHAPES: FileKind = FileKind {
 /// Polygons as the mask of a layer.
 pub static OPEN_MASK: FileKind = FileKind {
     title: "Open polygons as mask",
-    endings: || vec!["geojson", "json"],
+    endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenMask(path)))
@@ -119,7 +124,7 @@ pub static ROLES: [DataRole; 6] = [
         is_for: is_raster,
         refusal: |file, _| match file.contents {
             DataContents::Grid(_) => refused_values(file, |least, _| least > 0.0, "above 0"),
-            _ => Some("Diameters are read from grids (.asc).".into()),
+            _ => Some("Diameters are read from grids, not from pictures.".into()),
         },
     },
     DataRole {

@@ -123,7 +123,7 @@ fn shapes_of(path: &Path, meter: &Meter) -> Result<(DistanceTo, Rect, LengthUnit
         let points = io::points::read(path).map_err(|error| error.to_string())?;
         (ShapeList { points, ..ShapeList::default() }, LengthUnit::None)
     } else {
-        let file = io::shapes::read(path, meter).map_err(|error| error.to_string())?;
+        let file = io::shape_format::read_shapes(path, meter).map_err(|error| error.to_string())?;
         (file.shapes, file.unit)
     };
     let shapes = Shapes::new(list, true).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -131,8 +131,8 @@ fn shapes_of(path: &Path, meter: &Meter) -> Result<(DistanceTo, Rect, LengthUnit
     Ok((DistanceTo::Shapes { name: name_of(path), shapes }, extent, unit))
 }
 
-/// Returns the raster of a file: a grid at its place, and a picture where its world file says, or else over
-/// the domain.
+/// Returns the raster of a file at its place; one of a format without a place where its world file says, or
+/// else over the domain.
 fn raster_of(
     path: &Path,
     values: RasterValues,
@@ -148,7 +148,7 @@ fn raster_of(
         }
         _ => error.to_string(),
     })?;
-    let beside = match file.format.is_grid() {
+    let beside = match file.format.has_place() {
         false => io::world_file::bounds_beside(path, raster.raster().size()),
         true => Ok(None),
     };

@@ -3,12 +3,13 @@
 use super::{KeepOutCommand, PathCommand};
 use crate::app::command::Command;
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
+use meshbrush_io::io::shape_format;
 use meshbrush_render::render::path_export::PathFormat;
 
 /// Polygons as a region that paths stay out of.
 pub static OPEN_KEEP_OUT: FileKind = FileKind {
     title: "Open polygons as keep-out region",
-    endings: || vec!["geojson", "json"],
+    endings: shape_format::endings,
     contents: "Polygons",
     folder: "domains",
     ..FileKind::new(|path| Command::Path(PathCommand::KeepOut(KeepOutCommand::Open(path))))

@@ -61,12 +61,13 @@ fn raster(path: &Path, meter: &Meter) -> Result<Seen, String> {
     let pyramid = read.map_err(|error| error.to_string())?;
     let raster = pyramid.raster();
     let facts = facts(raster);
-    let (contents, extent) = if file.format.is_grid() {
-        (DataContents::Grid(facts), Some(raster.bounds()))
+    let extent = if file.format.has_place() {
+        Some(raster.bounds())
     } else {
-        let beside = io::world_file::bounds_beside(path, raster.size());
-        (DataContents::Picture(facts), beside.map_err(|error| error.to_string())?)
+        io::world_file::bounds_beside(path, raster.size()).map_err(|error| error.to_string())?
     };
+    let is_grid = file.format.is_grid();
+    let contents = if is_grid { DataContents::Grid(facts) } else { DataContents::Picture(facts) };
     let preview = Preview::of_raster(raster, facts.values);
     Ok(Seen { contents, extent, unit: LengthUnit::None, preview })
 }
@@ -82,7 +83,7 @@ fn facts(raster: &Raster) -> RasterFacts {
 }
 
 fn shapes(path: &Path, meter: &Meter) -> Result<Seen, String> {
-    let file = io::shapes::read(path, meter).map_err(|error| error.to_string())?;
+    let file = io::shape_format::read_shapes(path, meter).map_err(|error| error.to_string())?;
     let ShapeList { points, lines, polygons } = &file.shapes;
     let contents =
         DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };

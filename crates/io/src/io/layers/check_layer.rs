@@ -161,10 +161,9 @@ impl SavedLayer {
             (Some(to), None, None) => Ok(CheckedShapes::Boundary(to)),
             (None, Some(_), None) => Ok(CheckedShapes::File),
             (None, file, Some(shapes)) if file.is_none() || stored == Stored::InProject => shapes_of(shapes),
-            (None, None, None) => {
-                Err(self
-                    .missing("needs to = \"outline\" or to = \"coasts\", `file`, a .geojson, or `shapes`"))
-            }
+            (None, None, None) => Err(self.missing(
+                "needs to = \"outline\" or to = \"coasts\", `file`, a .geojson or .shp, or `shapes`",
+            )),
             (to, _, shapes) => {
                 let key = if to.is_some() {
                     "to"
@@ -182,7 +181,7 @@ impl SavedLayer {
         match (&self.file, &self.shapes) {
             (Some(_), None) => Ok(CheckedShapes::File),
             (None, Some(shapes)) => shapes_of(shapes),
-            (None, None) => Err(self.missing("needs `file`, a .geojson, or `shapes`")),
+            (None, None) => Err(self.missing("needs `file`, a .geojson or .shp, or `shapes`")),
             (Some(_), Some(_)) => Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`.")),
         }
     }

@@ -51,8 +51,8 @@ pub struct RasterFile {
     pub path: PathBuf,
     /// The format of the raster.
     pub format: RasterFormat,
-    /// The rectangle of the raster. Without one, an image covers the bounds of the domain, and a grid has the
-    /// bounds in its header.
+    /// The rectangle of the raster. Without one, a grid lies where its file says; an image, and a grid whose
+    /// format has no place, cover the bounds of the domain.
     pub bounds: Option<Rect>,
 }
 
@@ -69,7 +69,7 @@ impl RasterFile {
 /// The place and the scale of rasters that have none of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterFrame {
-    /// The rectangle of an image, in world units.
+    /// The rectangle of a raster whose format has no place, in world units.
     pub domain: Rect,
     /// The scale of images of diameters.
     pub transfer: Transfer,
@@ -97,7 +97,7 @@ impl RasterLoader {
     pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
         match (file.format.read(), file.bounds) {
             (ReadRaster::Grid(read), None) => Ok(Some(self.grid(&file.path, read)?.raster().bounds())),
-            (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Image(_), _) => Ok(None),
+            (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Array(_) | ReadRaster::Image(_), _) => Ok(None),
         }
     }
 
@@ -130,10 +130,14 @@ impl RasterLoader {
     ) -> Result<Arc<RasterPyramid>, ReadError> {
         match (format.read(), bounds) {
             (ReadRaster::Grid(read), None) => self.grid(path, read),
-            (ReadRaster::Grid(read), Some(place)) => {
-                let grid = read(path, &self.meter)?;
-                let grid = Raster::from_values(*place, grid.size(), grid.values().to_vec());
-                Ok(Arc::new(RasterPyramid::new(grid)))
+            (ReadRaster::Grid(read), place @ Some(_)) => {
+                Ok(Arc::new(RasterPyramid::new(read(path, *place, &self.meter)?)))
+            }
+            (ReadRaster::Array(read), Some(place)) => {
+                Ok(Arc::new(RasterPyramid::new(read(path, *place, &self.meter)?)))
+            }
+            (ReadRaster::Array(read), None) => {
+                self.read_once((path.clone(), false), |meter| read(path, frame.domain, meter))
             }
             (ReadRaster::Image(read), _) => {
                 let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
@@ -150,9 +154,9 @@ impl RasterLoader {
     fn grid(
         &mut self,
         path: &Path,
-        read: fn(&Path, &Meter) -> Result<Raster, ReadError>,
+        read: fn(&Path, Option<Rect>, &Meter) -> Result<Raster, ReadError>,
     ) -> Result<Arc<RasterPyramid>, ReadError> {
-        self.read_once((path.to_owned(), false), |meter| read(path, meter))
+        self.read_once((path.to_owned(), false), |meter| read(path, None, meter))
     }
 
     fn read_once(

@@ -74,7 +74,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             "slope: a layer of the kind \"paint\" has no `slope`",
         ),
         (r#"{ "kind": "formula", "quantity": "risk", "formula": "sqr(x)" }"#, "formula: There is no `sqr`"),
-        (r#"{ "kind": "raster", "file": "a.tif", "as": "risk" }"#, "file: a raster ends in .png"),
+        (r#"{ "kind": "raster", "file": "a.jpg", "as": "risk" }"#, "file: a raster ends in .png"),
         (
             r#"{ "kind": "raster", "file": "a.asc" }"#,
             "kind: a layer of the kind \"raster\" says what its values mean",

@@ -10,8 +10,8 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
-use super::super::shapes::{self, ShapeFile};
-use super::super::{KeyFault, Meter, ReadError, project, threats};
+use super::super::shapes::ShapeFile;
+use super::super::{KeyFault, Meter, ReadError, project, shape_format, threats};
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
@@ -58,7 +58,7 @@ pub struct Loading<'a> {
 impl<'a> Loading<'a> {
     /// Returns all layers, for a document.
     pub fn for_document(meter: &'a Meter) -> Self {
-        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: geojson::read_outline, meter }
+        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: shape_format::read_outline, meter }
     }
 }
 
@@ -196,7 +196,7 @@ impl Storage for Files<'_> {
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        let outline = geojson::read_outline(file, self.loading.meter)?;
+        let outline = shape_format::read_outline(file, self.loading.meter)?;
         let polygons = geojson::without_names(outline.polygons);
         Ok(match self.projection.filter(|_| outline.unit == LengthUnit::Degree) {
             Some(projection) => projected_polygons(&polygons, &projection),
@@ -229,7 +229,7 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        let ShapeFile { shapes, unit } = shapes::read(file, self.loading.meter)?;
+        let ShapeFile { shapes, unit } = shape_format::read_shapes(file, self.loading.meter)?;
         Ok(match self.projection.filter(|_| unit == LengthUnit::Degree) {
             Some(projection) => shapes.projected(&projection),
             None => shapes,

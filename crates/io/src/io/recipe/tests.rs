@@ -337,7 +337,7 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
             "A threat has the range -1",
         ),
         ("[[layer]]\nkind = \"threats\"\nthreats = []", [2, 1], "risk and images need `h_min`"),
-        ("[[layer]]\nkind = \"band\"\nfile = \"a.tif\"", [3, 8], "a raster ends in .png"),
+        ("[[layer]]\nkind = \"band\"\nfile = \"a.jpg\"", [3, 8], "a raster ends in .png"),
         ("[[layer]]\nkind = \"band\"", [2, 1], "a layer of the kind \"band\" needs `file`."),
         (
             "[[layer]]\nkind = \"formula\"\nquantity = \"risk\"\nformula = \"1 + sqr(ä)\"",

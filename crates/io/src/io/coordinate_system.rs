@@ -1,0 +1,185 @@
+//! What a file says about the coordinate reference system of its coordinates.
+//!
+//! The program does not project. What a file says is kept as it is, and tells the unit of coordinates.
+
+use std::f64::consts::PI;
+
+use super::coordinates;
+use meshbrush_mesh::text::LengthUnit;
+
+/// A coordinate reference system, as a file describes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoordinateSystem {
+    /// Whether coordinates are angles or lengths.
+    pub kind: CoordinateKind,
+    /// The code of the EPSG register, if the file has one.
+    pub epsg: Option<u32>,
+    /// The name, if the file has one.
+    pub name: Option<String>,
+    /// The unit of coordinates; `None` also for units that the program does not know, such as feet.
+    pub unit: LengthUnit,
+}
+
+/// The kind of a coordinate reference system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CoordinateKind {
+    /// Longitude and latitude.
+    Geographic,
+    /// Lengths in a plane.
+    Projected,
+    /// Neither, or the file does not say.
+    Other,
+}
+
+/// Keywords of well-known text (versions 1 and 2) that begin a coordinate reference system.
+const KEYWORDS: [(&str, CoordinateKind); 7] = [
+    ("PROJCS", CoordinateKind::Projected),
+    ("PROJCRS", CoordinateKind::Projected),
+    ("PROJECTEDCRS", CoordinateKind::Projected),
+    ("GEOGCS", CoordinateKind::Geographic),
+    ("GEOGCRS", CoordinateKind::Geographic),
+    ("GEOGRAPHICCRS", CoordinateKind::Geographic),
+    ("GEODCRS", CoordinateKind::Geographic),
+];
+
+/// Longest name that is kept, in characters.
+const LONGEST_NAME: usize = 200;
+
+impl CoordinateSystem {
+    /// Returns the system of an EPSG code, as GeoTIFF keys state it.
+    pub(super) fn of_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
+        let by_code = epsg.map(|code| coordinates::unit(Some(&format!("EPSG:{code}")), []));
+        let unit = match (kind, by_code) {
+            (CoordinateKind::Geographic, _) => LengthUnit::Degree,
+            (_, Some(unit)) => unit,
+            (_, None) => LengthUnit::None,
+        };
+        Self { kind, epsg, name: name.and_then(|name| kept_name(&name)), unit }
+    }
+
+    /// Returns the system that well-known text describes, as in a `.prj` file. Of a system that is compound
+    /// or bound to another, this is the first part in the plane. `None` where there is none.
+    pub fn from_wkt(text: &str) -> Option<Self> {
+        let elements = elements(text);
+        let kind_of = |element: &Element| {
+            let known = |(keyword, _): &&(&str, _)| element.keyword.eq_ignore_ascii_case(keyword);
+            KEYWORDS.iter().find(known).map(|&(_, kind)| kind)
+        };
+        let (at, kind) = elements.iter().enumerate().find_map(|(i, e)| Some((i, kind_of(e)?)))?;
+        let system = &elements[at];
+        let parts = elements[at + 1..].iter().take_while(|part| part.depth > system.depth);
+        let direct: Vec<&Element> = parts.filter(|part| part.depth == system.depth + 1).collect();
+        let is = |part: &Element, keywords: &[&str]| {
+            keywords.iter().any(|keyword| part.keyword.eq_ignore_ascii_case(keyword))
+        };
+        let is_code =
+            |part: &&&Element| is(part, &["AUTHORITY", "ID"]) && part.values.iter().any(|v| v == "EPSG");
+        let code = direct.iter().rfind(is_code);
+        let unit = direct.iter().rfind(|part| is(part, &["UNIT", "LENGTHUNIT", "ANGLEUNIT"]));
+        let epsg = code.and_then(|part| part.values.get(1)?.parse().ok());
+        let factor = unit.and_then(|part| part.values.get(1)?.parse().ok());
+        let name = system.values.first().and_then(|name| kept_name(name));
+        Some(Self { kind, epsg, name, unit: unit_of(kind, factor) })
+    }
+}
+
+/// Returns the unit whose size is `factor` metres or radians.
+fn unit_of(kind: CoordinateKind, factor: Option<f64>) -> LengthUnit {
+    let is = |size: f64| factor.is_some_and(|factor| (factor - size).abs() <= 1e-9 * size);
+    match kind {
+        CoordinateKind::Geographic if factor.is_none() || is(PI / 180.0) => LengthUnit::Degree,
+        CoordinateKind::Projected if is(1.0) => LengthUnit::Metre,
+        CoordinateKind::Projected if is(1000.0) => LengthUnit::Kilometre,
+        _ => LengthUnit::None,
+    }
+}
+
+fn kept_name(name: &str) -> Option<String> {
+    let name: String = name.trim().chars().filter(|c| !c.is_control()).take(LONGEST_NAME).collect();
+    (!name.is_empty()).then_some(name)
+}
+
+/// An element of well-known text, such as `UNIT["metre",1]`.
+struct Element {
+    keyword: String,
+    depth: usize,
+    /// Its texts and numbers, without those of the elements in it.
+    values: Vec<String>,
+}
+
+/// Returns the elements of well-known text in the order in which they begin.
+fn elements(text: &str) -> Vec<Element> {
+    let mut elements: Vec<Element> = Vec::new();
+    let mut open: Vec<usize> = Vec::new();
+    let (mut word, mut is_quoted) = (String::new(), false);
+    for c in text.chars() {
+        match c {
+            '"' => is_quoted = !is_quoted,
+            _ if is_quoted => word.push(c),
+            '[' | '(' => {
+                let keyword = std::mem::take(&mut word).trim().to_owned();
+                open.push(elements.len());
+                elements.push(Element { keyword, depth: open.len(), values: Vec::new() });
+            }
+            ',' | ']' | ')' => {
+                let value = std::mem::take(&mut word).trim().to_owned();
+                if let Some(&element) = open.last().filter(|_| !value.is_empty()) {
+                    elements[element].values.push(value);
+                }
+                if c != ',' {
+                    open.pop();
+                }
+            }
+            _ => word.push(c),
+        }
+    }
+    elements
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UTM: &str = r#"PROJCS["WGS 84 / UTM zone 33N",GEOGCS["WGS 84",DATUM["WGS_1984",
+        SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]]],PRIMEM["Greenwich",0],
+        UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4326"]],PROJECTION["Transverse_Mercator"],
+        PARAMETER["central_meridian",15],UNIT["metre",1],AUTHORITY["EPSG","32633"]]"#;
+
+    #[test]
+    fn well_known_text_says_kind_name_code_and_unit() {
+        use CoordinateKind::{Geographic, Projected};
+        let esri = r#"GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257]],
+            PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]]"#;
+        let feet = r#"projcs["NAD83 / New York",geogcs["NAD83"],unit["US survey foot",0.304800609601219]]"#;
+        let second = r#"PROJCRS["ETRS89-extended / LAEA Europe",BASEGEOGCRS["ETRS89"],CS[Cartesian,2],
+            LENGTHUNIT["metre",1],ID["EPSG",3035]]"#;
+        let compound = format!(r#"COMPD_CS["both",{UTM},VERT_CS["height",UNIT["metre",1]]]"#);
+        for (text, kind, epsg, name, unit) in [
+            (UTM, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre),
+            (esri, Geographic, None, "GCS_WGS_1984", LengthUnit::Degree),
+            (feet, Projected, None, "NAD83 / New York", LengthUnit::None),
+            (second, Projected, Some(3035), "ETRS89-extended / LAEA Europe", LengthUnit::Metre),
+            (&compound, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre),
+        ] {
+            let name = Some(name.to_owned());
+            assert_eq!(CoordinateSystem::from_wkt(text), Some(CoordinateSystem { kind, epsg, name, unit }));
+        }
+    }
+
+    #[test]
+    fn text_that_describes_no_system_is_none() {
+        for text in ["", "]]]", "PROJCS", "LOCAL_CS[\"a\"]", "\"GEOGCS[", &"[".repeat(10_000)] {
+            assert_eq!(CoordinateSystem::from_wkt(text), None, "{text}");
+        }
+        for end in 0..UTM.len() {
+            let _ = CoordinateSystem::from_wkt(&UTM[..end]);
+        }
+    }
+
+    #[test]
+    fn a_code_tells_the_unit() {
+        let projected = |code| CoordinateSystem::of_keys(CoordinateKind::Projected, code, None).unit;
+        assert_eq!([projected(Some(32633)), projected(Some(2263))], [LengthUnit::Metre, LengthUnit::None]);
+        assert_eq!(projected(None), LengthUnit::None);
+    }
+}

@@ -1,0 +1,58 @@
+//! Files of shapes in any format: polygons as domains and masks; points, lines and polygons to measure the
+//! distance to.
+//!
+//! The ending of the name decides. A file with an unknown ending is read as GeoJSON.
+
+use std::path::Path;
+
+use super::geojson::Outline;
+use super::shapes::ShapeFile;
+use super::{Meter, ReadError, SHAPE_FORMATS};
+use meshbrush_core::domain::NamedPolygon;
+
+/// A file format of shapes, as its module describes it.
+pub struct ShapeFormatSpec {
+    /// The file name extensions, in lower case and without the dot; the usual one first.
+    pub endings: &'static [&'static str],
+    /// Reads the polygons of a file, and counts its bytes.
+    pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
+    /// Reads the points, lines and polygons of a file, and counts its bytes.
+    pub read_shapes: fn(&Path, &Meter) -> Result<ShapeFile, ReadError>,
+}
+
+/// Returns the endings of all formats, in lower case and without the dot.
+pub fn endings() -> Vec<&'static str> {
+    SHAPE_FORMATS.iter().flat_map(|format| format.endings).copied().collect()
+}
+
+/// Reads polygons with their names and their unit. The meter counts the bytes of the file.
+///
+/// # Errors
+/// Fails when the file cannot be read, breaks a rule of its format, or has no polygon, and when the work was
+/// cancelled.
+pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
+    (format_of(path).read_outline)(path, meter)
+}
+
+/// Reads polygons with their names, as [`read_outline`] does.
+///
+/// # Errors
+/// Fails as [`read_outline`] does.
+pub fn read_polygons(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
+    read_outline(path, meter).map(|outline| outline.polygons)
+}
+
+/// Reads points, lines and polygons with their unit. The meter counts the bytes of the file.
+///
+/// # Errors
+/// Fails when the file cannot be read, breaks a rule of its format, or has no shape, and when the work was
+/// cancelled.
+pub fn read_shapes(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    (format_of(path).read_shapes)(path, meter)
+}
+
+fn format_of(path: &Path) -> &'static ShapeFormatSpec {
+    let ending = path.extension().unwrap_or_default();
+    let has = |format: &&&ShapeFormatSpec| format.endings.iter().any(|own| ending.eq_ignore_ascii_case(own));
+    SHAPE_FORMATS.iter().find(has).unwrap_or(&SHAPE_FORMATS[0])
+}

@@ -1,0 +1,271 @@
+//! `.shp`: shapefiles with points, lines and polygons, as geographic programs write them.
+//!
+//! Heights and measures of the types Z and M are left out, and so are the attributes beside the file
+//! (`.dbf`). The text beside it (`.prj`) tells the unit of coordinates, which are not projected.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+use glam::{DVec2, dvec2};
+
+use super::coordinate_system::CoordinateSystem;
+use super::error::{Flaw, PlacedFlaw, ReadError};
+use super::geojson::{self, Outline};
+use super::shape_format::ShapeFormatSpec;
+use super::shapes::{self, ShapeFile};
+use super::{Meter, coordinates};
+use meshbrush_core::domain::{MOST_CORNERS, NamedPolygon, Polygon, Ring, signed_area};
+use meshbrush_core::layers::ShapeList;
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{Grouped, LengthUnit};
+
+/// The format, for the list of all formats of shapes.
+pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec { endings: &["shp"], read_outline, read_shapes: read };
+
+/// The number that begins every file.
+const FILE_CODE: i32 = 9994;
+/// Bytes of the header.
+const HEADER: u64 = 100;
+/// Most bytes that are read of the text beside a file.
+const MOST_TEXT: u64 = 1 << 16;
+
+/// Reads the polygons of a file. A record with several outer rings becomes several polygons, each with the
+/// holes inside it. The meter counts the bytes of the file.
+///
+/// # Errors
+/// Fails when the file cannot be read, is not a shapefile, is cut off, or has no polygon or too many points,
+/// and when the work was cancelled.
+pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
+    let shapes = geojson::read_metered(path, meter, parse)?;
+    if shapes.polygons.is_empty() {
+        let others = [(!shapes.lines.is_empty(), "PolyLine"), (!shapes.points.is_empty(), "Point")];
+        let others: Vec<String> = others.iter().filter(|kind| kind.0).map(|kind| kind.1.to_owned()).collect();
+        return Err(PlacedFlaw::from(Flaw::Syntax(geojson::no_polygon(&others))).in_file(path));
+    }
+    let unit = unit(coordinate_system(path).as_ref(), shapes.polygons.iter().flatten().flatten().copied());
+    let named = |polygon| NamedPolygon { polygon, name: String::new() };
+    Ok(Outline { polygons: shapes.polygons.into_iter().map(named).collect(), unit })
+}
+
+/// Reads the shapes of a file. The meter counts the bytes of the file.
+///
+/// # Errors
+/// Fails as [`read_outline`] does, but where there is no shape at all.
+pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    let shapes = geojson::read_metered(path, meter, parse)?;
+    checked(shapes, coordinate_system(path).as_ref()).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
+}
+
+/// Reads the shapes of a file without the text beside it, from any input, such as bytes. Errors call the
+/// file `name`.
+///
+/// # Errors
+/// Fails as [`read`] does.
+pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> {
+    geojson::read_limited(input, name, |input| Ok(checked(parse(input)?, None)?))
+}
+
+/// Returns what the text beside a file (`.prj`) says about its coordinates; `None` without one.
+pub fn coordinate_system(path: &Path) -> Option<CoordinateSystem> {
+    let text = ["prj", "PRJ"].into_iter().find_map(|ending| File::open(path.with_extension(ending)).ok())?;
+    let mut bytes = Vec::new();
+    text.take(MOST_TEXT).read_to_end(&mut bytes).ok()?;
+    CoordinateSystem::from_wkt(&String::from_utf8_lossy(&bytes))
+}
+
+fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<ShapeFile, Flaw> {
+    shapes::check(&shapes)?;
+    let unit = unit(system, shapes::places(&shapes));
+    Ok(ShapeFile { shapes, unit })
+}
+
+fn unit(system: Option<&CoordinateSystem>, places: impl IntoIterator<Item = DVec2>) -> LengthUnit {
+    system.map_or_else(|| coordinates::unit(None, places), |system| system.unit)
+}
+
+/// Reads all records. Memory grows with the bytes of the file.
+fn parse(mut input: impl Read) -> Result<ShapeList, PlacedFlaw> {
+    let header: [u8; HEADER as usize] = bytes(&mut input)?;
+    let numbers = Numbers(&header);
+    if numbers.big(0) != FILE_CODE {
+        let problem =
+            "this is not a shapefile: it begins with other bytes. Choose the file that ends in .shp.";
+        return Err(Flaw::Syntax(problem.into()).into());
+    }
+    let length = 2 * u64::from(numbers.big(24).unsigned_abs());
+    let (mut shapes, mut at, mut number) = (ShapeList::default(), HEADER, 0);
+    let mut count = 0;
+    while at < length {
+        let start: [u8; 8] = bytes(&mut input)?;
+        let size = 2 * u64::from(Numbers(&start).big(4).unsigned_abs());
+        let mut record = Vec::new();
+        input.by_ref().take(size).read_to_end(&mut record).map_err(Flaw::Io)?;
+        if (record.len() as u64) < size {
+            return Err(Flaw::CutOff.into());
+        }
+        number += 1;
+        at += 8 + size;
+        let problem = |rule: String| Flaw::Syntax(format!("record {number} {rule}. Export the layer again."));
+        count += take(Numbers(&record), &mut shapes).map_err(problem)?;
+        if count > MOST_CORNERS {
+            let limit = Grouped(MOST_CORNERS);
+            let problem =
+                format!("the shapes have more than {limit} points, the limit. Simplify them first.");
+            return Err(Flaw::Syntax(problem).into());
+        }
+    }
+    Ok(shapes)
+}
+
+fn bytes<const N: usize>(input: &mut impl Read) -> Result<[u8; N], Flaw> {
+    let mut bytes = [0; N];
+    input.read_exact(&mut bytes).map_err(|error| match error.kind() {
+        ErrorKind::UnexpectedEof => Flaw::CutOff,
+        _ => Flaw::Io(error),
+    })?;
+    Ok(bytes)
+}
+
+/// Adds the shape of a record, and returns the number of its points.
+///
+/// # Errors
+/// Fails with the rule that the record breaks, as the end of a sentence.
+fn take(record: Numbers, shapes: &mut ShapeList) -> Result<usize, String> {
+    let kind = record.little(0).ok_or("is too short")?;
+    // The types Z and M have heights and measures after the points.
+    match kind {
+        0 => Ok(0),
+        1 | 11 | 21 => {
+            shapes.points.push(record.point(4)?);
+            Ok(1)
+        }
+        8 | 18 | 28 => {
+            let points = record.points(40, record.count(36)?)?;
+            shapes.points.extend(&points);
+            Ok(points.len())
+        }
+        3 | 13 | 23 => {
+            let lines = record.parts()?;
+            if lines.iter().any(|line| line.len() < 2) {
+                return Err("has a line with one point, and it needs two".into());
+            }
+            let count = lines.iter().map(Vec::len).sum();
+            shapes.lines.extend(lines);
+            Ok(count)
+        }
+        5 | 15 | 25 => {
+            let rings = record.parts()?;
+            let count = rings.iter().map(Vec::len).sum();
+            shapes.polygons.extend(polygons(rings));
+            Ok(count)
+        }
+        31 => Err("is a surface in space (MultiPatch), and only points, lines and polygons are read".into()),
+        other => Err(format!("is of the unknown type {other}")),
+    }
+}
+
+/// The bytes of a header or of a record.
+#[derive(Clone, Copy)]
+struct Numbers<'a>(&'a [u8]);
+
+impl Numbers<'_> {
+    fn array<const N: usize>(self, at: usize) -> Option<[u8; N]> {
+        self.0.get(at..at.checked_add(N)?)?.try_into().ok()
+    }
+
+    /// Returns a big-endian number; 0 beyond the end.
+    fn big(self, at: usize) -> i32 {
+        i32::from_be_bytes(self.array(at).unwrap_or_default())
+    }
+
+    fn little(self, at: usize) -> Option<i32> {
+        self.array(at).map(i32::from_le_bytes)
+    }
+
+    fn count(self, at: usize) -> Result<usize, String> {
+        let count = self.little(at).ok_or("is too short")?;
+        usize::try_from(count).map_err(|_| format!("has {count} points"))
+    }
+
+    fn point(self, at: usize) -> Result<DVec2, String> {
+        let number = |at: usize| self.array(at).map(f64::from_le_bytes).ok_or("is too short");
+        let point = dvec2(number(at)?, number(at + 8)?);
+        if point.is_finite() { Ok(point) } else { Err("has a coordinate that is not finite".into()) }
+    }
+
+    fn points(self, at: usize, count: usize) -> Result<Vec<DVec2>, String> {
+        if count.saturating_mul(16).saturating_add(at) > self.0.len() {
+            return Err(format!("announces {} points and is too short for them", Grouped(count)));
+        }
+        (0..count).map(|i| self.point(at + 16 * i)).collect()
+    }
+
+    /// Returns the lines or rings of a record.
+    fn parts(self) -> Result<Vec<Vec<DVec2>>, String> {
+        let (parts, count) = (self.count(36)?, self.count(40)?);
+        if parts > count {
+            return Err(format!("has {} parts with {} points in all", Grouped(parts), Grouped(count)));
+        }
+        let points = self.points(44 + 4 * parts, count)?;
+        let mut lists = Vec::new();
+        for part in 0..parts {
+            let start = self.count(44 + 4 * part)?;
+            let end = if part + 1 < parts { self.count(48 + 4 * part)? } else { count };
+            let list = points.get(start..end).ok_or("has parts that do not follow each other")?;
+            lists.push(list.to_vec());
+        }
+        Ok(lists)
+    }
+}
+
+/// Returns the polygons of a record: outer rings run clockwise, and holes the other way. A hole belongs to
+/// the smallest outer ring around it; one without an outer ring is a polygon itself.
+fn polygons(mut rings: Vec<Ring>) -> Vec<Polygon> {
+    for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
+        ring.pop();
+    }
+    rings.retain(|ring| !ring.is_empty());
+    let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| signed_area(ring) <= 0.0);
+    let mut polygons: Vec<Polygon> = outer.into_iter().map(|ring| vec![ring]).collect();
+    if let [polygon] = &mut polygons[..] {
+        polygon.extend(holes);
+        return polygons;
+    }
+    let bounds: Vec<Rect> = polygons.iter().map(|polygon| bounds(&polygon[0])).collect();
+    let mut alone = Vec::new();
+    for hole in holes {
+        let around =
+            (0..polygons.len()).filter(|&i| bounds[i].contains(hole[0]) && is_inside(&hole, &polygons[i][0]));
+        let area = |i: usize| signed_area(&polygons[i][0]).abs();
+        match around.min_by(|&a, &b| area(a).total_cmp(&area(b))) {
+            Some(owner) => polygons[owner].push(hole),
+            None => alone.push(vec![hole]),
+        }
+    }
+    polygons.extend(alone);
+    polygons
+}
+
+fn bounds(ring: &[DVec2]) -> Rect {
+    let min = ring.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    Rect::new(min, ring.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max))
+}
+
+/// Returns whether a hole lies inside a ring, which it may touch.
+fn is_inside(hole: &[DVec2], ring: &[DVec2]) -> bool {
+    let next = hole.get(1).copied().unwrap_or(hole[0]);
+    [hole[0], 0.5 * (hole[0] + next)].iter().any(|&point| is_around(ring, point))
+}
+
+/// Returns whether a ring runs around a point, counting the edges to the right of it.
+fn is_around(ring: &[DVec2], point: DVec2) -> bool {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    let crossed = edges.filter(|(a, b)| {
+        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    });
+    crossed.count() % 2 == 1
+}
+
+#[cfg(test)]
+mod tests;
