@@ -8,6 +8,7 @@ use meshbrush_mesh::text::LengthUnit;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     lines: Vec<(&'static str, String)>,
+    unit: LengthUnit,
 }
 
 /// The source that a mesh was made from.
@@ -35,7 +36,7 @@ impl Provenance {
             ("fingerprint", fingerprint.to_string()),
             ("coordinates", one_line(coordinates)),
         ];
-        Self { lines: lines.into() }
+        Self { lines: lines.into(), unit: LengthUnit::None }
     }
 
     /// Adds the unit of coordinates and lengths, if there is one.
@@ -44,7 +45,13 @@ impl Provenance {
         if unit != LengthUnit::None {
             self.lines.push(("unit", unit.name().to_owned()));
         }
+        self.unit = unit;
         self
+    }
+
+    /// Returns the unit of coordinates and lengths.
+    pub fn unit(&self) -> LengthUnit {
+        self.unit
     }
 
     /// Returns the entries, as pairs of a key and one line of text.
@@ -55,6 +62,21 @@ impl Provenance {
     /// Returns the entries as lines, `word: text`.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         self.entries().map(|(key, text)| format!("{key}: {text}"))
+    }
+
+    /// Returns all entries in one line, for formats that have a line for a title.
+    pub fn line(&self) -> String {
+        self.lines().collect::<Vec<_>>().join("; ")
+    }
+
+    /// Returns the program and the fingerprint as `N` bytes, padded with blanks, for formats that have room
+    /// for no more.
+    pub fn title<const N: usize>(&self) -> [u8; N] {
+        let kept = self.entries().filter(|(key, _)| matches!(*key, "program" | "fingerprint"));
+        let text = kept.map(|(_, text)| text).collect::<Vec<_>>().join(", fingerprint ");
+        let mut title = [b' '; N];
+        title.iter_mut().zip(text.bytes()).for_each(|(place, byte)| *place = byte);
+        title
     }
 }
 
