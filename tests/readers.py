@@ -19,7 +19,7 @@ import py2dm
 import svg.path
 import triangle.data
 
-ENDINGS = ["vtu", "msh", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
+ENDINGS = ["vtu", "msh", "msh2", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
 TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
 COAST = pathlib.Path(__file__).parent.parent / "assets" / "aegean_sea.geojson"
 CASES = {
@@ -99,6 +99,19 @@ def read_binary_msh(path):
     for name in ["nodes", "triangles", "levels", "parts", "quantity"]:
         assert (getattr(found, name) == getattr(text, name)).all(), name
     assert found.pieces == text.pieces and path.read_bytes()[:15] == b"$MeshFormat\n4.1"
+    return found
+
+
+def read_msh2(path, summary):
+    """Gmsh 2.2 for WAVEWATCH III: points at the nodes of the open pieces, and z is the depth, which nobody gave."""
+    mesh = meshio.read(path, file_format="gmsh")
+    found = Found(mesh.points, mesh.cells_dict["triangle"])
+    pieces = read_msh(path.with_suffix(".msh")).pieces
+    open_names = [piece["name"] for piece in summary["boundary"] if piece["kind"] == "open"]
+    open_nodes = {node for name in open_names for edge in pieces[name] for node in edge}
+    points = [int(node) for block in mesh.cells if block.type == "vertex" for node in block.data.ravel()]
+    assert len(points) == len(open_nodes) and set(points) == open_nodes, "points of open boundaries"
+    assert (found.nodes[:, 2] == 0).all(), "depths"
     return found
 
 
@@ -274,6 +287,7 @@ def check_case(program, folder, options):
     readers = {
         "vtu": read_vtu,
         "msh": read_msh,
+        "msh2": lambda path: read_msh2(path, summary),
         "obj": read_obj,
         "stl": read_stl,
         "node": read_triangle,

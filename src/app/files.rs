@@ -129,7 +129,8 @@ pub fn export(
             let parts = extract.part_numbers();
             let (target_diameter, quantities) = (&target_diameter, &[][..]);
             let source = MeshSource::Document(&settings.name);
-            let provenance = &Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
+            let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
+            let provenance = &provenance.in_degrees(settings.domain.projection);
             let (boundary, parts) = (&boundary, &parts);
             let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
             let placed =

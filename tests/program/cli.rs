@@ -624,7 +624,11 @@ fn wrong_arguments_are_explained() {
         ("mesh --max-memory 0GB", 2, "--max-memory 0GB: choose 1MB at least"),
         ("mesh --max-memory -1GB", 2, "--max-memory -1GB: choose 1MB at least"),
         ("mesh --rule both", 2, "invalid value 'both'"),
-        ("mesh -o mesh.ply", 2, "use one of .vtu .msh .obj .stl .node .2dm .csv .svg .png"),
+        (
+            "mesh -o mesh.ply",
+            2,
+            "use one of .vtu .msh .obj .stl .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .msh2 .dat .svg .png",
+        ),
         ("mesh -o mesh", 2, "-o mesh: the ending chooses the format; use one of .vtu"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),
         ("mesh -o m.svg --colormap jet", 2, "There is no colormap `jet`"),
@@ -789,6 +793,27 @@ fn a_dash_is_standard_input_or_output() {
 }
 
 #[test]
+fn a_name_chooses_among_the_formats_of_an_ending() {
+    let folder = Folder::new("cli-format");
+    let start = |name: &str| folder.read(name).lines().take(2).collect::<Vec<_>>().join(" ");
+    folder.run("mesh --spacing 0.5 --format msh2 -o ww3.msh -o sea.2dm -o other.txt --quantity depth=9-x");
+    assert_eq!(start("ww3.msh"), "$MeshFormat 2.2 0 8");
+    assert_eq!(start("other.txt"), "$MeshFormat 2.2 0 8");
+    assert!(start("sea.2dm").starts_with("MESH2D"), "its ending says another format");
+    assert!(folder.read("ww3.msh").contains("\n1 0 0 9\n"), "the depth");
+    folder.run("mesh --spacing 0.5 -o usual.msh");
+    assert_eq!(start("usual.msh"), "$MeshFormat 4.1 0 8");
+    let ran = folder.run("mesh --spacing 0.5 --format fvcom -o bay_grd.dat");
+    assert_eq!((ran.status, start("bay_obc.dat").as_str()), (0, "OBC Node Number = 8 1 1 1"), "{}", ran.err);
+    assert!(ran.err.contains("wrote bay_grd.dat") && ran.err.contains("wrote bay_dep.dat"), "{}", ran.err);
+    assert_fails(&folder, "mesh -o a.vtu --format doc", 2, "--format doc: use one of vtu msh obj");
+    let apart = "mesh --domain 0,0,4,4 --spacing 1 --inside 'max(x,y) <= 2 or min(x,y) >= 2' -o a.14";
+    let ran = folder.run(apart);
+    let refusal = "fort.14 needs two boundary edges at each boundary node, and at x = 2, y = 2";
+    assert!(ran.status == 1 && ran.err.contains(refusal) && !folder.0.join("a.14").exists(), "{}", ran.err);
+}
+
+#[test]
 fn options_that_change_nothing_are_named() {
     let folder = Folder::new("cli-no-effect");
     for (arguments, note) in [
@@ -798,7 +823,7 @@ fn options_that_change_nothing_are_named() {
         ("mesh --quantity x", "--quantity changes nothing: no file with data"),
         ("mesh --quantity x -o m.svg", "--quantity changes nothing: no file with data"),
         ("mesh --light -o m.vtu", "The options on pictures change nothing"),
-        ("mesh --format vtu -o m.vtu", "--format changes nothing without -o -"),
+        ("mesh --format vtu -o m.vtu", "--format changes nothing: the endings of the files"),
     ] {
         let ran = folder.run(arguments);
         assert_eq!(ran.status, 0, "{arguments}: {}", ran.err);

@@ -200,6 +200,14 @@ fn files_in_the_plane_make_the_same_mesh() {
     );
     let (nodes, _) = mesh_in(&folder, "a");
     assert!(nodes.iter().any(|node| node[0].abs() > 1e5), "metres");
+    // A format for degrees is for one of the two.
+    let in_degrees = "mesh --region coast.geojson --projection lcc --spacing 60000 -o a.ll -o a.msh";
+    assert_eq!(folder.run(in_degrees).status, 0);
+    assert!(
+        folder.read("a.msh").contains("coordinates: longitude, latitude in degrees; meshed in +proj=lcc")
+    );
+    let refused = folder.run(format!("{in_degrees} --out-crs plane"));
+    assert!(refused.status != 0 && refused.err.contains("hgrid.gr3"), "{}", refused.err);
     folder.file(
         "coast.toml",
         "[domain]\nregion = \"coast.geojson\"\nprojection = \"lcc\"\n[mesh]\nspacing = 60000\n\

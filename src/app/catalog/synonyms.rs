@@ -11,7 +11,11 @@ static SYNONYMS: [(&str, &str); 45] = [
     ("Open domain…", "coast outline polygon geojson import boundary"),
     ("Add outline to this document…", "coast polygon geojson import boundary"),
     ("Save as recipe…", "toml export script"),
-    ("Export mesh…", "save write vtu msh node 2dm csv obj stl svg png sms gmsh paraview drawing picture"),
+    (
+        "Export mesh…",
+        "save write vtu msh node 2dm csv obj stl svg png sms gmsh paraview drawing picture 14 grd gr3 ll nc slf mesh msh2 \
+         dat adcirc fort schism hgrid delft ugrid netcdf telemac selafin mike wavewatch fvcom coast solver",
+    ),
     ("Export path…", "save write route geojson csv svg png line"),
     ("Export as test…", "record session replay"),
     ("Undo", "back revert"),

@@ -16,6 +16,7 @@ use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::widgets::format;
 use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
+use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
 
 /// Returns a folder with files and folders.
@@ -220,6 +221,10 @@ fn the_sizes_of_exports_are_about_right() {
         let triangles = window.state().session().triangle_count();
         for format in ExportFormat::all() {
             let Some(about) = format.approximate_bytes(triangles) else { continue };
+            let unit = window.state().session().document().settings().unit;
+            if format.name() == "ll" && unit == LengthUnit::Kilometre {
+                continue; // it holds degrees only
+            }
             let file = folder.join(format!("{example:?}.{}", format.ending()));
             send(&mut window, Command::File(FileCommand::Export(file.clone())));
             wait_for_notice(&mut window);

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
 use super::help::{
-    file_help, output_help, output_long_help, risk_raster_help, target_raster_help, target_raster_long_help,
+    file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
+    target_raster_help, target_raster_long_help,
 };
 use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
@@ -329,8 +330,8 @@ pub struct MeshArguments {
     #[arg(help = output_help(), long_help = output_long_help())]
     pub output: Vec<PathBuf>,
 
-    /// Format of `-o -`, which writes to standard output: an ending, as in vtu
-    #[arg(long, value_name = "ENDING", help_heading = "Output")]
+    #[arg(long, value_name = "FORMAT", help_heading = "Output")]
+    #[arg(help = format_help(), long_help = format_long_help())]
     pub format: Option<String>,
 
     /// Write .msh in its binary form, which is quicker to write and to read
@@ -347,7 +348,8 @@ pub struct MeshArguments {
     /// repeated
     ///
     /// As in `depth=20 - x`; without a name it is `quantity`. In .node the values are attributes in this
-    /// order, and the first is z in .2dm.
+    /// order, and the first is z in .2dm. The formats of coastal solvers take the quantity `depth` as the
+    /// depth, positive downwards.
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Vec<String>,
 

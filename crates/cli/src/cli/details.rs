@@ -29,15 +29,16 @@ impl MeshDetails {
         coordinates: OutputCoordinates,
     ) -> Self {
         let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
-        let coordinates = match (finished.domain().projection, coordinates, file) {
-            (Some(plane), OutputCoordinates::Lonlat, _) => format!("longitude, latitude; meshed in {plane}"),
-            (Some(plane), OutputCoordinates::Plane, _) => format!("x, y in {plane}"),
-            (None, _, Some(file)) => format!("x, y as in {}", file.display()),
-            (None, _, None) => "x, y".to_owned(),
+        let meaning = match (finished.domain().projection, file) {
+            (Some(plane), _) => format!("x, y in {plane}"),
+            (None, Some(file)) => format!("x, y as in {}", file.display()),
+            (None, None) => "x, y".to_owned(),
         };
         let fingerprint = finished.mesh().fingerprint();
-        let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &coordinates);
+        let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &meaning);
         let provenance = provenance.with_unit(finished.unit);
+        let in_degrees = finished.domain().projection.filter(|_| coordinates == OutputCoordinates::Lonlat);
+        let provenance = provenance.in_degrees(in_degrees);
         Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
     }
 

@@ -59,6 +59,22 @@ pub fn output_long_help() -> String {
     let help = output_help();
     format!(
         "{help}\n\nFiles carry the level of each triangle and the target diameter at each node; pictures do not. Beside \
-         .node, the files .ele, .neigh and .edge are written."
+         .node, the files .ele, .neigh and .edge are written; beside .slf, .cli; and .dat stands for the files _grd.dat, \
+         _dep.dat and _obc.dat of FVCOM."
+    )
+}
+
+/// Returns the help of `--format`, with the name of every format.
+pub fn format_help() -> String {
+    let names: String = ExportFormat::names().map(|name| format!(" {name}")).collect();
+    format!("Format of `-o -`, which writes to standard output, and of a file:{names}")
+}
+
+/// Returns the long help of `--format`.
+pub fn format_long_help() -> String {
+    let help = format_help();
+    format!(
+        "{help}\n\nThe ending of a file chooses its format, unless the file may also be one of the named format (.msh for \
+         msh2) or the ending says nothing."
     )
 }

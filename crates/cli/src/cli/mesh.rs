@@ -125,8 +125,8 @@ fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output],
     if !typed.quantity.is_empty() && !outputs.iter().any(Output::wants_node_data) {
         notes.push("--quantity changes nothing: no file with data is written (-o).".into());
     }
-    if typed.format.is_some() && !outputs.iter().any(Output::is_stdout) {
-        notes.push("--format changes nothing without -o -: the ending of a file chooses its format.".into());
+    if typed.format.is_some() && !outputs.iter().any(Output::is_named) {
+        notes.push("--format changes nothing: the endings of the files (-o) choose their formats.".into());
     }
     if typed.binary && !outputs.iter().any(Output::is_binary) {
         notes.push(

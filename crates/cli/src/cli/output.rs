@@ -21,40 +21,48 @@ pub struct Output {
     format: ExportFormat,
     /// Whether it is the binary form of a format that is text otherwise.
     is_binary: bool,
+    /// Whether the name of the format was needed, beside the name of the file.
+    is_named: bool,
 }
 
 impl Output {
-    /// Creates a file, whose extension decides the format; or `-`, standard output, in the format of the
-    /// extension `stdout_format`. A format that has a binary form takes it where `is_binary`.
+    /// Creates a file, or `-`, standard output. `format` is the name of a format. It is that of standard
+    /// output, and of a file that may be of this format by its extension; otherwise the extension decides. A
+    /// format that has a binary form takes it where `is_binary`.
     ///
     /// # Errors
-    /// Fails when the extension is unknown, or no format is given for standard output.
-    pub fn new(path: &Path, stdout_format: Option<&str>, is_binary: bool) -> Result<Self, Failure> {
-        let mut output = Self::in_usual_form(path, stdout_format)?;
+    /// Fails when the extension or the name is unknown, or no format is given for standard output.
+    pub fn new(path: &Path, format: Option<&str>, is_binary: bool) -> Result<Self, Failure> {
+        let named = format.map(named_format).transpose()?;
+        let mut output = match is_standard_stream(path) {
+            true => Self::standard(named)?,
+            false => Self::file(path, named)?,
+        };
         if let (true, Some(binary)) = (is_binary, output.format.binary()) {
             (output.format, output.is_binary) = (binary, true);
         }
         Ok(output)
     }
 
-    fn in_usual_form(path: &Path, stdout_format: Option<&str>) -> Result<Self, Failure> {
-        if !is_standard_stream(path) {
-            let format = ExportFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}")))?;
-            return Ok(Self { path: Some(path.to_owned()), format, is_binary: false });
-        }
-        let Some(ending) = stdout_format else {
+    fn file(path: &Path, named: Option<ExportFormat>) -> Result<Self, Failure> {
+        let by_ending = ExportFormat::of(path);
+        let fitting = named.filter(|format| format.fits(path) && by_ending != Ok(*format));
+        let format = match fitting {
+            Some(format) => format,
+            None => by_ending.map_err(|error| Failure::Usage(format!("-o {error}")))?,
+        };
+        Ok(Self { path: Some(path.to_owned()), format, is_binary: false, is_named: fitting.is_some() })
+    }
+
+    fn standard(named: Option<ExportFormat>) -> Result<Self, Failure> {
+        let Some(format) = named else {
             let problem = "-o -: standard output has no ending that chooses a format; name one with --format";
             return Err(Failure::Usage(format!("{problem}, as in --format vtu.")));
         };
-        let file = PathBuf::from(format!("stdout.{}", ending.trim_start_matches('.')));
-        let format = ExportFormat::of(&file).map_err(|_| {
-            let endings: String = ExportFormat::endings().map(|ending| format!(" {ending}")).collect();
-            Failure::Usage(format!("--format {ending}: use one of{endings}."))
-        })?;
-        match format.files(&file).len() {
-            1 => Ok(Self { path: None, format, is_binary: false }),
+        match format.files(Path::new("stdout")).len() {
+            1 => Ok(Self { path: None, format, is_binary: false, is_named: true }),
             files => {
-                let problem = format!("--format {ending}: this format has {files} files");
+                let problem = format!("--format {}: this format has {files} files", format.name());
                 Err(Failure::Usage(format!("{problem}, and standard output is one. Name a file with -o.")))
             }
         }
@@ -72,6 +80,11 @@ impl Output {
     pub fn check_places(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
         let files = self.path.iter().flat_map(|path| self.format.files(path));
         files.into_iter().try_for_each(|file| check_place(&file, inputs))
+    }
+
+    /// Whether the name of the format was needed, beside the name of the file.
+    pub fn is_named(&self) -> bool {
+        self.is_named
     }
 
     /// Whether it is the binary form of a format that is text otherwise.
@@ -94,8 +107,8 @@ impl Output {
         self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` is that of `mesh`,
-    /// and `data` is in the order of its nodes.
+    /// Writes the file, or all files of a format of several, and returns their names. `extract` is that of
+    /// `mesh`, and `data` is in the order of its nodes.
     ///
     /// # Errors
     /// Fails when the file cannot be written. What was there before is kept then.
@@ -115,6 +128,13 @@ impl Output {
         let written = self.format.write(path, mesh, extract, data, look, meter);
         written.map_err(|error| failed(path, error.to_string()))
     }
+}
+
+fn named_format(name: &str) -> Result<ExportFormat, Failure> {
+    ExportFormat::named(name.trim_start_matches('.')).ok_or_else(|| {
+        let names: String = ExportFormat::names().map(|name| format!(" {name}")).collect();
+        Failure::Usage(format!("--format {name}: use one of{names}."))
+    })
 }
 
 /// Returns whether a path stands for standard input or standard output.

@@ -15,7 +15,9 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// A table with a row for each triangle.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "csv",
+    name: "csv",
+    endings: &["csv"],
+    tail: "",
     purpose: "Spreadsheets and scripts: a row for each triangle",
     size: TypicalSize { bytes: 164.0, bytes_per_digit: 7.0 },
     beside: &[],

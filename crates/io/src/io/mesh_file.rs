@@ -1,3 +1,4 @@
+use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,13 +16,19 @@ pub struct MeshFormat {
 
 /// A file format, as its module describes it.
 pub struct FormatSpec {
-    /// The file name extension, in lower case and without the dot.
-    pub ending: &'static str,
+    /// The name of the format: the usual extension, or another word.
+    pub name: &'static str,
+    /// The file name extensions that the format may have, in lower case and without the dot, the usual one
+    /// first. Of several formats with one extension, the first in the list has it, and the others are chosen
+    /// by their names.
+    pub endings: &'static [&'static str],
+    /// What the name of the first file ends with, as in `_grd.dat`; empty where an extension is enough.
+    pub tail: &'static str,
     /// The programs that read the format, and its contents, in a few words for a list of formats.
     pub purpose: &'static str,
     /// How long its files are.
     pub size: TypicalSize,
-    /// The further files of the format: extensions and writers.
+    /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
     pub write: WriteMesh,
@@ -54,12 +61,32 @@ impl MeshFormat {
 
     /// Returns the format of a file name extension, in lower case and without the dot.
     pub fn from_ending(ending: &str) -> Option<Self> {
-        Self::all().find(|format| format.ending() == ending)
+        Self::all().find(|format| format.may_end_in(ending))
     }
 
-    /// The file name extension, in lower case and without the dot.
+    /// Returns the format with a name, or else with a file name extension, in lower case.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().find(|format| format.name() == name).or_else(|| Self::from_ending(name))
+    }
+
+    /// The name of the format: its usual extension, or another word, as `fvcom` and `ugrid`.
+    pub fn name(self) -> &'static str {
+        self.spec.name
+    }
+
+    /// The usual file name extension, in lower case and without the dot.
     pub fn ending(self) -> &'static str {
-        self.spec.ending
+        self.spec.endings[0]
+    }
+
+    /// The file name extensions that choose this format, the usual one first.
+    pub fn endings(self) -> impl Iterator<Item = &'static str> {
+        self.spec.endings.iter().copied().filter(move |ending| Self::from_ending(ending) == Some(self))
+    }
+
+    /// Returns whether files of this format may have an extension, which may choose another format.
+    pub fn may_end_in(self, ending: &str) -> bool {
+        self.spec.endings.contains(&ending)
     }
 
     /// Returns the programs that read the format, and its contents, in a few words.
@@ -75,10 +102,26 @@ impl MeshFormat {
         (triangles as f64 * (bytes + bytes_per_digit * further_digits).max(1.0)) as u64
     }
 
-    /// Returns the files that an export to `path` writes, `path` first.
+    /// Returns the files that an export to `path` writes. The first is `path`, or for a format whose files
+    /// differ in more than their extensions, the one beside it that is named as the format wants.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
-        let beside = self.spec.beside.iter().map(|(ending, _)| path.with_extension(ending));
-        std::iter::once(path.to_owned()).chain(beside).collect()
+        let first =
+            if self.spec.tail.is_empty() { path.to_owned() } else { self.sibling(path, self.spec.tail) };
+        let beside = self.spec.beside.iter().map(|(ending, _)| self.sibling(path, ending));
+        std::iter::once(first).chain(beside).collect()
+    }
+
+    /// Returns the path with another extension, or with another tail in place of the tail of the format.
+    fn sibling(self, path: &Path, ending: &str) -> PathBuf {
+        if self.spec.tail.is_empty() {
+            return path.with_extension(ending);
+        }
+        let stem = path.file_stem().unwrap_or_default();
+        let own = self.spec.tail.split('.').next().unwrap_or_default();
+        let shorter = stem.to_str().and_then(|stem| stem.strip_suffix(own));
+        let mut name = shorter.map_or_else(|| stem.to_owned(), OsString::from);
+        name.push(ending);
+        path.with_file_name(name)
     }
 
     fn writer(self) -> WriteMesh {
@@ -89,11 +132,12 @@ impl MeshFormat {
     }
 
     /// Writes a mesh, and returns the paths of the files: [`Self::files`]. The meter knows the number of
-    /// bytes in all only for `.vtu` and `.stl`.
+    /// bytes in all only for `.vtu`, `.stl` and `.nc`.
     ///
     /// # Errors
-    /// Fails with the errors of the file system, and when the work was cancelled. The old files are then
-    /// untouched, except for Triangle's four files if the file system fails between two of them.
+    /// Fails with the errors of the file system, when the format cannot hold the mesh, and when the work was
+    /// cancelled. The old files are then untouched, except for those of a format of several files if the file
+    /// system fails between two of them.
     pub fn write(
         self,
         path: &Path,
@@ -129,13 +173,13 @@ impl MeshFormat {
 
 impl fmt::Debug for MeshFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "MeshFormat(.{}{})", self.ending(), if self.is_binary { ", binary" } else { "" })
+        write!(f, "MeshFormat({}{})", self.name(), if self.is_binary { ", binary" } else { "" })
     }
 }
 
 impl PartialEq for MeshFormat {
     fn eq(&self, other: &Self) -> bool {
-        (self.ending(), self.is_binary) == (other.ending(), other.is_binary)
+        (self.name(), self.is_binary) == (other.name(), other.is_binary)
     }
 }
 

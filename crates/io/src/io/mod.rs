@@ -7,7 +7,12 @@
 //! - nodes and triangles are in the order of the extract, unless the format says otherwise;
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
 //! - coordinates and h̄ are in world units; a number is the shortest text that reads back as the same f64;
-//! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj` and `.2dm`, which start at one.
+//! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj`, `.2dm` and the formats of
+//!   coastal solvers, which start at one.
+//!
+//! The formats of coastal solvers (`fort14`, `gr3`, `selafin`, `mike`, `msh2`, `fvcom`, `ugrid`) have a depth
+//! at each node, [`MeshData::depths`], and most of them the boundary as strings of nodes
+//! (`boundary_strings`).
 //!
 //! A function that can take longer than a frame takes a [`Meter`], or has a variant `…_metered` that does: it
 //! counts bytes, and fails with [`Cancelled`] once the meter is cancelled.
@@ -15,6 +20,7 @@
 pub mod asc;
 mod atomic;
 mod blocks;
+mod boundary_strings;
 mod claim;
 mod coordinate_system;
 mod coordinates;
@@ -23,9 +29,13 @@ mod error;
 mod fault;
 mod features;
 mod folder;
+pub mod fort14;
+pub mod fvcom;
+pub mod gr3;
 mod interrupt;
 mod mesh_file;
 mod meter;
+pub mod mike;
 pub mod geojson;
 pub mod geotiff;
 pub mod journal;
@@ -33,6 +43,8 @@ mod json;
 pub mod layers;
 pub mod located;
 pub mod msh;
+pub mod msh2;
+mod netcdf;
 pub mod node;
 pub mod npy;
 pub mod obj;
@@ -48,6 +60,7 @@ pub mod recipe;
 pub mod recording;
 mod rows;
 mod samples;
+pub mod selafin;
 pub mod settings;
 pub mod shape_format;
 pub mod shapes;
@@ -60,6 +73,7 @@ mod table;
 mod text_file;
 pub mod threats;
 mod triangle_pieces;
+pub mod ugrid;
 mod values;
 pub mod vtu;
 pub mod world_file;
@@ -85,8 +99,23 @@ pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 
 /// The formats of meshes. A new one is a module and an entry here.
-static MESH_FORMATS: [&FormatSpec; 7] =
-    [&vtu::FORMAT, &msh::FORMAT, &obj::FORMAT, &stl::FORMAT, &node::FORMAT, &sms::FORMAT, &csv::FORMAT];
+static MESH_FORMATS: [&FormatSpec; 15] = [
+    &vtu::FORMAT,
+    &msh::FORMAT,
+    &obj::FORMAT,
+    &stl::FORMAT,
+    &node::FORMAT,
+    &sms::FORMAT,
+    &csv::FORMAT,
+    &fort14::FORMAT,
+    &gr3::FORMAT,
+    &gr3::FORMAT_IN_DEGREES,
+    &ugrid::FORMAT,
+    &selafin::FORMAT,
+    &mike::FORMAT,
+    &msh2::FORMAT,
+    &fvcom::FORMAT,
+];
 
 /// The formats of rasters. A new one is a module and an entry here.
 static RASTER_FORMATS: [&RasterFormatSpec; 4] = [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &npy::RASTER];
@@ -122,7 +151,26 @@ pub struct NodeValues {
     pub values: Vec<f64>,
 }
 
+/// The name of the quantity that is the depth.
+const DEPTH: &str = "depth";
+
 impl MeshData<'_> {
+    /// The depth at each node, positive downwards, for the formats of coastal solvers: the quantity with the
+    /// name `depth`. Without it they have depth 0 everywhere; h̄ is a length of triangles and no depth.
+    pub fn depths(&self) -> Option<&[f64]> {
+        self.quantities.iter().find(|quantity| quantity.name == DEPTH).map(|depth| &*depth.values)
+    }
+
+    /// The depth at a node, positive downwards; 0 without depths.
+    fn depth(&self, node: usize) -> f64 {
+        self.depths().map_or(0.0, |depths| depths[node])
+    }
+
+    /// The height of the ground at a node, positive upwards; 0 without depths.
+    fn ground(&self, node: usize) -> f64 {
+        0.0 - self.depth(node) // not -0 without depths
+    }
+
     /// Writes the origin of the mesh in lines that a format takes for comments.
     fn write_comments(&self, out: &mut impl Write) -> io::Result<()> {
         self.provenance.lines().try_for_each(|line| writeln!(out, "# {line}"))

@@ -16,7 +16,9 @@ use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
 
 /// Gmsh 4.1.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "msh",
+    name: "msh",
+    endings: &["msh"],
+    tail: "",
     purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
     size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
     beside: &[],

@@ -16,7 +16,9 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "node",
+    name: "node",
+    endings: &["node"],
+    tail: "",
     purpose: "Triangle: four files, nodes, elements, neighbours and edges",
     size: TypicalSize { bytes: 93.0, bytes_per_digit: 13.0 },
     beside: &[

@@ -10,7 +10,9 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Wavefront.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "obj",
+    name: "obj",
+    endings: &["obj"],
+    tail: "",
     purpose: "Blender and other 3D programs: a group for each level",
     size: TypicalSize { bytes: 58.0, bytes_per_digit: 3.5 },
     beside: &[],

@@ -1,5 +1,6 @@
 //! The origin of a file, as text for the formats that have a place for it.
 
+use meshbrush_core::earth::Projection;
 use meshbrush_mesh::mesh::Fingerprint;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -8,6 +9,7 @@ use meshbrush_mesh::text::LengthUnit;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Provenance {
     lines: Vec<(&'static str, String)>,
+    unit: LengthUnit,
 }
 
 /// The source that a mesh was made from.
@@ -35,7 +37,7 @@ impl Provenance {
             ("fingerprint", fingerprint.to_string()),
             ("coordinates", one_line(coordinates)),
         ];
-        Self { lines: lines.into() }
+        Self { lines: lines.into(), unit: LengthUnit::None }
     }
 
     /// Adds the unit of coordinates and lengths, if there is one.
@@ -44,7 +46,25 @@ impl Provenance {
         if unit != LengthUnit::None {
             self.lines.push(("unit", unit.name().to_owned()));
         }
+        self.unit = unit;
         self
+    }
+
+    /// Says that coordinates are longitudes and latitudes of a mesh in the plane of a projection, if it is in
+    /// one. Lengths stay in metres.
+    #[must_use]
+    pub fn in_degrees(mut self, meshed_in: Option<Projection>) -> Self {
+        let Some(meshed_in) = meshed_in else { return self };
+        self.lines.retain(|(key, _)| !matches!(*key, "coordinates" | "unit"));
+        let coordinates = format!("longitude, latitude in degrees; meshed in {meshed_in}, with lengths in m");
+        self.lines.push(("coordinates", coordinates));
+        self.unit = LengthUnit::Degree;
+        self
+    }
+
+    /// Returns the unit of coordinates.
+    pub fn unit(&self) -> LengthUnit {
+        self.unit
     }
 
     /// Returns the entries, as pairs of a key and one line of text.
@@ -55,6 +75,21 @@ impl Provenance {
     /// Returns the entries as lines, `word: text`.
     pub fn lines(&self) -> impl Iterator<Item = String> {
         self.entries().map(|(key, text)| format!("{key}: {text}"))
+    }
+
+    /// Returns all entries in one line, for formats that have a line for a title.
+    pub fn line(&self) -> String {
+        self.lines().collect::<Vec<_>>().join("; ")
+    }
+
+    /// Returns the program and the fingerprint as `N` bytes, padded with blanks, for formats that have room
+    /// for no more.
+    pub fn title<const N: usize>(&self) -> [u8; N] {
+        let kept = self.entries().filter(|(key, _)| matches!(*key, "program" | "fingerprint"));
+        let text = kept.map(|(_, text)| text).collect::<Vec<_>>().join(", fingerprint ");
+        let mut title = [b' '; N];
+        title.iter_mut().zip(text.bytes()).for_each(|(place, byte)| *place = byte);
+        title
     }
 }
 

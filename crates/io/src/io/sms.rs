@@ -14,7 +14,9 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// SMS.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "2dm",
+    name: "2dm",
+    endings: &["2dm"],
+    tail: "",
     purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
     size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
     beside: &[],

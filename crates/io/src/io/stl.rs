@@ -13,7 +13,9 @@ use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangles without shared nodes.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "stl",
+    name: "stl",
+    endings: &["stl"],
+    tail: "",
     purpose: "CAD and 3D printing: triangles only, without h̄",
     size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
     beside: &[],
@@ -40,7 +42,8 @@ pub fn bytes(mesh: &Extract) -> u64 {
 /// triangles than `u32` counts.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let count = u32::try_from(mesh.triangles().len()).map_err(io::Error::other)?;
-    out.write_all(&title(data))?;
+    // The title must not begin with "solid", which marks the text form.
+    out.write_all(&data.provenance.title::<80>())?;
     out.write_all(&count.to_le_bytes())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
         let corners = mesh.cell(TriangleId::from_index(id)).corners;
@@ -62,15 +65,4 @@ fn write_triangle(out: &mut impl Write, corners: [Vec2; 3]) -> io::Result<()> {
         out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
     }
     out.write_all(&[0, 0]) // no attributes
-}
-
-/// Program and fingerprint: there is no room for more.
-///
-/// It must not begin with "solid", which marks the text form.
-fn title(data: &MeshData) -> [u8; 80] {
-    let kept = data.provenance.entries().filter(|(key, _)| matches!(*key, "program" | "fingerprint"));
-    let text = kept.map(|(_, text)| text).collect::<Vec<_>>().join(", fingerprint ");
-    let mut title = [b' '; 80];
-    title.iter_mut().zip(text.bytes()).for_each(|(place, byte)| *place = byte);
-    title
 }

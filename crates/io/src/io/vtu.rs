@@ -26,7 +26,9 @@ use meshbrush_mesh::mesh::Extract;
 
 /// VTK's unstructured grid.
 pub static FORMAT: FormatSpec = FormatSpec {
-    ending: "vtu",
+    name: "vtu",
+    endings: &["vtu"],
+    tail: "",
     purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
     size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
     beside: &[],

@@ -42,14 +42,29 @@ impl ExportFormat {
     /// # Errors
     /// Fails when the ending is none of [`Self::endings`].
     pub fn of(path: &Path) -> Result<Self, UnknownEnding> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        match ending.as_str() {
-            "svg" => Ok(Self::Svg),
-            "png" => Ok(Self::Png),
-            _ => {
-                MeshFormat::from_ending(&ending).map(Self::Mesh).ok_or_else(|| UnknownEnding(path.to_owned()))
-            }
-        }
+        let found = match ending_of(path).as_str() {
+            "svg" => Some(Self::Svg),
+            "png" => Some(Self::Png),
+            ending => MeshFormat::from_ending(ending).map(Self::Mesh),
+        };
+        found.ok_or_else(|| UnknownEnding(path.to_owned()))
+    }
+
+    /// Returns the format with a name, [`Self::name`], or else with an ending, without the dot; upper and
+    /// lower case are the same.
+    pub fn named(name: &str) -> Option<Self> {
+        let name = name.to_ascii_lowercase();
+        Self::all().find(|format| format.name() == name).or_else(|| MeshFormat::named(&name).map(Self::Mesh))
+    }
+
+    /// Returns whether a file with this name may be one of this format: its ending is one of the format's
+    /// endings, which may choose another format by itself, or that of no format.
+    pub fn fits(self, path: &Path) -> bool {
+        let own = match self {
+            Self::Mesh(format) => format.may_end_in(&ending_of(path)),
+            Self::Svg | Self::Png => Self::of(path) == Ok(self),
+        };
+        own || Self::of(path).is_err()
     }
 
     /// Returns the binary form of this format, or `None` if it has no separate one.
@@ -65,7 +80,15 @@ impl ExportFormat {
         MeshFormat::all().map(Self::Mesh).chain([Self::Svg, Self::Png])
     }
 
-    /// Returns the ending of file names of this format, without the dot.
+    /// Returns the name of this format: its usual ending, or another word, as `fvcom` and `ugrid`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh(format) => format.name(),
+            Self::Svg | Self::Png => self.ending(),
+        }
+    }
+
+    /// Returns the usual ending of file names of this format, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Mesh(format) => format.ending(),
@@ -92,9 +115,14 @@ impl ExportFormat {
         }
     }
 
-    /// Returns all endings, without their dots.
+    /// Returns all endings that choose a format, without their dots.
     pub fn endings() -> impl Iterator<Item = &'static str> {
-        Self::all().map(Self::ending)
+        MeshFormat::all().flat_map(MeshFormat::endings).chain([Self::Svg, Self::Png].map(Self::ending))
+    }
+
+    /// Returns the names of all formats.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Self::all().map(Self::name)
     }
 
     /// Returns whether the format contains data at the nodes.
@@ -102,7 +130,8 @@ impl ExportFormat {
         matches!(self, Self::Mesh(_))
     }
 
-    /// Returns all files that an export to `path` writes, `path` first.
+    /// Returns all files that an export to `path` writes. The first is `path`, or for FVCOM the one beside it
+    /// that ends in `_grd.dat`.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {
         match self {
             Self::Mesh(format) => format.files(path),
@@ -110,8 +139,8 @@ impl ExportFormat {
         }
     }
 
-    /// Writes the file, or the four files of `.node`, and returns their names. `extract` must be the extract
-    /// of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
+    /// Writes the file, or all files of a format of several, and returns their names. `extract` must be the
+    /// extract of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
     ///
     /// # Errors
     /// Fails when a file cannot be written, the format cannot hold the mesh, or the meter was cancelled.
@@ -200,6 +229,10 @@ impl ExportFormat {
             }
         }
     }
+}
+
+fn ending_of(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
 /// The appearance of a picture of a whole mesh.

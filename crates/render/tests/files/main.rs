@@ -10,7 +10,12 @@ mod hostile;
 mod io;
 mod kept_picture;
 mod meter;
+mod netcdf_reader;
 mod partial_redraw;
 mod pieces;
 mod render_agreement;
+#[path = "../../../../tests/shared/runs.rs"]
+#[expect(dead_code, reason = "these tests use seeds only")]
+mod runs;
 mod shader_validation;
+mod solvers;

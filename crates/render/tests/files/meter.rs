@@ -123,7 +123,7 @@ fn a_meter_with_a_total_ends_at_it() {
         let bytes: u64 = written.unwrap().iter().map(|path| fs::metadata(path).unwrap().len()).sum();
         match ending {
             "vtu" => assert_eq!(meter.total(), Some(meter.done())),
-            "stl" => assert_eq!((meter.done(), meter.total()), (bytes, Some(bytes))),
+            "stl" | "nc" => assert_eq!((meter.done(), meter.total()), (bytes, Some(bytes)), "{ending}"),
             _ => assert_eq!((meter.done(), meter.total()), (bytes, None), "{ending}"),
         }
         assert!(meter.done() > 1 << 17, "{ending}: {}", meter.done());
@@ -185,8 +185,10 @@ fn a_cancelled_export_leaves_the_old_files() {
     let (mesh, targets) = mesh();
     let details = Details::of(&mesh);
     let mesh = mesh.extract();
-    for name in ["vtu", "msh", "obj", "stl", "node", "ele", "neigh", "edge", "2dm", "csv"] {
-        fs::write(folder.join("mesh").with_extension(name), format!("old {name}")).unwrap();
+    for file in MeshFormat::all()
+        .flat_map(|format| format.files(&folder.join("mesh").with_extension(format.ending())))
+    {
+        fs::write(&file, format!("old {}", file.display())).unwrap();
     }
     let before = files(&folder);
     for format in MeshFormat::all() {

@@ -1,0 +1,257 @@
+//! The boundary as strings of nodes, as coastal solvers want it: open boundaries, land and islands.
+//!
+//! ```text
+//!   o----- land -----o        Outer loops run anticlockwise and holes clockwise: the domain is on the left.
+//!   |                |        Neighbouring strings share their end node. A loop of one string ends with its
+//!  open    o--o    land       first node. A hole without an open part is one string, whatever pieces it has.
+//!   |      o--o      |
+//!   o----- land -----o
+//! ```
+//!
+//! A piece is open if it lies along the frame ([`BoundaryKind::Open`]). A name that a person or a file gave
+//! decides against that if it begins with `open` or with `land`, in upper or lower case.
+
+use std::collections::HashMap;
+use std::io;
+
+use glam::DVec2;
+
+use super::{MeshData, Number};
+use meshbrush_core::domain::{BoundaryKind, BoundaryPiece};
+use meshbrush_mesh::mesh::{Extract, NodeId};
+
+/// The code of a land node in [`BoundaryStrings::node_codes`].
+pub(super) const LAND: u32 = 1;
+
+/// What a string is for a solver.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StringKind {
+    /// Where the sea goes on.
+    Open,
+    /// Land on an outer loop, or on a hole that has an open part.
+    Land,
+    /// The whole of a hole.
+    Island,
+}
+
+/// Edges of one kind that follow one another along the boundary.
+#[derive(Clone, Debug)]
+pub(super) struct BoundaryString {
+    /// What it is.
+    pub(super) kind: StringKind,
+    /// The name of its piece, or of its pieces with commas between them.
+    pub(super) name: String,
+    /// Nodes, with the domain on the left; a whole loop ends with its first node.
+    pub(super) nodes: Vec<usize>,
+}
+
+impl BoundaryString {
+    /// Returns the nodes without the repeated first node of an island.
+    pub(super) fn distinct(&self) -> &[usize] {
+        match self.kind {
+            StringKind::Island => &self.nodes[..self.nodes.len() - 1],
+            StringKind::Open | StringKind::Land => &self.nodes,
+        }
+    }
+
+    fn is_open(&self) -> bool {
+        self.kind == StringKind::Open
+    }
+}
+
+/// The strings of a whole boundary.
+#[derive(Clone, Debug)]
+pub(super) struct BoundaryStrings {
+    /// The strings of each loop, in their order along it. Outer loops come first, the longest first, then
+    /// holes, the longest first.
+    loops: Vec<Vec<BoundaryString>>,
+}
+
+impl BoundaryStrings {
+    /// Divides the boundary of a mesh. `format` is its name in errors.
+    ///
+    /// # Errors
+    /// Fails where the boundary touches itself in a node: solvers need two boundary edges at each.
+    pub(super) fn new(mesh: &Extract, data: &MeshData, format: &str) -> io::Result<Self> {
+        let edges: Vec<[usize; 2]> = mesh.boundary_edges().map(|edge| edge.ends).collect();
+        check_contacts(mesh, &edges, format)?;
+        let pieces = data.boundary.pieces().list();
+        let piece_of = |edge: usize| data.boundary.piece_of_edge()[edge] as usize;
+        let mut loops = Vec::new();
+        for mut numbers in mesh.boundary_edge_loops() {
+            let is_hole = runs_clockwise(mesh, numbers.iter().map(|&edge| edges[edge][0]));
+            let start = first_of_string(&numbers, |edge| (is_open(&pieces[piece_of(edge)]), piece_of(edge)));
+            numbers.rotate_left(start);
+            let runs = numbers.chunk_by(|&a, &b| piece_of(a) == piece_of(b));
+            let string = |run: &[usize]| {
+                let piece = &pieces[piece_of(run[0])];
+                let kind = if is_open(piece) { StringKind::Open } else { StringKind::Land };
+                let nodes = run.iter().map(|&edge| edges[edge][0]).chain([edges[run[run.len() - 1]][1]]);
+                BoundaryString { kind, name: piece.name.clone(), nodes: nodes.collect() }
+            };
+            let strings: Vec<BoundaryString> = runs.map(string).collect();
+            let is_island = is_hole && !strings.iter().any(BoundaryString::is_open);
+            loops.push((is_hole, numbers.len(), if is_island { vec![island(strings)] } else { strings }));
+        }
+        loops.sort_by_key(|&(is_hole, edges, _)| (is_hole, std::cmp::Reverse(edges)));
+        Ok(Self { loops: loops.into_iter().map(|(_, _, strings)| strings).collect() })
+    }
+
+    /// Returns all strings.
+    pub(super) fn all(&self) -> impl Iterator<Item = &BoundaryString> {
+        self.loops.iter().flatten()
+    }
+
+    /// Returns the open strings.
+    pub(super) fn open(&self) -> impl Iterator<Item = &BoundaryString> {
+        self.all().filter(|string| string.is_open())
+    }
+
+    /// Returns the strings of land and then the islands.
+    pub(super) fn closed(&self) -> impl Iterator<Item = &BoundaryString> {
+        let of_kind = |kind| self.all().filter(move |string| string.kind == kind);
+        of_kind(StringKind::Land).chain(of_kind(StringKind::Island))
+    }
+
+    /// Returns the nodes of the open strings, each once, where it comes first.
+    pub(super) fn open_nodes(&self, mesh: &Extract) -> Vec<usize> {
+        let mut is_taken = vec![false; mesh.nodes().len()];
+        let nodes = self.open().flat_map(|string| &string.nodes).copied();
+        nodes.filter(|&node| !std::mem::replace(&mut is_taken[node], true)).collect()
+    }
+
+    /// Returns the boundary nodes with their strings, each node once, in the order along the loops. A node in
+    /// which two strings meet is in the one that begins there.
+    pub(super) fn ring_nodes(&self) -> impl Iterator<Item = (usize, &BoundaryString)> {
+        let begins = |string: &'_ BoundaryString| string.nodes.len() - 1;
+        self.all()
+            .flat_map(move |string| string.nodes[..begins(string)].iter().map(move |&node| (node, string)))
+    }
+
+    /// Returns a code for each node: 0 off the boundary, [`LAND`], and from 2 on one for each open string in
+    /// the order of [`Self::open`]. A node between an open string and land is open, and one between two open
+    /// strings belongs to that which ends there. Then an edge is open just if neither node is a land node,
+    /// and has the code of its second node.
+    ///
+    /// A land string of one edge between two open ones would be open by that rule. It takes a node of the
+    /// longer one, so that an edge of that is land, too.
+    ///
+    /// # Errors
+    /// Fails where no edge of an open string would remain.
+    pub(super) fn node_codes(&self, mesh: &Extract, format: &str) -> io::Result<Vec<u32>> {
+        let mut codes = vec![0; mesh.nodes().len()];
+        for string in self.closed() {
+            string.nodes.iter().for_each(|&node| codes[node] = LAND);
+        }
+        for (code, string) in (LAND + 1..).zip(self.open()) {
+            codes[string.nodes[0]] = code;
+        }
+        for (code, string) in (LAND + 1..).zip(self.open()) {
+            string.nodes[1..].iter().for_each(|&node| codes[node] = code);
+        }
+        for node in self.nodes_for_short_land(&codes) {
+            codes[node] = LAND;
+        }
+        let has_edge = |string: &BoundaryString| {
+            string.nodes.windows(2).any(|ends| ends.iter().all(|&node| codes[node] > LAND))
+        };
+        match self.open().find(|string| !has_edge(string)) {
+            Some(string) => Err(no_own_edge(string, mesh, format)),
+            None => Ok(codes),
+        }
+    }
+
+    /// Returns a node for each land string that has none of its own: the one that it shares with the longer
+    /// of the open strings beside it.
+    fn nodes_for_short_land(&self, codes: &[u32]) -> Vec<usize> {
+        let edges_at: HashMap<[usize; 2], usize> = self
+            .open()
+            .flat_map(|string| {
+                let last = string.nodes.len() - 1;
+                [([string.nodes[0], BEGIN], last), ([string.nodes[last], END], last)]
+            })
+            .collect();
+        let edges = |node: usize, end: usize| edges_at.get(&[node, end]).copied().unwrap_or(0);
+        let hidden = self.closed().filter(|string| string.nodes.iter().all(|&node| codes[node] > LAND));
+        hidden
+            .map(|string| {
+                let (first, last) = (string.nodes[0], string.nodes[string.nodes.len() - 1]);
+                if edges(first, END) >= edges(last, BEGIN) { first } else { last }
+            })
+            .collect()
+    }
+}
+
+/// The ends of a string, in [`BoundaryStrings::nodes_for_short_land`].
+const BEGIN: usize = 0;
+const END: usize = 1;
+
+/// Returns whether a piece of the boundary is open for solvers.
+fn is_open(piece: &BoundaryPiece) -> bool {
+    let begins = |word: &str| {
+        piece.is_named && piece.name.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+    };
+    begins("open") || (piece.kind == BoundaryKind::Open && !begins("land"))
+}
+
+/// Returns where to begin with the edges of a loop: at an open piece after land, or else at another piece;
+/// of several places, at the piece with the lowest number.
+fn first_of_string(numbers: &[usize], piece_of: impl Fn(usize) -> (bool, usize)) -> usize {
+    let before = |n: usize| piece_of(numbers[(n + numbers.len() - 1) % numbers.len()]);
+    let places = (0..numbers.len()).filter(|&n| piece_of(numbers[n]).1 != before(n).1);
+    let rank = |&n: &usize| {
+        let (is_open, piece) = piece_of(numbers[n]);
+        (!is_open || before(n).0, piece, n)
+    };
+    places.min_by_key(rank).unwrap_or(0)
+}
+
+/// Joins the strings of a whole hole.
+fn island(strings: Vec<BoundaryString>) -> BoundaryString {
+    let mut names: Vec<&str> = Vec::new();
+    for string in &strings {
+        if !names.contains(&&*string.name) {
+            names.push(&string.name);
+        }
+    }
+    let name = names.join(", ");
+    let inner = strings.iter().flat_map(|string| &string.nodes[1..]);
+    let nodes = strings.iter().take(1).map(|string| &string.nodes[0]).chain(inner).copied().collect();
+    BoundaryString { kind: StringKind::Island, name, nodes }
+}
+
+/// Returns whether a loop of nodes runs clockwise.
+fn runs_clockwise(mesh: &Extract, nodes: impl Iterator<Item = usize>) -> bool {
+    let points: Vec<DVec2> = nodes.map(|node| mesh.node(NodeId::from_index(node)).as_dvec2()).collect();
+    let Some(&origin) = points.first() else { return false };
+    let turns = points.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin));
+    turns.sum::<f64>() < 0.0
+}
+
+/// Fails where the boundary touches itself in a node.
+fn check_contacts(mesh: &Extract, edges: &[[usize; 2]], format: &str) -> io::Result<()> {
+    let mut leaving = vec![0_u32; mesh.nodes().len()];
+    edges.iter().for_each(|edge| leaving[edge[0]] += 1);
+    let contacts = leaving.iter().filter(|&&count| count > 1).count();
+    let Some(node) = leaving.iter().position(|&count| count > 1) else { return Ok(()) };
+    let p = mesh.world(NodeId::from_index(node));
+    let (x, y) = (Number(p.x), Number(p.y));
+    let others = match contacts {
+        1 => String::new(),
+        _ => format!(", as in {} nodes in all", contacts),
+    };
+    Err(io::Error::other(format!(
+        "{format} needs two boundary edges at each boundary node, and at x = {x}, y = {y} the boundary touches itself \
+         in a node{others}; have such nodes removed (without --keep-pinches, or Keep pinched nodes in the tab Domain), \
+         put nodes on the outline, or choose smaller triangles there"
+    )))
+}
+
+fn no_own_edge(string: &BoundaryString, mesh: &Extract, format: &str) -> io::Error {
+    let p = mesh.world(NodeId::from_index(string.nodes[0]));
+    let (name, x, y) = (&string.name, Number(p.x), Number(p.y));
+    io::Error::other(format!(
+        "{format} marks nodes and not edges, and no edge would remain of the open boundary \"{name}\" at x = {x}, y = {y}, \
+         which lies beside land of one edge; choose smaller triangles there, or join the piece with its neighbour"
+    ))
+}

@@ -1,0 +1,58 @@
+//! `hgrid.gr3` and `hgrid.ll`: the mesh of SCHISM.
+//!
+//! The contents are those of ADCIRC's [`fort14`]; SCHISM reads the type of land as 0 on the
+//! outer boundary and 1 for islands. `hgrid.ll` is the same file in degrees of longitude and latitude. A mesh
+//! that is known to be in metres or kilometres is refused as `.ll`.
+
+use std::io::{self, Write};
+
+use super::{FormatSpec, MeshData, fort14};
+use meshbrush_mesh::mesh::Extract;
+use meshbrush_mesh::text::LengthUnit;
+
+/// SCHISM.
+pub static FORMAT: FormatSpec = FormatSpec {
+    name: "gr3",
+    endings: &["gr3"],
+    tail: "",
+    purpose: "SCHISM (hgrid.gr3): open boundaries, land and islands",
+    size: fort14::SIZE,
+    beside: &[],
+    write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
+    write_binary: None,
+};
+
+/// SCHISM, with longitudes and latitudes.
+pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
+    name: "ll",
+    endings: &["ll"],
+    tail: "",
+    purpose: "SCHISM (hgrid.ll): the same in degrees",
+    size: fort14::SIZE,
+    beside: &[],
+    write: |out, mesh, data, meter| write_in_degrees(&mut meter.count(out), mesh, data),
+    write_binary: None,
+};
+
+/// Writes `hgrid.gr3`.
+///
+/// # Errors
+/// Fails as [`fort14::write`] does.
+pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    fort14::write_named(out, mesh, data, "hgrid.gr3")
+}
+
+/// Writes `hgrid.ll`.
+///
+/// # Errors
+/// Fails as [`fort14::write`] does, and when the unit of the mesh is a length.
+pub fn write_in_degrees(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
+    match data.provenance.unit() {
+        LengthUnit::Degree | LengthUnit::None => fort14::write_named(out, mesh, data, "hgrid.ll"),
+        unit @ (LengthUnit::Metre | LengthUnit::Kilometre) => Err(io::Error::other(format!(
+            "hgrid.ll holds longitudes and latitudes in degrees, and the coordinates of this mesh are in {}; write \
+             hgrid.gr3, or set the unit of the document to degrees",
+            unit.symbol()
+        ))),
+    }
+}
