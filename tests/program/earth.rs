@@ -101,7 +101,7 @@ fn no_edge_is_longer_on_the_ellipsoid_than_its_target() {
             );
             let ran = folder.run(format!("{command} -o m.node"));
             if ran.status != 0 {
-                // Only the equator is on both sides.
+                // Only this coast lies on both sides of the equator.
                 assert!(
                     coast.name == "Gabon" && ran.err.contains("both sides of the equator"),
                     "{}",
@@ -215,4 +215,20 @@ fn files_in_the_plane_make_the_same_mesh() {
     );
     let by_recipe = folder.json("mesh", "coast.toml");
     assert_eq!(by_recipe["hash"], by_degrees["hash"]);
+}
+
+#[test]
+fn keep_out_regions_in_degrees_lie_in_the_plane_of_the_domain() {
+    let folder = Folder::new("earth-keep-out");
+    let frame = |[west, south, east, north]: [f64; 4]| {
+        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
+    };
+    folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
+    folder.file("zone.geojson", frame([2.2, 51.8, 2.8, 52.2]));
+    // The middle of the domain is the origin of the plane.
+    let path = "--region sea.geojson --projection lcc --boundary-diameter 20000 --spacing 40000 --target 5000 \
+                --from -100000,0 --to 100000,0";
+    let length = |options: &str| folder.json("path", format!("{path} {options}"))["length"].as_f64().unwrap();
+    let (straight, around) = (length(""), length("--keep-out zone.geojson"));
+    assert!((straight - 200_000.0).abs() < 1.0 && around > 204_000.0, "{straight} m and {around} m");
 }

@@ -78,7 +78,8 @@ impl App {
     fn add_data(&mut self, path: PathBuf) {
         let name = path.file_name().unwrap_or_default();
         if ADD_DATA.takes(name) {
-            look_at(&mut self.background, &path);
+            let plane = self.session.document().settings().domain.projection;
+            look_at(&mut self.background, &path, plane);
         } else {
             self.send(Command::File(FileCommand::Open(path)));
         }

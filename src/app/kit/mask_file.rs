@@ -4,24 +4,24 @@ use std::path::Path;
 
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::Command;
-use meshbrush_core::domain::Polygon;
+use crate::app::session::Session;
 use meshbrush_core::layers::Mask;
 use meshbrush_io::io;
 
 /// Reads polygons as one mask, and sends a command with it.
 pub fn with_mask(
+    session: &Session,
     background: &mut Background,
     path: &Path,
     command: impl FnOnce(Mask) -> Command + Send + 'static,
 ) {
-    let file = path.to_owned();
+    let (file, plane) = (path.to_owned(), session.document().settings().domain.projection);
     background.start(Aim::Read, path, move |meter| {
-        let named = match io::shape_format::read_polygons(&file, meter) {
+        let named = match io::shape_format::read_polygons(&file, plane.as_ref(), meter) {
             Ok(named) => named,
             Err(error) => return Outcome::not_read(error),
         };
-        let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
-        match Mask::new(&polygons) {
+        match Mask::new(&io::geojson::without_names(named)) {
             Ok(mask) => Outcome::PartRead(vec![command(mask)]),
             Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }

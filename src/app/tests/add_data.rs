@@ -11,12 +11,13 @@ use glam::dvec2;
 
 use super::project::Dropped;
 use super::{
-    Window, active, click_button, document, entries, key, notice, open_menu, paint, send, settings, value_of,
-    wait_for_notice, wait_until, window,
+    Window, active, click_button, document, entries, key, notice, open_menu, paint, send, set, settings,
+    value_of, wait_for_notice, wait_until, window,
 };
 use crate::app::command::{Command, FileCommand, LayerCommand, PictureCommand};
-use meshbrush_core::document::Settings;
-use meshbrush_core::domain::BoundaryTreatment;
+use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -156,6 +157,26 @@ fn polygons_become_a_domain_an_outline_a_mask_or_a_region() {
     drop_and_wait(&mut window, &file);
     choose_role(&mut window, "Keep-out region of paths");
     wait_until(&mut window, |window| settings(window).paths.keep_out.len() == 1);
+}
+
+#[test]
+fn polygons_in_degrees_lie_in_the_plane_of_the_document() {
+    let file = written("plane", "coast.geojson", COAST);
+    let mut window = window();
+    let projection: Projection = "+proj=merc +lat_ts=30 +lon_0=22".parse().unwrap();
+    let [low, high] = [dvec2(20.0, 30.0), dvec2(24.0, 33.0)].map(|at| projection.plane_from_geographic(at));
+    let whole = Domain::rectangle(Rect::new(low - 1e5, high + 1e5));
+    set(&mut window, Setting::Spacing(1e5));
+    set(&mut window, Setting::Domain(Domain { projection: Some(projection), ..whole }));
+    drop_and_wait(&mut window, &file);
+    choose_role(&mut window, "Mask of the selected layer");
+    wait_until(&mut window, |window| active(window).mask.is_some());
+    let bounds = active(&window).mask.as_ref().unwrap().bounds();
+    assert!(bounds.min.distance(low) < 1e-3 && bounds.max.distance(high) < 1e-3, "{bounds:?}");
+    drop_and_wait(&mut window, &file);
+    choose_role(&mut window, "Outline of this document");
+    wait_until(&mut window, |window| settings(window).domain.region().is_some());
+    assert_eq!(settings(&window).domain.projection, Some(projection));
 }
 
 #[test]

@@ -20,7 +20,7 @@ use super::path_args::PathArguments;
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
-use meshbrush_core::domain::Polygon;
+use meshbrush_core::earth::Projection;
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
@@ -51,7 +51,7 @@ pub fn run(
     let inputs = [input.files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let ask = |saved: &PathPlan| Asked::new(typed, places, formula, saved);
+    let ask = |saved: &PathPlan, plane: Option<&Projection>| Asked::new(typed, places, formula, saved, plane);
     let (read, asked) = read_and_ask(&input, terminal, ask)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
@@ -91,16 +91,18 @@ struct Asked {
 }
 
 impl Asked {
-    /// Reads the keep-out regions. `places` are those of the options, `saved` what the file says.
+    /// Reads the keep-out regions, in the plane of the domain if it lies in one. `places` are those of the
+    /// options, `saved` what the file says.
     fn new(
         typed: &PathArguments,
         places: Option<Vec<DVec2>>,
         formula: Option<CostFormula>,
         saved: &PathPlan,
+        plane: Option<&Projection>,
     ) -> Result<Self, Failure> {
         let keep_out = match typed.keep_out.is_empty() {
             true => saved.keep_out_masks(),
-            false => typed.keep_out.iter().map(|path| mask(path)).collect::<Result<_, _>>()?,
+            false => typed.keep_out.iter().map(|path| mask(path, plane)).collect::<Result<_, _>>()?,
         };
         let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
         Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
@@ -119,19 +121,20 @@ impl Asked {
     }
 }
 
-/// Reads the files of an input, and with the paths of its project or recipe, what path is asked for. Without
-/// either that is known before: a mistake in it should not wait for large files.
+/// Reads the files of an input, and what path is asked for, which can depend on the paths of its project or
+/// recipe and on its plane. Without any of them the path is read first: a mistake in it should not wait for
+/// large files.
 fn read_and_ask(
     input: &Input,
     terminal: &mut Terminal,
-    ask: impl FnOnce(&PathPlan) -> Result<Asked, Failure>,
+    ask: impl FnOnce(&PathPlan, Option<&Projection>) -> Result<Asked, Failure>,
 ) -> Result<(ToMesh, Asked), Failure> {
-    if input.project.is_none() && input.recipe.is_none() {
-        let asked = ask(&PathPlan::default())?;
+    if input.project.is_none() && input.recipe.is_none() && input.settings.domain.projection.is_none() {
+        let asked = ask(&PathPlan::default(), None)?;
         return Ok((input.read(terminal)?, asked));
     }
     let read = input.read(terminal)?;
-    let asked = ask(&read.paths)?;
+    let asked = ask(&read.paths, read.spec.domain.projection.as_ref())?;
     Ok((read, asked))
 }
 
@@ -198,10 +201,10 @@ fn cost_formula(text: &str) -> Result<CostFormula, Failure> {
     })
 }
 
-fn mask(path: &Path) -> Result<Mask, Failure> {
-    let named = files::shape_format::read_polygons(path, &Meter::default())?;
-    let polygons: Vec<Polygon> = named.into_iter().map(|named| named.polygon).collect();
-    Mask::new(&polygons).map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
+fn mask(path: &Path, plane: Option<&Projection>) -> Result<Mask, Failure> {
+    let named = files::shape_format::read_polygons(path, plane, &Meter::default())?;
+    Mask::new(&files::geojson::without_names(named))
+        .map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
 }
 
 /// Returns the statement to prove about a path.

@@ -67,7 +67,8 @@ impl Settings {
         }
         let bounds = before.bounds.union(&outline);
         let earlier = before.region().map_or(&[][..], |region| region.polygons());
-        let domain = Domain::of_stored_polygons([earlier, &plain].concat(), bounds)?;
+        let projection = before.projection;
+        let domain = Domain { projection, ..Domain::of_stored_polygons([earlier, &plain].concat(), bounds)? };
         let mut marks = (*self.boundary_marks).clone();
         marks.names.extend(BoundaryMarks::of_polygons(polygons, &domain).names);
         let grown = Self { domain: domain.clone(), ..self.clone() };

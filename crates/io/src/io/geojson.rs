@@ -40,28 +40,28 @@ impl Outline {
         self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
     }
 
-    /// Returns longitudes and latitudes in the plane of a projection. Coordinates beside a given projection
-    /// are in its plane already.
+    /// Returns longitudes and latitudes in the plane of a projection that suits them. Coordinates beside a
+    /// given projection are in its plane already.
     ///
     /// # Errors
     /// Fails when the coordinates are not longitudes and latitudes, or no projection suits them.
     pub fn projected(self, choice: ProjectionChoice) -> Result<(Self, Projection), ProjectOutlineError> {
+        if let ProjectionChoice::Given(projection) = choice {
+            return Ok((Self { unit: LengthUnit::Metre, ..self }, projection));
+        }
         let rings = self.polygons.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
-        let projection = match choice {
-            ProjectionChoice::Given(projection) => {
-                return Ok((Self { unit: LengthUnit::Metre, ..self }, projection));
-            }
-            _ if self.unit != LengthUnit::Degree => return Err(ProjectOutlineError::NotDegrees),
-            _ => match GeographicExtent::of_rings(rings) {
-                Some(extent) => choice.projection(&extent)?,
-                None => return Err(ProjectOutlineError::NotDegrees),
-            },
-        };
-        let plain: Vec<Polygon> = self.polygons.iter().map(|named| named.polygon.clone()).collect();
-        let names = self.polygons.into_iter().map(|named| named.name);
-        let projected = projected_polygons(&plain, &projection);
-        let named = projected.into_iter().zip(names).map(|(polygon, name)| NamedPolygon { polygon, name });
-        Ok((Self { polygons: named.collect(), unit: LengthUnit::Metre }, projection))
+        let extent = GeographicExtent::of_rings(rings).filter(|_| self.unit == LengthUnit::Degree);
+        let projection = choice.projection(&extent.ok_or(ProjectOutlineError::NotDegrees)?)?;
+        Ok((self.in_plane(&projection), projection))
+    }
+
+    /// Returns longitudes and latitudes in the plane of a projection.
+    pub(super) fn in_plane(self, projection: &Projection) -> Self {
+        let (polygons, names): (Vec<_>, Vec<_>) =
+            self.polygons.into_iter().map(|named| (named.polygon, named.name)).unzip();
+        let projected = projected_polygons(&polygons, projection).into_iter().zip(names);
+        let polygons = projected.map(|(polygon, name)| NamedPolygon { polygon, name }).collect();
+        Self { polygons, unit: LengthUnit::Metre }
     }
 }
 
@@ -179,7 +179,7 @@ pub(super) fn read_limited<T, R: Read>(
 }
 
 /// Returns the polygons alone.
-pub(super) fn without_names(polygons: Vec<NamedPolygon>) -> Vec<Polygon> {
+pub fn without_names(polygons: Vec<NamedPolygon>) -> Vec<Polygon> {
     polygons.into_iter().map(|named| named.polygon).collect()
 }
 

@@ -9,6 +9,8 @@ use super::geojson::Outline;
 use super::shapes::ShapeFile;
 use super::{Meter, ReadError, SHAPE_FORMATS};
 use meshbrush_core::domain::NamedPolygon;
+use meshbrush_core::earth::Projection;
+use meshbrush_mesh::text::LengthUnit;
 
 /// A file format of shapes, as its module describes it.
 pub struct ShapeFormatSpec {
@@ -34,21 +36,37 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
     (format_of(path).read_outline)(path, meter)
 }
 
-/// Reads polygons with their names, as [`read_outline`] does.
+/// Reads polygons with their names for a document, as [`read_outline`] does. `plane` is that of the document,
+/// if it has one: longitudes and latitudes are projected to it.
 ///
 /// # Errors
 /// Fails as [`read_outline`] does.
-pub fn read_polygons(path: &Path, meter: &Meter) -> Result<Vec<NamedPolygon>, ReadError> {
-    read_outline(path, meter).map(|outline| outline.polygons)
+pub fn read_polygons(
+    path: &Path,
+    plane: Option<&Projection>,
+    meter: &Meter,
+) -> Result<Vec<NamedPolygon>, ReadError> {
+    let outline = read_outline(path, meter)?;
+    Ok(match plane {
+        Some(plane) if outline.unit == LengthUnit::Degree => outline.in_plane(plane).polygons,
+        _ => outline.polygons,
+    })
 }
 
-/// Reads points, lines and polygons with their unit. The meter counts the bytes of the file.
+/// Reads points, lines and polygons for a document, with their unit. `plane` is as in [`read_polygons`]. The
+/// meter counts the bytes of the file.
 ///
 /// # Errors
 /// Fails when the file cannot be read, breaks a rule of its format, or has no shape, and when the work was
 /// cancelled.
-pub fn read_shapes(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
-    (format_of(path).read_shapes)(path, meter)
+pub fn read_shapes(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    let file = (format_of(path).read_shapes)(path, meter)?;
+    Ok(match plane {
+        Some(plane) if file.unit == LengthUnit::Degree => {
+            ShapeFile { shapes: file.shapes.projected(plane), unit: LengthUnit::Metre }
+        }
+        _ => file,
+    })
 }
 
 fn format_of(path: &Path) -> &'static ShapeFormatSpec {

@@ -27,10 +27,11 @@ pub fn load_domain(background: &mut Background, path: &Path) {
 pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
     let (file, settings) = (path.to_owned(), session.document().settings().clone());
     background.start(Aim::Read, path, move |meter| {
-        let polygons = match io::shape_format::read_polygons(&file, meter) {
-            Ok(polygons) => polygons,
-            Err(error) => return Outcome::not_read(error),
-        };
+        let polygons =
+            match io::shape_format::read_polygons(&file, settings.domain.projection.as_ref(), meter) {
+                Ok(polygons) => polygons,
+                Err(error) => return Outcome::not_read(error),
+            };
         match settings.with_outline(&polygons) {
             Ok(setting) => {
                 let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };

@@ -8,6 +8,7 @@ use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{EmptyDocument, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
+use meshbrush_core::earth::Projection;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, ShapeList, Shapes};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -79,11 +80,12 @@ fn commands_to_add(kind: LayerKind) -> Vec<Command> {
 /// Reads points, lines and polygons, and adds a layer of the distance to them. An empty document takes their
 /// extent.
 pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) {
-    let transfer = session.document().settings().transfer;
+    let Settings { transfer, domain, .. } = session.document().settings();
+    let (transfer, plane) = (*transfer, domain.projection);
     let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
     background.start(Aim::Read, path, move |meter| {
         let read = || {
-            let (to, extent, unit) = shapes_of(&file, meter)?;
+            let (to, extent, unit) = shapes_of(&file, plane.as_ref(), meter)?;
             let over = empty.and_then(|empty| empty.over(&file, with_space_around(extent), unit));
             let transfer = over.as_ref().map_or(transfer, |settings| settings.transfer);
             let kind = LayerKind::distance_to(to, &transfer, Settings::USUAL_GRADATION);
@@ -102,8 +104,8 @@ pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) 
 /// Reads points, lines and polygons, to which the selected layer measures the distance from then on.
 pub fn replace_shapes(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
-    let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match shapes_of(&file, meter) {
+    let (file, plane) = (path.to_owned(), session.document().settings().domain.projection);
+    background.start(Aim::Read, path, move |meter| match shapes_of(&file, plane.as_ref(), meter) {
         Ok((to, ..)) => Outcome::PartRead(vec![Command::Layer(LayerCommand::MeasureTo(layer, to))]),
         Err(problem) => Outcome::NotRead(problem),
     });
@@ -112,18 +114,22 @@ pub fn replace_shapes(session: &Session, background: &mut Background, path: &Pat
 /// Reads polygons as the mask of the selected layer.
 pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
-    with_mask(background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
+    with_mask(session, background, path, move |mask| Command::Layer(LayerCommand::Mask(layer, Some(mask))));
 }
 
-/// Returns the shapes of a file, or the points of a table, with their extent and the unit of coordinates. The
-/// distance within a polygon is 0.
-fn shapes_of(path: &Path, meter: &Meter) -> Result<(DistanceTo, Rect, LengthUnit), String> {
+/// Returns the shapes of a file, or the points of a table, with their extent and the unit of coordinates;
+/// longitudes and latitudes in the plane of the document, if it has one. The distance within a polygon is 0.
+fn shapes_of(
+    path: &Path,
+    plane: Option<&Projection>,
+    meter: &Meter,
+) -> Result<(DistanceTo, Rect, LengthUnit), String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let (list, unit) = if is_table {
         let points = io::points::read(path).map_err(|error| error.to_string())?;
         (ShapeList { points, ..ShapeList::default() }, LengthUnit::None)
     } else {
-        let file = io::shape_format::read_shapes(path, meter).map_err(|error| error.to_string())?;
+        let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
         (file.shapes, file.unit)
     };
     let shapes = Shapes::new(list, true).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -255,7 +255,7 @@ impl Paths {
 
     fn execute_on_keep_out(&mut self, command: KeepOutCommand, ctx: &mut Ctx<'_>) {
         match command {
-            KeepOutCommand::Open(path) => load(ctx.background, &path),
+            KeepOutCommand::Open(path) => load(ctx.session, ctx.background, &path),
             KeepOutCommand::Add(region) => self.change_keep_out(|regions| regions.push(region), ctx),
             KeepOutCommand::AddMask => {
                 if let Some(region) = KeepOutCommand::mask_to_add(ctx.session) {

@@ -36,9 +36,9 @@ impl KeepOutCommand {
 }
 
 /// Reads polygons, and adds them as one region.
-pub fn load(background: &mut Background, path: &Path) {
+pub fn load(session: &Session, background: &mut Background, path: &Path) {
     let name = name_of(path);
-    with_mask(background, path, move |mask| {
+    with_mask(session, background, path, move |mask| {
         Command::Path(PathCommand::KeepOut(KeepOutCommand::Add(KeepOut { name, mask })))
     });
 }

@@ -10,6 +10,7 @@ use super::{DataContents, DataFile, Preview, RasterFacts};
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
 use meshbrush_core::document::Settings;
+use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader, RasterValues};
@@ -22,10 +23,10 @@ const CIRCLE: u32 = 48;
 /// Most circles in the picture of a table of threats.
 const MOST_CIRCLES: usize = 2000;
 
-/// Reads a file of data, and then asks what it is to be.
-pub fn look_at(background: &mut Background, path: &Path) {
+/// Reads a file of data, and then asks what it is to be. `plane` is that of the document, if it has one.
+pub fn look_at(background: &mut Background, path: &Path, plane: Option<Projection>) {
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match read(&file, meter) {
+    background.start(Aim::Read, path, move |meter| match read(&file, plane.as_ref(), meter) {
         Ok(data) => Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(Arc::new(data)))]),
         Err(problem) => Outcome::NotRead(problem),
     });
@@ -35,12 +36,12 @@ pub fn look_at(background: &mut Background, path: &Path) {
 ///
 /// # Errors
 /// Fails with a sentence when the file is of no use, or the work was cancelled.
-fn read(path: &Path, meter: &Meter) -> Result<DataFile, String> {
+fn read(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<DataFile, String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let seen = match RasterFormat::of(path) {
         Ok(_) => raster(path, meter)?,
         Err(_) if is_table => table(path, meter)?,
-        Err(_) => shapes(path, meter)?,
+        Err(_) => shapes(path, plane, meter)?,
     };
     let Seen { contents, extent, unit, preview } = seen;
     Ok(DataFile { path: path.to_owned(), bytes: meter.total().unwrap_or(0), contents, extent, unit, preview })
@@ -82,8 +83,8 @@ fn facts(raster: &Raster) -> RasterFacts {
     RasterFacts { size: raster.size(), values, missing }
 }
 
-fn shapes(path: &Path, meter: &Meter) -> Result<Seen, String> {
-    let file = io::shape_format::read_shapes(path, meter).map_err(|error| error.to_string())?;
+fn shapes(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<Seen, String> {
+    let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
     let ShapeList { points, lines, polygons } = &file.shapes;
     let contents =
         DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };

@@ -10,12 +10,11 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
-use super::super::shapes::ShapeFile;
 use super::super::{KeyFault, Meter, ReadError, project, shape_format, threats};
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
-use meshbrush_core::earth::{Projection, ProjectionChoice, projected_polygons};
+use meshbrush_core::earth::{Projection, ProjectionChoice};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
 use meshbrush_core::raster::RasterPyramid;
@@ -196,12 +195,8 @@ impl Storage for Files<'_> {
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        let outline = shape_format::read_outline(file, self.loading.meter)?;
-        let polygons = geojson::without_names(outline.polygons);
-        Ok(match self.projection.filter(|_| outline.unit == LengthUnit::Degree) {
-            Some(projection) => projected_polygons(&polygons, &projection),
-            None => polygons,
-        })
+        let polygons = shape_format::read_polygons(file, self.projection.as_ref(), self.loading.meter)?;
+        Ok(geojson::without_names(polygons))
     }
 }
 
@@ -229,11 +224,7 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        let ShapeFile { shapes, unit } = shape_format::read_shapes(file, self.loading.meter)?;
-        Ok(match self.projection.filter(|_| unit == LengthUnit::Degree) {
-            Some(projection) => shapes.projected(&projection),
-            None => shapes,
-        })
+        Ok(shape_format::read_shapes(file, self.projection.as_ref(), self.loading.meter)?.shapes)
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
