@@ -56,7 +56,7 @@ pub fn run(
     }
     note_capped(&finished, terminal);
     note_misplaced_marks(&input, &finished, &extract, terminal);
-    if let Some(details) = &details {
+    if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, typed.out_crs, terminal)?;
     }
     if typed.json {

@@ -107,8 +107,8 @@ impl Output {
         self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
     }
 
-    /// Writes the file, or all files of a format of several, and returns their names. `extract` is that of
-    /// `mesh`, and `data` is in the order of its nodes.
+    /// Writes the file, or all files of a format that has several, and returns their names. `extract` is that
+    /// of `mesh`, and `data` is in the order of its nodes.
     ///
     /// # Errors
     /// Fails when the file cannot be written. What was there before is kept then.

@@ -1,6 +1,5 @@
 //! The files that the options and a recipe ask for.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::args::{MeshArguments, OutputCoordinates};
@@ -117,10 +116,12 @@ pub fn write_files(
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
-    let is_in_plane = coordinates == OutputCoordinates::Plane;
-    let geographic = finished.domain().geographic_nodes(extract).filter(|_| !is_in_plane);
-    let placed = geographic
-        .map_or_else(|| Cow::Borrowed(extract), |nodes| Cow::Owned(extract.with_coordinates(nodes)));
+    let geographic = match coordinates {
+        OutputCoordinates::Lonlat => finished.domain().geographic_nodes(extract),
+        OutputCoordinates::Plane => None,
+    };
+    let placed = geographic.map(|nodes| extract.with_coordinates(nodes));
+    let placed = placed.as_ref().unwrap_or(extract);
     let target_diameter = match requested.iter().any(RequestedFiles::wants_node_data) {
         true => finished.target_at_nodes(extract, terminal),
         false => Vec::new(),
@@ -141,7 +142,7 @@ pub fn write_files(
         let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
         for output in &files.outputs {
             let meter = interruption.meter();
-            let write = || output.write(mesh, &placed, &data, &look, &meter);
+            let write = || output.write(mesh, placed, &data, &look, &meter);
             let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
             interruption.end_program();
             for path in written? {

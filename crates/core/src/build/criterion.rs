@@ -76,7 +76,7 @@ impl<'a> RefinementCriterion<'a> {
     }
 
     /// Returns the area rule as [`Self::shared`] does. `known` keeps what the threads find out: it must have
-    /// been used for this field and these pixels only. So many questions are worth another thread.
+    /// been used for this field and these pixels only. `questions_per_thread` questions are worth a thread.
     pub(crate) fn shared_with<'b>(
         &'b self,
         known: &'b SettledPool,

@@ -37,8 +37,8 @@ impl Pace {
     }
 }
 
-/// Returns how many questions to a field are worth another thread in a slice of so many triangles. Where the
-/// pace has shortened the slices, that is an eighth of one: about the eighth of a millisecond.
+/// Returns how many questions to a field are worth another thread, in a slice of `visits` triangles. In a
+/// slice that the pace has shortened, an eighth of them is enough: they take an eighth of a millisecond.
 pub(super) fn questions_per_thread(visits: usize, field: &SizeField) -> usize {
     let of_field = field.questions_per_thread();
     if visits < *Pace::VISITS.end() { of_field.min(visits / 8) } else { of_field }

@@ -58,9 +58,9 @@ pub enum ProjectionError {
     },
 }
 
-/// The scale may differ by such a factor at most.
+/// Largest ratio of two scales in an extent.
 const MOST_RATIO: f64 = 4.0;
-/// The scale is computed at so many points along each side of the extent.
+/// Points along each side of an extent at which the scale is computed.
 const SAMPLES: u32 = 33;
 
 impl ProjectionChoice {
@@ -96,7 +96,7 @@ impl ProjectionChoice {
     }
 }
 
-/// Returns the family whose scale differs least in an extent of such a shape.
+/// Returns the family whose scale varies least over an extent.
 fn family_for(extent: &GeographicExtent) -> ProjectionKind {
     let GeographicExtent { width, south, north, pole, .. } = *extent;
     let middle = extent.middle_latitude();

@@ -7,7 +7,7 @@ use super::wrapped;
 pub struct GeographicExtent {
     /// The western meridian, −180 to 180.
     pub west: f64,
-    /// The eastern meridian is so far east of it: 0 to 360.
+    /// Degrees from there to the eastern meridian, 0 to 360.
     pub width: f64,
     /// The southern parallel.
     pub south: f64,

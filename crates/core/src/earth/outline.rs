@@ -1,66 +1,79 @@
 use glam::DVec2;
+use rayon::prelude::*;
 
 use super::{Projection, wrapped};
 
-/// An edge is divided while its middle in the plane is farther from that of longitude and latitude than this
-/// share of the extent of the polygons.
+/// Largest distance of an edge from its curve, as a share of the extent of the polygons.
 const TOLERANCE: f64 = 1e-6;
-/// An edge is halved so many times at most.
+/// Most halvings of an edge.
 const MOST_HALVINGS: u32 = 12;
+/// Corners that a thread places at a time.
+const GRAIN: usize = 1024;
+
+/// A point in degrees, and where it is in the plane.
+type Placed = (DVec2, DVec2);
 
 /// Returns polygons of longitudes and latitudes in the plane of a projection. A straight edge in degrees is
 /// a curve in the plane: it is divided into edges that follow it.
 ///
 /// A ring that goes around a pole along the edge of a map in degrees loses its corners at the pole.
 pub fn projected_polygons(polygons: &[Vec<Vec<DVec2>>], projection: &Projection) -> Vec<Vec<Vec<DVec2>>> {
-    let tolerance = tolerance(polygons.iter().flatten().flatten(), projection);
-    let ring = |ring: &Vec<DVec2>| projected_ring(ring, projection, tolerance);
-    polygons.iter().map(|polygon| polygon.iter().map(ring).collect()).collect()
+    let is_pole = |corner: &&DVec2| corner.y.abs() == 90.0;
+    let ring = |ring: &Vec<DVec2>| {
+        let corners: Vec<DVec2> = ring.iter().filter(|corner| !is_pole(corner)).copied().collect();
+        let mut placed = placed(&corners, projection);
+        placed.extend(placed.first().copied());
+        placed
+    };
+    let placed: Vec<Vec<Vec<Placed>>> =
+        polygons.iter().map(|polygon| polygon.iter().map(ring).collect()).collect();
+    let tolerance = tolerance(placed.iter().flatten().flatten());
+    let ring = |corners: &Vec<Placed>| {
+        let mut ring = curved(corners, projection, tolerance);
+        // The last point is the first one again.
+        ring.pop();
+        ring
+    };
+    placed.iter().map(|polygon| polygon.iter().map(ring).collect()).collect()
 }
 
 /// Returns a line of longitudes and latitudes in the plane of a projection, as [`projected_polygons`] does.
 pub fn projected_line(line: &[DVec2], projection: &Projection) -> Vec<DVec2> {
-    let tolerance = tolerance(line.iter(), projection);
-    let mut projected = Vec::with_capacity(line.len());
-    for pair in line.windows(2) {
-        push_edge([pair[0], pair[1]].map(canonical), projection, tolerance, &mut projected);
-    }
-    let last = line.last().map(|&corner| projection.plane_from_geographic(canonical(corner)));
-    projected.extend(last.filter(|last| projected.last() != Some(last)));
-    projected
+    let corners = placed(line, projection);
+    curved(&corners, projection, tolerance(corners.iter()))
+}
+
+/// Places corners in the plane, on all threads.
+fn placed(corners: &[DVec2], projection: &Projection) -> Vec<Placed> {
+    let placed = |&corner: &DVec2| {
+        let corner = canonical(corner);
+        (corner, projection.plane_from_geographic(corner))
+    };
+    corners.par_iter().with_min_len(GRAIN).map(placed).collect()
 }
 
 /// Returns how far an edge may be from its curve, in metres.
-fn tolerance<'a>(corners: impl Iterator<Item = &'a DVec2>, projection: &Projection) -> f64 {
-    let corners = corners.map(|&corner| projection.plane_from_geographic(canonical(corner)));
-    let (low, high) = corners.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), corner| {
-        (low.min(corner), high.max(corner))
-    });
+fn tolerance<'a>(corners: impl Iterator<Item = &'a Placed>) -> f64 {
+    let start = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = corners.fold(start, |(low, high), (_, at)| (low.min(*at), high.max(*at)));
     TOLERANCE * (high - low).max_element()
 }
 
-fn projected_ring(ring: &[DVec2], projection: &Projection, tolerance: f64) -> Vec<DVec2> {
-    let is_pole = |corner: &&DVec2| corner.y.abs() == 90.0;
-    let corners: Vec<DVec2> =
-        ring.iter().filter(|corner| !is_pole(corner)).map(|&corner| canonical(corner)).collect();
-    let mut projected = Vec::with_capacity(corners.len());
-    for (&from, &to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-        push_edge([from, to], projection, tolerance, &mut projected);
+/// Returns the corners in the plane, with points between them where edges are curved. Neighbours differ.
+fn curved(corners: &[Placed], projection: &Projection, tolerance: f64) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = Vec::with_capacity(corners.len());
+    points.extend(corners.first().map(|(_, at)| at));
+    for pair in corners.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        if from.1 == to.1 {
+            continue;
+        }
+        // The shorter way round the Earth.
+        let to = (DVec2::new(from.0.x + wrapped(to.0.x - from.0.x), to.0.y), to.1);
+        divide(projection, [from, to], tolerance, MOST_HALVINGS, &mut points);
+        points.push(to.1);
     }
-    if projected.len() > 1 && projected.first() == projected.last() {
-        projected.pop();
-    }
-    projected
-}
-
-/// Adds an edge without its end.
-fn push_edge([from, to]: [DVec2; 2], projection: &Projection, tolerance: f64, projected: &mut Vec<DVec2>) {
-    let to = DVec2::new(from.x + wrapped(to.x - from.x), to.y);
-    let ends = [from, to].map(|at| (at, projection.plane_from_geographic(at)));
-    if projected.last() != Some(&ends[0].1) {
-        projected.push(ends[0].1);
-    }
-    divide(projection, ends, tolerance, MOST_HALVINGS, projected);
+    points
 }
 
 /// One longitude for the antimeridian, so that polygons that were cut there have the same corners.
@@ -68,24 +81,23 @@ fn canonical(corner: DVec2) -> DVec2 {
     if corner.x == -180.0 { DVec2::new(180.0, corner.y) } else { corner }
 }
 
-/// Adds the points between the ends of an edge, which are given in degrees and in the plane.
+/// Adds the points between the ends of an edge.
 fn divide(
     projection: &Projection,
-    [from, to]: [(DVec2, DVec2); 2],
+    [from, to]: [Placed; 2],
     tolerance: f64,
     halvings: u32,
-    projected: &mut Vec<DVec2>,
+    points: &mut Vec<DVec2>,
 ) {
     let middle = 0.5 * (from.0 + to.0);
-    let in_plane = projection.plane_from_geographic(middle);
-    let is_straight = in_plane.distance(0.5 * (from.1 + to.1)) <= tolerance;
+    let middle = (middle, projection.plane_from_geographic(middle));
+    let is_straight = middle.1.distance(0.5 * (from.1 + to.1)) <= tolerance;
     if halvings == 0 || is_straight {
         return;
     }
-    let middle = (middle, in_plane);
-    divide(projection, [from, middle], tolerance, halvings - 1, projected);
-    projected.push(in_plane);
-    divide(projection, [middle, to], tolerance, halvings - 1, projected);
+    divide(projection, [from, middle], tolerance, halvings - 1, points);
+    points.push(middle.1);
+    divide(projection, [middle, to], tolerance, halvings - 1, points);
 }
 
 #[cfg(test)]

@@ -14,10 +14,8 @@
 use std::collections::HashMap;
 use std::io;
 
-use glam::DVec2;
-
 use super::{MeshData, Number};
-use meshbrush_core::domain::{BoundaryKind, BoundaryPiece};
+use meshbrush_core::domain::{BoundaryKind, BoundaryPiece, signed_area};
 use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// The code of a land node in [`BoundaryStrings::node_codes`].
@@ -79,7 +77,8 @@ impl BoundaryStrings {
         let piece_of = |edge: usize| data.boundary.piece_of_edge()[edge] as usize;
         let mut loops = Vec::new();
         for mut numbers in mesh.boundary_edge_loops() {
-            let is_hole = runs_clockwise(mesh, numbers.iter().map(|&edge| edges[edge][0]));
+            let corner = |&edge: &usize| mesh.node(NodeId::from_index(edges[edge][0])).as_dvec2();
+            let is_hole = signed_area(&numbers.iter().map(corner).collect::<Vec<_>>()) < 0.0;
             let start = first_of_string(&numbers, |edge| (is_open(&pieces[piece_of(edge)]), piece_of(edge)));
             numbers.rotate_left(start);
             let runs = numbers.chunk_by(|&a, &b| piece_of(a) == piece_of(b));
@@ -130,8 +129,8 @@ impl BoundaryStrings {
 
     /// Returns a code for each node: 0 off the boundary, [`LAND`], and from 2 on one for each open string in
     /// the order of [`Self::open`]. A node between an open string and land is open, and one between two open
-    /// strings belongs to that which ends there. Then an edge is open just if neither node is a land node,
-    /// and has the code of its second node.
+    /// strings belongs to the string that ends there. So an edge is open exactly if neither of its nodes is
+    /// a land node, and it has the code of its second node.
     ///
     /// A land string of one edge between two open ones would be open by that rule. It takes a node of the
     /// longer one, so that an edge of that is land, too.
@@ -218,14 +217,6 @@ fn island(strings: Vec<BoundaryString>) -> BoundaryString {
     let inner = strings.iter().flat_map(|string| &string.nodes[1..]);
     let nodes = strings.iter().take(1).map(|string| &string.nodes[0]).chain(inner).copied().collect();
     BoundaryString { kind: StringKind::Island, name, nodes }
-}
-
-/// Returns whether a loop of nodes runs clockwise.
-fn runs_clockwise(mesh: &Extract, nodes: impl Iterator<Item = usize>) -> bool {
-    let points: Vec<DVec2> = nodes.map(|node| mesh.node(NodeId::from_index(node)).as_dvec2()).collect();
-    let Some(&origin) = points.first() else { return false };
-    let turns = points.windows(2).map(|pair| (pair[0] - origin).perp_dot(pair[1] - origin));
-    turns.sum::<f64>() < 0.0
 }
 
 /// Fails where the boundary touches itself in a node.

@@ -1,6 +1,6 @@
 //! What a file says about the coordinate reference system of its coordinates.
 //!
-//! The program does not project. What a file says is kept as it is, and tells the unit of coordinates.
+//! What a file says is kept as it is, and tells the unit of coordinates.
 
 use std::f64::consts::PI;
 

@@ -313,7 +313,7 @@ impl From<TiffError> for Flaw {
     fn from(error: TiffError) -> Self {
         match error {
             TiffError::IoError(e) if e.kind() == ErrorKind::UnexpectedEof => Self::CutOff,
-            // Decompressors say so.
+            // How decompressors report a file that is cut off.
             TiffError::IoError(e) if matches!(e.kind(), ErrorKind::InvalidData | ErrorKind::InvalidInput) => {
                 Self::Tiff(format!("its compressed data are damaged: {e}"))
             }

@@ -139,8 +139,8 @@ impl ExportFormat {
         }
     }
 
-    /// Writes the file, or all files of a format of several, and returns their names. `extract` must be the
-    /// extract of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
+    /// Writes the file, or all files of a format that has several, and returns their names. `extract` must be
+    /// the extract of `mesh`, and `data` the data of its nodes; a picture needs only the provenance.
     ///
     /// # Errors
     /// Fails when a file cannot be written, the format cannot hold the mesh, or the meter was cancelled.

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::super::geojson::Outline;
 use meshbrush_core::document::Settings;
 use meshbrush_core::earth::Projection;
@@ -24,9 +26,10 @@ pub fn cut_at_antimeridian(path: &Path, outline: &Outline) -> Option<String> {
 
 /// Returns how lengths in the plane of a projection differ from those on the Earth.
 pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
-    let corners = outline.polygons.iter().flat_map(|named| named.polygon.iter().flatten());
+    let rings = outline.polygons.par_iter().flat_map_iter(|named| &named.polygon);
+    let corners = rings.flat_map(|ring| ring.par_iter());
     let scales = corners.map(|&corner| projection.scale_at(projection.geographic_from_plane(corner)));
-    let most = 1e-4 * (1e4 * scales.fold(1.0, f64::max)).ceil();
+    let most = 1e-4 * (1e4 * scales.reduce(|| 1.0, f64::max)).ceil();
     format!(
         "The domain is meshed in metres, in the plane {projection}: a length there is up to {most:.4} times that on the \
          Earth."

@@ -150,7 +150,7 @@ pub struct Updater {
     exceeding: Bitset,
     /// The same as a list, unless it is empty: the last ones are asked about first.
     open: Vec<Open>,
-    /// So many entries of the list have answers of a former rule.
+    /// The number of entries at the beginning of this list whose answers are those of a former rule.
     outdated: usize,
     /// What is known of the triangles in this list.
     known: KnownLevels,
