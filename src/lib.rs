@@ -64,8 +64,8 @@ pub use meshbrush_core::layers::{
     Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
     DiameterLimit, DistanceTo, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, NoDepth,
     NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading, RasterSource, RiskField,
-    SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, Threat, ThreatError, ThreatLaw,
-    Threats, ValueCurve,
+    SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, StraitCount, StraitDisc,
+    StraitDiscs, Straits, Threat, ThreatError, ThreatLaw, Threats, ValueCurve,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};

@@ -10,7 +10,8 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
+    Threats, ValueCurve,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -86,6 +87,7 @@ fn kinds() -> Vec<LayerKind> {
             reading: RasterReading::Curve(Arc::new(curve)),
         },
         LayerKind::Band { source: source("depth.asc", &shared), between: [0.2, 0.21], diameter: 0.04 },
+        LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown([0.2, 1.0]) }),
         LayerKind::Threats(threats(random, 3)),
         LayerKind::Threats(threats(random, 40)),
         distance(few, 0.5),

@@ -16,3 +16,4 @@ mod readme;
 mod recipe;
 #[path = "../shared/runs.rs"]
 mod runs;
+mod straits;

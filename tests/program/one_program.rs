@@ -10,7 +10,8 @@ use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
+    Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -117,7 +118,7 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
-    match random.u8(..if has_outline { 14 } else { 13 }) {
+    match random.u8(..if has_outline { 15 } else { 14 }) {
         0 => LayerKind::constant(between(random, 0.1, 1.0)),
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
@@ -145,7 +146,11 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             LayerKind::Distance { to, at_zero, slope, range }
         }
         11 => LayerKind::Depth(depths(random)),
-        12 => {
+        12 => LayerKind::Straits(Straits {
+            across: between(random, 1.0, 5.0),
+            found: StraitDiscs::unknown([0.3, 1.5]),
+        }),
+        13 => {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }

@@ -247,6 +247,17 @@ pub struct InputArguments {
     #[command(flatten)]
     pub depth: DepthArguments,
 
+    /// At least this many triangles across every strait of a region, down to --h-min
+    ///
+    /// A strait is where the water between two coasts is narrow. Those in which K triangles are smaller than
+    /// --h-min get triangles of that size.
+    #[arg(long, value_name = "K", requires = "region", requires = "h_min", allow_hyphen_values = true)]
+    pub straits: Option<f64>,
+
+    /// Width of the widest strait of --straits [default: K times --h-max]
+    #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
+    pub widest_strait: Option<f64>,
+
     /// Bound on the gradation: over a distance d, the target diameter changes by G times d at most
     ///
     /// It becomes the largest field that keeps the bound and nowhere exceeds what is asked for. Usual are 0.1

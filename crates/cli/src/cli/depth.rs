@@ -42,8 +42,7 @@ pub struct DepthArguments {
     #[arg(long, value_name = "LENGTH", requires = "per_slope", allow_hyphen_values = true)]
     pub smoothing: Option<f64>,
 
-    /// Largest Courant number of a wave of 1 m with --time-step: where other options ask for smaller triangles,
-    /// they are as large as this needs
+    /// Largest Courant number of a wave of 1 m with --time-step: triangles are no smaller than this needs
     #[arg(long, value_name = "C", requires_all = ["depth", "time_step"], allow_hyphen_values = true)]
     pub max_courant: Option<f64>,
 

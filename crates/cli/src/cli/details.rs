@@ -6,7 +6,7 @@ use super::args::OutputCoordinates;
 use super::build::FinishedMesh;
 use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
-use meshbrush_core::layers::{DepthFit, NoDepth, NodeDepths};
+use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 
@@ -20,6 +20,8 @@ pub struct MeshDetails {
     pub provenance: Provenance,
     /// The depths at the nodes, if a layer has them.
     pub depths: Option<NodeDepths>,
+    /// The triangles across straits, if a layer asks for them.
+    pub straits: Option<StraitSummary>,
 }
 
 impl MeshDetails {
@@ -36,8 +38,9 @@ impl MeshDetails {
     ) -> Result<Self, NoDepth> {
         let provenance = provenance(finished, line, input, coordinates);
         let depths = NodeDepths::of(finished.layers(), extract.view()).transpose()?;
+        let straits = StraitSummary::of(finished.layers(), extract);
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
-        Ok(Self { boundary, parts, provenance, depths })
+        Ok(Self { boundary, parts, provenance, depths, straits })
     }
 
     /// Returns the number of triangles of each part.
@@ -104,6 +107,57 @@ impl From<&NodeDepths> for DepthSummary {
             filled_nodes: *filled,
             farthest_filled: *farthest,
         }
+    }
+}
+
+/// The triangles across straits.
+#[derive(Clone, Debug, Serialize)]
+pub struct StraitSummary {
+    /// Triangles that are asked for across each strait.
+    pub across: f64,
+    /// The places of straits at which triangles were counted, from one coast to the other.
+    pub crossings: usize,
+    /// The number of places with fewer triangles.
+    pub below: usize,
+    /// Up to a thousand of these places, the narrowest first.
+    pub places: Vec<NarrowStrait>,
+}
+
+/// A place of a strait with too few triangles.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct NarrowStrait {
+    /// The middle of the strait.
+    pub at: [f64; 2],
+    /// Its width, in world units.
+    pub width: f64,
+    /// Triangles across it.
+    pub triangles: usize,
+}
+
+/// Places of straits that are listed, at most.
+const MOST_STRAITS: usize = 1000;
+
+impl StraitSummary {
+    /// Counts triangles for the uppermost visible layer that asks for them.
+    fn of(layers: &[Layer], extract: &Extract) -> Option<Self> {
+        let straits =
+            layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| match &layer.kind {
+                LayerKind::Straits(straits) => Some(straits),
+                _ => None,
+            })?;
+        let counts = StraitCount::of(straits, extract.view());
+        let is_below = |count: &&StraitCount| (count.triangles as f64) < straits.across;
+        let place = |count: &StraitCount| NarrowStrait {
+            at: count.disc.center.into(),
+            width: count.disc.width,
+            triangles: count.triangles,
+        };
+        Some(Self {
+            across: straits.across,
+            crossings: counts.len(),
+            below: counts.iter().filter(is_below).count(),
+            places: counts.iter().filter(is_below).take(MOST_STRAITS).map(place).collect(),
+        })
     }
 }
 

@@ -99,6 +99,20 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         layers.push((option, SavedLayer { at_zero, slope, range: typed.distance_range, ..layer }));
     }
     layers.extend(typed.depth.layers());
+    if let (Some(across), Some(h_min)) = (typed.straits, typed.h_min) {
+        let widest = typed.widest_strait.or(typed.h_max.map(|h_max| across * h_max));
+        let widest = widest.ok_or_else(|| {
+            let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
+            Failure::Usage(format!("--straits {across}: {problem}."))
+        })?;
+        let layer = SavedLayer {
+            across: Some(across),
+            width_from: Some(across * h_min),
+            width_to: Some(widest),
+            ..SavedLayer::of_kind(SavedKind::Straits)
+        };
+        layers.push((format!("--straits {across}"), layer));
+    }
     Ok(layers)
 }
 
@@ -113,6 +127,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
             "at_zero" => number("--distance-at-zero", typed.distance_at_zero.or(typed.h_min)),
             "slope" => number("--distance-slope", typed.distance_slope),
             "range" => number("--distance-range", typed.distance_range),
+            "width_to" => number("--widest-strait", typed.widest_strait),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {

@@ -126,7 +126,7 @@ pub fn write_files(
         true => finished.target_at_nodes(extract, terminal),
         false => Vec::new(),
     };
-    let MeshDetails { boundary, parts, provenance, depths } = details;
+    let MeshDetails { boundary, parts, provenance, depths, straits: _ } = details;
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for files in requested {
         let look = files.look.for_mesh(mesh);

@@ -4,7 +4,9 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::details::{DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary};
+use super::details::{
+    DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
+};
 use meshbrush_core::domain::{FitQuality, MeshBoundary, Region};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::outline::OutlineFit;
@@ -48,6 +50,9 @@ pub struct Summary {
     /// How far the depths at the nodes are from the layers of depths, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthSummary>,
+    /// The triangles across straits, if a layer asks for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub straits: Option<StraitSummary>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -289,6 +294,7 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
+            straits: details.and_then(|details| details.straits.clone()),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

@@ -157,5 +157,6 @@ impl Setting {
             Self::LengthUnit(unit) => settings.unit = unit,
             Self::Background(background) => settings.background = background,
         }
+        settings.find_straits();
     }
 }

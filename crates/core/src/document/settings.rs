@@ -137,7 +137,7 @@ impl Settings {
     /// # Errors
     /// Fails for the first number that cannot be met. A formula is not evaluated here: a value that is not a
     /// positive length is found when the field is sampled.
-    pub fn checked(self) -> Result<Self, SettingsError> {
+    pub fn checked(mut self) -> Result<Self, SettingsError> {
         self.lattice()?;
         self.transfer.checked()?;
         if let Some(Background { bounds, .. }) = self.background
@@ -170,6 +170,7 @@ impl Settings {
         if self.max_memory < LEAST_MEMORY {
             return Err(SettingsError::Memory { bytes: self.max_memory });
         }
+        self.find_straits();
         Ok(self)
     }
 
@@ -232,7 +233,21 @@ impl Settings {
         {
             *to = DistanceTo::Shapes { name: String::new(), shapes };
         }
+        self.find_straits_of(&mut layer);
         layer
+    }
+
+    /// Finds the straits of the domain for the layers that ask for them.
+    pub(super) fn find_straits(&mut self) {
+        let mut layers = std::mem::take(&mut self.layers);
+        layers.iter_mut().for_each(|layer| self.find_straits_of(layer));
+        self.layers = layers;
+    }
+
+    fn find_straits_of(&self, layer: &mut Layer) {
+        if let LayerKind::Straits(straits) = &mut layer.kind {
+            *straits = straits.for_domain(&self.domain);
+        }
     }
 
     /// Returns the boundary of the domain, if a layer asks for the distance to it.

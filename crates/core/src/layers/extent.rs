@@ -84,13 +84,19 @@ impl Layer {
             }
             LayerKind::Raster { reading, source: _ } => *reading == RasterReading::Risk,
             LayerKind::Threats(_) => true,
-            LayerKind::Distance { .. } | LayerKind::Band { .. } | LayerKind::Depth(_) => false,
+            LayerKind::Distance { .. }
+            | LayerKind::Band { .. }
+            | LayerKind::Depth(_)
+            | LayerKind::Straits(_) => false,
         }
     }
 
     /// Returns whether it changes with the boundary of the domain.
     pub fn follows_outline(&self) -> bool {
-        matches!(self.kind, LayerKind::Distance { to: DistanceTo::Outline | DistanceTo::Coasts, .. })
+        matches!(
+            self.kind,
+            LayerKind::Distance { to: DistanceTo::Outline | DistanceTo::Coasts, .. } | LayerKind::Straits(_)
+        )
     }
 
     /// Returns whether it asks for the distance to the whole boundary of the domain.
@@ -124,6 +130,7 @@ impl Layer {
                 Extent::Within(Vec::new())
             }
             LayerKind::Depth(depths) => Extent::of([depths.source().raster.raster().bounds()]),
+            LayerKind::Straits(straits) => Extent::of(straits.found.extent()),
             LayerKind::Threats(threats) => Extent::of(threats.reaches()),
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let farthest = range.min(self.range_below_ceiling(*at_zero, *slope, context));

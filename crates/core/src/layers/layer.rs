@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Depths, Mask, PaintLayers, Shapes, Threats, ValueCurve};
+use super::{Depths, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
 
@@ -107,6 +107,8 @@ pub enum LayerKind {
     },
     /// Depths of water.
     Depth(Depths),
+    /// At least a number of triangles across each strait.
+    Straits(Straits),
 }
 
 /// The target of a distance.
@@ -265,7 +267,11 @@ impl LayerKind {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(&source.name),
             Self::Depth(depths) => Some(&depths.source().name),
             Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => Some(name),
-            Self::Paint(_) | Self::Formula { .. } | Self::Threats(_) | Self::Distance { .. } => None,
+            Self::Paint(_)
+            | Self::Formula { .. }
+            | Self::Threats(_)
+            | Self::Distance { .. }
+            | Self::Straits(_) => None,
         }
     }
 
@@ -286,6 +292,7 @@ impl LayerKind {
             Self::Distance { .. } => "Distance",
             Self::Band { .. } => "Band",
             Self::Depth(_) => "Depth",
+            Self::Straits(_) => "Straits",
         }
     }
 
@@ -300,6 +307,7 @@ impl LayerKind {
             Self::Distance { .. } => "distance",
             Self::Band { .. } => "band",
             Self::Depth(_) => "depth",
+            Self::Straits(_) => "straits",
         }
     }
 
@@ -321,6 +329,7 @@ impl LayerKind {
                 let computed = computed.map(|raster| (Arc::as_ptr(raster).addr(), raster.bytes()));
                 [raster(depths.source()), computed]
             }
+            Self::Straits(straits) => [Some(straits.found.shared_data()), None],
             Self::Threats(threats) => [Some(threats.shared_data()), None],
             Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
         };

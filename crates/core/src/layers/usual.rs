@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{
     DepthRule, DepthSizes, Depths, DistanceTo, FineAt, LayerKind, PositiveDepth, RasterReading, RasterSource,
-    Shapes, ValueCurve,
+    Shapes, StraitDiscs, Straits, ValueCurve,
 };
 use crate::field::Transfer;
 
@@ -43,6 +43,14 @@ impl LayerKind {
         let positive = if has_heights { PositiveDepth::Up } else { PositiveDepth::Down };
         let sizes = DepthSizes { positive, between: DepthSizes::ALL_WATER, rule };
         Some(Self::Depth(Depths::new(source, sizes)))
+    }
+
+    /// Returns four triangles across each strait whose width four triangles of some diameter fill. They are not
+    /// looked for yet.
+    pub fn straits(transfer: &Transfer) -> Self {
+        const ACROSS: f64 = 4.0;
+        let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);
+        Self::Straits(Straits { across: ACROSS, found: StraitDiscs::unknown(between) })
     }
 
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.

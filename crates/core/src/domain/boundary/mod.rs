@@ -29,4 +29,4 @@ mod stretches;
 pub use marks::{BoundaryMarks, LONGEST_NAME, NamedPolygon};
 pub use mesh_boundary::{MeshBoundary, PieceFigures, PieceRun};
 pub use pieces::{BoundaryPiece, BoundaryPieces};
-pub use stretches::{BoundaryKind, FrameSide, coasts};
+pub use stretches::{BoundaryKind, CoastEdge, Coasts, FrameSide, coasts};

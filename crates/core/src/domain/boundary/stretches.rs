@@ -137,6 +137,68 @@ pub fn coasts(domain: &Domain) -> Vec<Vec<DVec2>> {
     coasts.into_iter().map(|stretch| stretch.points).collect()
 }
 
+/// An edge of a coast, with the water on its left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoastEdge {
+    /// Its ends, in the order of the ring.
+    pub ends: [DVec2; 2],
+    /// The number of its ring.
+    pub ring: u32,
+    /// The length of the ring up to the first end, in world units.
+    pub along: f64,
+    /// The number of the next edge, if the coast goes on.
+    pub next: Option<u32>,
+}
+
+/// The coasts of a domain: its boundary without the open parts.
+#[derive(Clone, Debug, Default)]
+pub struct Coasts {
+    /// The edges, ring by ring.
+    pub edges: Vec<CoastEdge>,
+    /// The length of each ring, with its open parts, in world units.
+    pub lengths: Vec<f64>,
+}
+
+impl Coasts {
+    /// Returns the coasts of a domain; none of a domain that is given by a formula.
+    pub fn of(domain: &Domain) -> Self {
+        let mut coasts = Self::default();
+        let Some(region) = domain.region() else { return coasts };
+        let rings: Vec<&Ring> = region.rings().collect();
+        let frame = is_cut(&rings, &domain.bounds).then_some(&domain.bounds);
+        for ring in rings {
+            coasts.push(ring, frame);
+        }
+        coasts
+    }
+
+    fn push(&mut self, ring: &Ring, frame: Option<&Rect>) {
+        let (number, first) = (self.lengths.len() as u32, self.edges.len());
+        let edge = |n: usize| [ring[n], ring[(n + 1) % ring.len()]];
+        let is_coast = |n: usize| frame.is_none_or(|frame| FrameSide::of(edge(n), frame).is_none());
+        let mut along = 0.0;
+        let mut begins_ring = None;
+        for n in 0..ring.len() {
+            let ends = edge(n);
+            if is_coast(n) && ends[0] != ends[1] {
+                let place = self.edges.len();
+                begins_ring = begins_ring.or((n == 0).then_some(place));
+                self.edges.push(CoastEdge { ends, ring: number, along, next: None });
+                if place > first && self.edges[place - 1].ends[1] == ends[0] {
+                    self.edges[place - 1].next = Some(place as u32);
+                }
+            }
+            along += ends[0].distance(ends[1]);
+        }
+        if let (Some(start), Some(last)) = (begins_ring, self.edges.last_mut())
+            && last.ends[1] == ring[0]
+        {
+            last.next = Some(start as u32);
+        }
+        self.lengths.push(along);
+    }
+}
+
 fn push_stretches(ring: &Ring, cutting: Option<&Rect>, found: &mut Vec<Stretch>) {
     let count = ring.len();
     let area = signed_area(ring);

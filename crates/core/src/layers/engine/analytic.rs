@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::models::{self, ModelId, ModelPlace};
-use crate::layers::{Quantity, Shapes, Threats};
+use crate::layers::{Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
@@ -32,6 +32,8 @@ pub enum Function {
         shapes: Shapes,
         profile: Profile,
     },
+    /// A part of the width of straits.
+    Straits(Straits),
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -112,6 +114,7 @@ impl Function {
             Self::Formula(formula) => formula.eval(point.x, point.y),
             Self::Threats(threats) => threats.risk_at(point),
             Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
+            Self::Straits(straits) => straits.diameter(straits.found.width_at(point)),
         }
     }
 
@@ -124,6 +127,11 @@ impl Function {
                 let [least, greatest] = [least, greatest].map(|distance| profile.at(distance));
                 Bounds { least, greatest, valid }
             }
+            Self::Straits(straits) => {
+                let Bounds { least, greatest, valid } = straits.found.bounds(rect);
+                let [least, greatest] = [least, greatest].map(|width| straits.diameter(width));
+                Bounds { least, greatest, valid }
+            }
         }
     }
 
@@ -132,7 +140,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
-            Self::Distance { .. } => false,
+            Self::Distance { .. } | Self::Straits(_) => false,
         }
     }
 
@@ -140,7 +148,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.model(place.coordinates),
             Self::Threats(threats) => threats.model(place),
-            Self::Distance { .. } => Quadratic::UNKNOWN,
+            Self::Distance { .. } | Self::Straits(_) => Quadratic::UNKNOWN,
         }
     }
 
@@ -180,6 +188,8 @@ impl Function {
                 Slopes::within(threats.slopes(rect), threats.outward(rect).map(Cone::opposite))
             }
             Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
+            // The width jumps at the rims of the discs.
+            Self::Straits(_) => Slopes::UNKNOWN,
         }
     }
 }

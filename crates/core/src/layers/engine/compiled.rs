@@ -97,6 +97,11 @@ impl CompiledLayer {
                 let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
                 (reading, Values::of_raster(&source.raster, f32::INFINITY, lattice))
             }
+            LayerKind::Straits(straits) => {
+                let function = Function::Straits(straits.clone());
+                let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
+                (reading(Quantity::Diameter, NO_RISK), values)
+            }
             LayerKind::Depth(depths) => {
                 let reading = Reading::Depth { depths: depths.clone(), lengths: lengths(spacing) };
                 (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))

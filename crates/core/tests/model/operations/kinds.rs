@@ -7,7 +7,7 @@ use meshbrush_core::domain::{Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, Mask, PositiveDepth, Quantity, RasterReading,
-    RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -60,7 +60,7 @@ pub fn mask(choices: &mut impl Choices, scale: Scale) -> Option<Mask> {
 /// Any kind of layer.
 pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
-    match choices.below(16) {
+    match choices.below(17) {
         0 => LayerKind::constant(8.0 * diameter),
         1 => small_constant(choices, scale),
         2..5 => formula(choices, scale),
@@ -68,6 +68,10 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         6 | 7 => LayerKind::Paint([Quantity::Risk, Quantity::Diameter][choices.below(2)]),
         8..11 => raster(choices, diameter),
         11..13 => threats(choices, scale),
+        13 => {
+            let between = [4.0 * diameter, 8.0 * diameter];
+            LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) })
+        }
         _ => distance(choices, scale),
     }
 }
@@ -213,6 +217,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
             0 => *diameter = (factor * *diameter).max(scale.diameter),
             _ => between[1] = (factor * between[1]).max(between[0]),
         },
+        LayerKind::Straits(straits) => straits.across = (straits.across / factor).clamp(1.0, 4.0),
         LayerKind::Depth(depths) => {
             let mut sizes = *depths.sizes();
             match &mut sizes.rule {

@@ -9,7 +9,7 @@ use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DepthSizes, LayerKind, RasterReading, ShapeList, Threat, ThreatError, ValueCurve,
+    DepthSizes, LayerKind, RasterReading, ShapeList, StraitDiscs, Straits, Threat, ThreatError, ValueCurve,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -97,6 +97,7 @@ impl SavedLayer {
                 self.check_raster_file(stored)?;
                 CheckedKind::Depth(self.depth_sizes()?)
             }
+            SavedKind::Straits => CheckedKind::Complete(LayerKind::Straits(self.straits()?)),
         })
     }
 
@@ -211,6 +212,17 @@ impl SavedLayer {
             return Err(KeyFault::value("between", sentence));
         }
         Ok(CheckedKind::Band(between, self.length("diameter", self.diameter)?))
+    }
+
+    fn straits(&self) -> Result<Straits, KeyFault> {
+        let across = self.needed("across", self.across)?;
+        number_where(across, across >= 1.0, "a number of triangles must be 1 or more, and finite")
+            .map_err(|fault| fault.within("across"))?;
+        let from = self.length("width_from", self.width_from)?;
+        let to = self.length("width_to", self.width_to)?;
+        number_where(to, to > from, "it must be above width_from")
+            .map_err(|fault| fault.within("width_to"))?;
+        Ok(Straits { across, found: StraitDiscs::unknown([from, to]) })
     }
 
     fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {

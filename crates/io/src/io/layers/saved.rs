@@ -110,6 +110,15 @@ pub struct SavedLayer {
     /// A Courant number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub courant: Option<f64>,
+    /// Triangles across a strait.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub across: Option<f64>,
+    /// The least width of a strait that counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_from: Option<f64>,
+    /// The greatest width of a strait.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width_to: Option<f64>,
 }
 
 /// A polygon: its rings, the outer one first, and their points.
@@ -181,6 +190,9 @@ impl SavedLayer {
             smoothing: None,
             time_step: None,
             courant: None,
+            across: None,
+            width_from: None,
+            width_to: None,
         }
     }
 
@@ -229,6 +241,15 @@ impl SavedLayer {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
+            LayerKind::Straits(straits) => {
+                let [from, to] = straits.found.between();
+                Self {
+                    across: Some(straits.across),
+                    width_from: Some(from),
+                    width_to: Some(to),
+                    ..Self::of_kind(SavedKind::Straits)
+                }
+            }
         };
         let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
@@ -265,7 +286,11 @@ impl SavedLayer {
             SavedKind::Paint | SavedKind::Formula => self.quantity == Some(SavedQuantity::Risk),
             SavedKind::Raster => self.read_as == Some(SavedQuantity::Risk),
             SavedKind::Threats => true,
-            SavedKind::Distance | SavedKind::Corridor | SavedKind::Band | SavedKind::Depth => false,
+            SavedKind::Distance
+            | SavedKind::Corridor
+            | SavedKind::Band
+            | SavedKind::Depth
+            | SavedKind::Straits => false,
         }
     }
 
@@ -307,6 +332,9 @@ impl SavedLayer {
             ("smoothing", self.smoothing.is_some()),
             ("time_step", self.time_step.is_some()),
             ("courant", self.courant.is_some()),
+            ("across", self.across.is_some()),
+            ("width_from", self.width_from.is_some()),
+            ("width_to", self.width_to.is_some()),
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
     }

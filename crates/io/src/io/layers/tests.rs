@@ -140,6 +140,11 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             r#"{ "kind": "depth", "file": "a.asc", "size": "courant", "time_step": 1, "courant": 1, "period": 1 }"#,
             "period: depths with size = \"courant\" have no `period`",
         ),
+        (r#"{ "kind": "straits", "across": 0, "width_from": 1, "width_to": 2 }"#, "across: 0 cannot be used"),
+        (
+            r#"{ "kind": "straits", "across": 4, "width_from": 3, "width_to": 2 }"#,
+            "width_to: 2 cannot be used",
+        ),
         (
             r#"{ "kind": "depth", "file": "a.asc", "depth_from": 9, "depth_to": 3 }"#,
             "depth_to: 3 cannot be used",
@@ -163,7 +168,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 #[test]
 fn the_kinds_and_their_keys_agree() {
     use super::SavedKind::*;
-    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth];
+    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
         "formula" => r#""x""#,

@@ -24,6 +24,8 @@ pub enum SavedKind {
     Band,
     /// Depths of water.
     Depth,
+    /// Triangles across straits.
+    Straits,
 }
 
 /// See [`Combine`].
@@ -168,6 +170,7 @@ impl SavedKind {
             Self::Corridor => "corridor",
             Self::Band => "band",
             Self::Depth => "depth",
+            Self::Straits => "straits",
         }
     }
 
@@ -182,6 +185,7 @@ impl SavedKind {
             Self::Corridor => "Corridor",
             Self::Band => "Band",
             Self::Depth => "Depth",
+            Self::Straits => "Straits",
         }
     }
 
@@ -195,6 +199,7 @@ impl SavedKind {
             Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
+            Self::Straits => &["across", "width_from", "width_to"],
             Self::Depth => &[
                 "file",
                 "bounds",

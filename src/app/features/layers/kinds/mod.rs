@@ -7,13 +7,21 @@ mod distance;
 mod formula;
 mod paint;
 mod raster;
+mod straits;
 
 use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 6] =
-    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &band::BAND, &depth::DEPTH];
+pub static KINDS: [&LayerKindRow; 7] = [
+    &paint::PAINT,
+    &formula::FORMULA,
+    &raster::RASTER,
+    &distance::DISTANCE,
+    &band::BAND,
+    &depth::DEPTH,
+    &straits::STRAITS,
+];
 
 /// Returns the kind of a layer.
 pub fn kind_of(rows: &'static [Row], kind: &LayerKind) -> &'static LayerKindRow {
