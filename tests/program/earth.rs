@@ -172,6 +172,8 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
     folder.file("plane.geojson", frame([0.0, 0.0, 5000.0, 3000.0]));
     folder.file("far.geojson", frame([0.0, 0.0, 5.0, 84.0]));
     folder.file("depth.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n");
+    folder.file("utm.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 50\ncellsize 1\n1 2\n");
+    folder.file("utm.prj", "PROJCS[\"UTM 31N\",GEOGCS[\"WGS 84\"],UNIT[\"metre\",1]]");
     folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
     for (arguments, sentence) in [
         ("--region globe.geojson --projection auto", "goes all around the Earth"),
@@ -180,7 +182,11 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
         ("--region sea.geojson --projection mercator", "one of auto, merc, tmerc, stere and lcc"),
         ("--region sea.geojson --projection +proj=merc+lat_ts=89", "is not a projection of this program"),
         ("--projection auto", "--projection auto: it is for the longitudes and latitudes of a region"),
-        ("--region sea.geojson --projection auto --target-raster depth.asc", "a raster cannot be used"),
+        ("--region sea.geojson --projection auto --target-raster depth.asc", "covers nothing of the domain"),
+        (
+            "--region sea.geojson --projection auto --target-raster utm.asc",
+            "are in “UTM 31N”, and the document",
+        ),
     ] {
         let ran = folder.run(format!("mesh {arguments}"));
         assert_ne!(ran.status, 0, "{arguments}");
@@ -231,4 +237,40 @@ fn keep_out_regions_in_degrees_lie_in_the_plane_of_the_domain() {
     let length = |options: &str| folder.json("path", format!("{path} {options}"))["length"].as_f64().unwrap();
     let (straight, around) = (length(""), length("--keep-out zone.geojson"));
     assert!((straight - 200_000.0).abs() < 1.0 && around > 204_000.0, "{straight} m and {around} m");
+}
+
+/// Diameters of 2 km west of 2° W and of 20 km east of there, in pixels of a tenth of a degree.
+#[test]
+fn a_raster_in_degrees_lies_where_it_does_on_the_earth() {
+    let folder = Folder::new("earth-raster");
+    let frame = [[-4.0, 58.0], [0.0, 58.0], [0.0, 60.0], [-4.0, 60.0]];
+    folder.file("sea.geojson", polygon(&[frame.to_vec()]));
+    for (file, west) in [("depth.asc", -4.0), ("turned.asc", 356.0)] {
+        let row: Vec<&str> = (0..40).map(|column| if column < 20 { "2000" } else { "20000" }).collect();
+        let rows = vec![row.join(" "); 20].join("\n");
+        let header = format!("ncols 40\nnrows 20\nxllcorner {west}\nyllcorner 58\ncellsize 0.1\n");
+        folder.file(file, header + &rows);
+    }
+    for projection in ["merc", "tmerc", "lcc", "stere"] {
+        let input =
+            format!("--region sea.geojson --projection {projection} --boundary fitted --spacing 60000");
+        let summary = folder.json("mesh", format!("{input} --target-raster depth.asc -o m.node"));
+        let (nodes, triangles) = mesh_in(&folder, "m");
+        let (mut fine, mut coarse) = (0, 0);
+        for triangle in &triangles {
+            let corners = triangle.map(|node| nodes[node]);
+            let lengths = [(0, 1), (1, 2), (2, 0)].map(|(a, b)| on_the_ellipsoid(corners[a], corners[b]));
+            let longest = lengths.into_iter().fold(0.0, f64::max);
+            // Values between pixels are linear: 2 km up to the middle of the last pixel, 2.05° W.
+            if corners.iter().any(|at| at[0] < -2.06 && at[0] > -3.99) {
+                assert!(longest <= 2000.0, "{projection}: {longest} m at {corners:?}");
+                fine += 1;
+            } else {
+                coarse += usize::from(longest > 10_000.0);
+            }
+        }
+        assert!(fine > 10_000 && coarse > 100, "{projection}: {fine} and {coarse}");
+        let turned = folder.json("mesh", format!("{input} --target-raster turned.asc"));
+        assert_eq!(turned["hash"], summary["hash"], "{projection}");
+    }
 }

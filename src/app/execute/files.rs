@@ -12,7 +12,7 @@ use crate::app::dialogs::Dialog;
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
-use crate::app::kit::{FileRequest, look_at};
+use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, journal, project};
 use meshbrush_core::document::Document;
 
@@ -78,8 +78,8 @@ impl App {
     fn add_data(&mut self, path: PathBuf) {
         let name = path.file_name().unwrap_or_default();
         if ADD_DATA.takes(name) {
-            let plane = self.session.document().settings().domain.projection;
-            look_at(&mut self.background, &path, plane);
+            let frame = raster_frame(&self.session);
+            look_at(&mut self.background, &path, frame);
         } else {
             self.send(Command::File(FileCommand::Open(path)));
         }

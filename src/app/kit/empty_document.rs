@@ -9,6 +9,7 @@ use crate::app::session::Session;
 use meshbrush_core::document::{Document, Settings, extent};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind};
+use meshbrush_io::io::layers::RasterFrame;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -44,6 +45,13 @@ impl EmptyDocument {
         let usual = Settings::for_domain(name, Domain::rectangle(extent));
         Some(Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual })
     }
+}
+
+/// Returns where a document wants rasters: an empty one takes all of a grid.
+pub fn raster_frame(session: &Session) -> RasterFrame {
+    let Settings { domain, transfer, .. } = session.document().settings();
+    let wanted = EmptyDocument::of(session).is_none().then_some(domain.bounds);
+    RasterFrame { domain: domain.bounds, wanted, plane: domain.projection, transfer: *transfer }
 }
 
 /// Returns the commands that show settings over the extent of a file, with a layer of it on top, which is

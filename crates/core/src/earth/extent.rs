@@ -1,6 +1,10 @@
 use glam::DVec2;
 
-use super::wrapped;
+use super::{Projection, wrapped};
+use crate::geometry::Rect;
+
+/// Points along each side of a rectangle whose extent is found.
+const POINTS_OF_SIDE: u32 = 64;
 
 /// A part of the Earth between two meridians and two parallels, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +44,30 @@ impl GeographicExtent {
         let [gap, _, west] = widest;
         let width = if goes_round { 360.0 } else { 360.0 - gap };
         Some(Self { west, width, south, north, pole })
+    }
+
+    /// Returns the extent of a rectangle in the plane of a projection; `None` where the projection has no
+    /// longitude and latitude for its sides.
+    pub fn of_plane(projection: &Projection, area: Rect) -> Option<Self> {
+        let Rect { min, max } = area;
+        let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
+        let side = |n: usize| {
+            let (from, to) = (corners[n], corners[(n + 1) % 4]);
+            (0..POINTS_OF_SIDE).map(move |m| from.lerp(to, f64::from(m) / f64::from(POINTS_OF_SIDE)))
+        };
+        let places = (0..4).flat_map(side).map(|at| projection.geographic_from_plane(at));
+        let ring: Vec<DVec2> = places.filter(|at| at.is_finite()).collect();
+        let extent = Self::of_rings([ring.as_slice()].into_iter())?;
+        // The sides bulge between their points.
+        let margin = (extent.north - extent.south).max(extent.width) / f64::from(POINTS_OF_SIDE);
+        let [pole_south, pole_north] = [-90.0, 90.0].map(|pole| extent.pole == Some(pole));
+        Some(Self {
+            west: wrapped(extent.west - margin),
+            width: (extent.width + 2.0 * margin).min(360.0),
+            south: if pole_south { -90.0 } else { (extent.south - margin).max(-90.0) },
+            north: if pole_north { 90.0 } else { (extent.north + margin).min(90.0) },
+            pole: extent.pole,
+        })
     }
 
     /// The meridian in the middle, −180 to 180.
@@ -88,6 +116,31 @@ mod tests {
         assert_eq!((pacific.west, pacific.width, pacific.middle_longitude()), (170.0, 20.0, 180.0));
         let greenwich = extent(&[[-10.0, 50.0], [10.0, 50.0], [355.0, 60.0]]);
         assert_eq!((greenwich.west, greenwich.width, greenwich.pole), (-10.0, 20.0, None));
+    }
+
+    #[test]
+    fn the_extent_of_a_rectangle_in_a_plane_contains_its_points() {
+        use super::super::ProjectionChoice;
+        let mut random = fastrand::Rng::with_seed(8);
+        for _ in 0..200 {
+            let south = -85.0 + 160.0 * random.f64();
+            let west = 360.0 * random.f64() - 180.0;
+            let (width, height) = (0.1 + 40.0 * random.f64(), 0.1 + 9.0 * random.f64());
+            let place = GeographicExtent { west, width, south, north: south + height, pole: None };
+            let Ok(projection) = ProjectionChoice::Automatic.projection(&place) else { continue };
+            let corner = |east: f64, up: f64| {
+                projection.plane_from_geographic(dvec2(west + east * width, south + up * height))
+            };
+            let area = Rect::new(corner(0.0, 0.0), corner(0.0, 0.0))
+                .union(&Rect::new(corner(1.0, 1.0), corner(1.0, 1.0)));
+            let found = GeographicExtent::of_plane(&projection, area).unwrap();
+            for _ in 0..200 {
+                let share = dvec2(random.f64(), random.f64());
+                let at = projection.geographic_from_plane(area.min + share * area.size());
+                let east = (at.x - found.west).rem_euclid(360.0);
+                assert!(east <= found.width && found.south <= at.y && at.y <= found.north, "{at} {found:?}");
+            }
+        }
     }
 
     #[test]

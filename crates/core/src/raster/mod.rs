@@ -1,6 +1,7 @@
 //! Rasters: row-major grids of values over a rectangle, the lowest row first; sparse rasters of any depth;
 //! and the ranges of their values over squares of any size.
 
+mod projected;
 mod pyramid;
 mod ranges;
 mod sample;
@@ -12,6 +13,7 @@ use glam::DVec2;
 
 use crate::geometry::Rect;
 
+pub use projected::{ProjectedRasterError, projected_raster};
 pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};

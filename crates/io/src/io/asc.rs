@@ -12,17 +12,18 @@ use std::path::Path;
 
 use glam::DVec2;
 
+use super::coordinate_system::CoordinateSystem;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::samples::single;
-use super::{Flaw, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
+use super::{FileGrid, Flaw, GridPlace, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["asc"], read: ReadRaster::Grid(read_placed) };
+    RasterFormatSpec { endings: &["asc"], read: ReadRaster::Grid(read_grid) };
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
@@ -39,6 +40,12 @@ pub fn read(path: &Path) -> Result<Raster, ReadError> {
 /// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
     read_placed(path, None, meter)
+}
+
+/// Reads a grid, and the text beside it that describes its coordinates (`.prj`).
+fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
+    let raster = read_placed(path, place.over, meter)?;
+    Ok(FileGrid { raster, system: CoordinateSystem::beside(path) })
 }
 
 /// Reads a grid over the given rectangle, or else over that of its header.

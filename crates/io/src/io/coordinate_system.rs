@@ -3,6 +3,9 @@
 //! What a file says is kept as it is, and tells the unit of coordinates.
 
 use std::f64::consts::PI;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 use super::coordinates;
 use meshbrush_mesh::text::LengthUnit;
@@ -45,7 +48,19 @@ const KEYWORDS: [(&str, CoordinateKind); 7] = [
 /// Longest name that is kept, in characters.
 const LONGEST_NAME: usize = 200;
 
+/// Most bytes of a text beside a file.
+const MOST_TEXT: u64 = 1 << 16;
+
 impl CoordinateSystem {
+    /// Returns what the text beside a file (`.prj`) says about its coordinates; `None` without one.
+    pub fn beside(path: &Path) -> Option<Self> {
+        let open = |ending| File::open(path.with_extension(ending)).ok();
+        let text = ["prj", "PRJ"].into_iter().find_map(open)?;
+        let mut bytes = Vec::new();
+        text.take(MOST_TEXT).read_to_end(&mut bytes).ok()?;
+        Self::from_wkt(&String::from_utf8_lossy(&bytes))
+    }
+
     /// Returns the system of an EPSG code, as GeoTIFF keys state it.
     pub(super) fn of_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
         let by_code = epsg.map(|code| coordinates::unit(Some(&format!("EPSG:{code}")), []));

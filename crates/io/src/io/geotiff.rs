@@ -21,7 +21,7 @@ use super::coordinate_system::CoordinateSystem;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::samples::{NoData, SampleType, single};
-use super::{Flaw, Meter, RasterFormatSpec, ReadError, ReadRaster, world_file};
+use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster, world_file};
 use meshbrush_core::raster::{Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
@@ -29,7 +29,7 @@ use place::{Keys, Placement};
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["tif", "tiff"], read: ReadRaster::Grid(read_placed) };
+    RasterFormatSpec { endings: &["tif", "tiff"], read: ReadRaster::Grid(read_grid) };
 
 /// Most bytes of a strip or a tile after decompression.
 const MOST_CHUNK_BYTES: u64 = 1 << 30;
@@ -66,16 +66,16 @@ pub fn decode(source: impl Read + Seek) -> Result<GeoTiff, Flaw> {
     Pixels::decode(source).map(Pixels::into_geotiff)
 }
 
-/// Reads a raster at `place`, or else where the file or the world file beside it says.
-fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster, ReadError> {
-    let Pixels { size, values, placement, .. } = read_pixels(path, meter)?;
-    let own = place.or(placement.map(|placement| placement.bounds));
+/// Reads a raster where it is said to be, or else where the file or the world file beside it says.
+fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
+    let Pixels { size, values, placement, coordinate_system, .. } = read_pixels(path, meter)?;
+    let own = place.over.or(placement.map(|placement| placement.bounds));
     let bounds = match own {
         Some(bounds) => bounds,
         None => world_file::bounds_beside(path, size)?
             .ok_or_else(|| PlacedFlaw::from(Flaw::Syntax(no_place())).in_file(path))?,
     };
-    Ok(Raster::from_values(bounds, size, values))
+    Ok(FileGrid { raster: Raster::from_values(bounds, size, values), system: coordinate_system })
 }
 
 fn read_pixels(path: &Path, meter: &Meter) -> Result<Pixels, ReadError> {

@@ -94,7 +94,7 @@ pub use meshbrush_mesh::text::Number;
 pub use meter::{Cancelled, Counted, Meter};
 use parallel_rows::write_rows;
 pub use provenance::{MeshSource, Provenance};
-pub use raster_file::{RasterFormat, RasterFormatSpec, ReadRaster};
+pub use raster_file::{FileGrid, GridPlace, GridWindow, RasterFormat, RasterFormatSpec, ReadRaster};
 use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;

@@ -1,8 +1,10 @@
 use std::fmt;
 use std::path::Path;
 
+use super::coordinate_system::{CoordinateKind, CoordinateSystem};
 use super::png::Behind;
 use super::{Meter, RASTER_FORMATS, ReadError};
+use meshbrush_core::earth::GeographicExtent;
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
 
@@ -21,13 +23,57 @@ pub struct RasterFormatSpec {
 /// Reads a raster, and counts the bytes of its file. Pixels without a value are NaN.
 #[derive(Clone, Copy)]
 pub enum ReadRaster {
-    /// Reads a grid over the given rectangle, in world units; without one, over the rectangle that the file
-    /// says.
-    Grid(fn(&Path, Option<Rect>, &Meter) -> Result<Raster, ReadError>),
+    /// Reads a grid that says which rectangle it covers.
+    Grid(fn(&Path, &GridPlace, &Meter) -> Result<FileGrid, ReadError>),
     /// Reads a grid that does not say which rectangle it covers, over the given one, in world units.
     Array(fn(&Path, Rect, &Meter) -> Result<Raster, ReadError>),
     /// Reads an image over the given rectangle, in world units, as values from 0 (black) to 1 (white).
     Image(fn(&Path, Rect, Behind, &Meter) -> Result<Raster, ReadError>),
+}
+
+/// Where a grid lies, and which part of it is wanted.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GridPlace {
+    /// The rectangle that it covers, in world units, in place of the one that its file says.
+    pub over: Option<Rect>,
+    /// The part that is wanted. A reader may return more.
+    pub window: Option<GridWindow>,
+}
+
+/// A part of a grid.
+#[derive(Clone, Copy, Debug)]
+pub struct GridWindow {
+    /// The part, in world units: it counts where the coordinates of the file are those of the document.
+    pub area: Rect,
+    /// The longitudes and latitudes of that part, where the document is in the plane of a projection: they
+    /// count where the file is in degrees.
+    pub geographic: Option<GeographicExtent>,
+}
+
+/// A grid as its file has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileGrid {
+    /// The values, where the file or [`GridPlace::over`] says.
+    pub raster: Raster,
+    /// What the file says about its coordinates.
+    pub system: Option<CoordinateSystem>,
+}
+
+impl FileGrid {
+    /// Returns whether the coordinates are longitudes and latitudes: the file says so, or says nothing, and
+    /// they can be.
+    pub fn is_in_degrees(&self) -> bool {
+        let Rect { min, max } = self.raster.bounds();
+        let pixel = self.raster.pixel_size();
+        let fits = min.y >= -90.0 - pixel.y
+            && max.y <= 90.0 + pixel.y
+            && min.x >= -180.0 - pixel.x
+            && max.x <= 360.0 + pixel.x;
+        match &self.system {
+            Some(system) if system.kind != CoordinateKind::Other => system.kind == CoordinateKind::Geographic,
+            _ => fits,
+        }
+    }
 }
 
 impl RasterFormat {

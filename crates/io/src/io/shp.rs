@@ -3,7 +3,6 @@
 //! Heights and measures of the types Z and M are left out, and so are the attributes beside the file
 //! (`.dbf`). The text beside it (`.prj`) tells the unit of coordinates, which are not projected.
 
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -27,8 +26,6 @@ pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec { endings: &["shp"], read_o
 const FILE_CODE: i32 = 9994;
 /// Bytes of the header.
 const HEADER: u64 = 100;
-/// Most bytes that are read of the text beside a file.
-const MOST_TEXT: u64 = 1 << 16;
 
 /// Reads the polygons of a file. A record with several outer rings becomes several polygons, each with the
 /// holes inside it. The meter counts the bytes of the file.
@@ -43,7 +40,8 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
         let others: Vec<String> = others.iter().filter(|kind| kind.0).map(|kind| kind.1.to_owned()).collect();
         return Err(PlacedFlaw::from(Flaw::Syntax(geojson::no_polygon(&others))).in_file(path));
     }
-    let unit = unit(coordinate_system(path).as_ref(), shapes.polygons.iter().flatten().flatten().copied());
+    let unit =
+        unit(CoordinateSystem::beside(path).as_ref(), shapes.polygons.iter().flatten().flatten().copied());
     let named = |polygon| NamedPolygon { polygon, name: String::new() };
     Ok(Outline { polygons: shapes.polygons.into_iter().map(named).collect(), unit })
 }
@@ -54,7 +52,8 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
 /// Fails as [`read_outline`] does, but where there is no shape at all.
 pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
     let shapes = geojson::read_metered(path, meter, parse)?;
-    checked(shapes, coordinate_system(path).as_ref()).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
+    checked(shapes, CoordinateSystem::beside(path).as_ref())
+        .map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
 }
 
 /// Reads the shapes of a file without the text beside it, from any input, such as bytes. Errors call the
@@ -64,14 +63,6 @@ pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
 /// Fails as [`read`] does.
 pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> {
     geojson::read_limited(input, name, |input| Ok(checked(parse(input)?, None)?))
-}
-
-/// Returns what the text beside a file (`.prj`) says about its coordinates; `None` without one.
-pub fn coordinate_system(path: &Path) -> Option<CoordinateSystem> {
-    let text = ["prj", "PRJ"].into_iter().find_map(|ending| File::open(path.with_extension(ending)).ok())?;
-    let mut bytes = Vec::new();
-    text.take(MOST_TEXT).read_to_end(&mut bytes).ok()?;
-    CoordinateSystem::from_wkt(&String::from_utf8_lossy(&bytes))
 }
 
 fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<ShapeFile, Flaw> {

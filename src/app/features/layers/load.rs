@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::kit::{EmptyDocument, show_with_layer, with_mask, with_space_around};
+use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::earth::Projection;
@@ -49,9 +49,8 @@ fn load_raster(
     values: RasterValues,
     kind_of: fn(RasterSource, &Transfer) -> Option<LayerKind>,
 ) {
-    let Settings { domain, transfer, .. } = session.document().settings();
-    let frame = RasterFrame { domain: domain.bounds, transfer: *transfer };
     let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    let frame = raster_frame(session);
     background.start(Aim::Read, path, move |meter| {
         let read = || {
             let source = raster_of(&file, values, &frame, meter)?;

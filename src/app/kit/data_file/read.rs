@@ -9,7 +9,6 @@ use glam::DVec2;
 use super::{DataContents, DataFile, Preview, RasterFacts};
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
-use meshbrush_core::document::Settings;
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::Raster;
@@ -23,10 +22,10 @@ const CIRCLE: u32 = 48;
 /// Most circles in the picture of a table of threats.
 const MOST_CIRCLES: usize = 2000;
 
-/// Reads a file of data, and then asks what it is to be. `plane` is that of the document, if it has one.
-pub fn look_at(background: &mut Background, path: &Path, plane: Option<Projection>) {
+/// Reads a file of data, and then asks what it is to be. `frame` is where the document wants rasters.
+pub fn look_at(background: &mut Background, path: &Path, frame: RasterFrame) {
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match read(&file, plane.as_ref(), meter) {
+    background.start(Aim::Read, path, move |meter| match read(&file, &frame, meter) {
         Ok(data) => Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(Arc::new(data)))]),
         Err(problem) => Outcome::NotRead(problem),
     });
@@ -36,12 +35,12 @@ pub fn look_at(background: &mut Background, path: &Path, plane: Option<Projectio
 ///
 /// # Errors
 /// Fails with a sentence when the file is of no use, or the work was cancelled.
-fn read(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<DataFile, String> {
+fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let seen = match RasterFormat::of(path) {
-        Ok(_) => raster(path, meter)?,
+        Ok(_) => raster(path, frame, meter)?,
         Err(_) if is_table => table(path, meter)?,
-        Err(_) => shapes(path, plane, meter)?,
+        Err(_) => shapes(path, frame.plane.as_ref(), meter)?,
     };
     let Seen { contents, extent, unit, preview } = seen;
     Ok(DataFile { path: path.to_owned(), bytes: meter.total().unwrap_or(0), contents, extent, unit, preview })
@@ -55,10 +54,9 @@ struct Seen {
     preview: Preview,
 }
 
-fn raster(path: &Path, meter: &Meter) -> Result<Seen, String> {
+fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
-    let frame = RasterFrame { domain: Rect::UNIT, transfer: Settings::default().transfer };
-    let read = RasterLoader::new(meter).load(&file, RasterValues::Any, &frame);
+    let read = RasterLoader::new(meter).load(&file, RasterValues::Any, frame);
     let pyramid = read.map_err(|error| error.to_string())?;
     let raster = pyramid.raster();
     let facts = facts(raster);

@@ -1,14 +1,16 @@
 //! The rasters of layers, from pictures and grids: for the window, recipes and options alike.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::png::Behind;
-use super::super::{Meter, RasterFormat, ReadError, ReadRaster};
+use super::super::{FileGrid, GridPlace, GridWindow, Meter, RasterFormat, ReadError, ReadRaster};
+use meshbrush_core::earth::{GeographicExtent, Projection};
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::layers::RasterReading;
-use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_core::raster::{Raster, RasterPyramid, projected_raster};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::Number;
 
@@ -66,13 +68,26 @@ impl RasterFile {
     }
 }
 
-/// The place and the scale of rasters that have none of their own.
+/// Where a document wants rasters, and the place and the scale of those that have none of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterFrame {
     /// The rectangle of a raster whose format has no place, in world units.
     pub domain: Rect,
+    /// The part of a grid that is wanted, in world units; `None` for all of it.
+    pub wanted: Option<Rect>,
+    /// The plane of the document, if it has one: grids of longitudes and latitudes are projected to it.
+    pub plane: Option<Projection>,
     /// The scale of images of diameters.
     pub transfer: Transfer,
+}
+
+impl RasterFrame {
+    /// Returns the part of a grid that a document wants.
+    fn window(&self) -> Option<GridWindow> {
+        let area = self.wanted?;
+        let geographic = self.plane.and_then(|plane| GeographicExtent::of_plane(&plane, area));
+        Some(GridWindow { area, geographic })
+    }
 }
 
 /// Reads rasters and checks their values. Layers that read the same file share its pixels.
@@ -96,7 +111,10 @@ impl RasterLoader {
     /// Fails when the file is of no use.
     pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
         match (file.format.read(), file.bounds) {
-            (ReadRaster::Grid(read), None) => Ok(Some(self.grid(&file.path, read)?.raster().bounds())),
+            (ReadRaster::Grid(read), None) => {
+                let read = |meter: &Meter| Ok(read(&file.path, &GridPlace::default(), meter)?.raster);
+                Ok(Some(self.read_once::<ReadError>((file.path.clone(), false), read)?.raster().bounds()))
+            }
             (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Array(_) | ReadRaster::Image(_), _) => Ok(None),
         }
     }
@@ -127,22 +145,30 @@ impl RasterLoader {
         RasterFile { path, format, bounds }: &RasterFile,
         values: RasterValues,
         frame: &RasterFrame,
-    ) -> Result<Arc<RasterPyramid>, ReadError> {
+    ) -> Result<Arc<RasterPyramid>, RasterError> {
         match (format.read(), bounds) {
-            (ReadRaster::Grid(read), None) => self.grid(path, read),
-            (ReadRaster::Grid(read), place @ Some(_)) => {
-                Ok(Arc::new(RasterPyramid::new(read(path, *place, &self.meter)?)))
+            (ReadRaster::Grid(read), None) => self.read_once((path.clone(), false), |meter| {
+                let place = GridPlace { over: None, window: frame.window() };
+                let grid = read(path, &place, meter)?;
+                match &frame.plane {
+                    Some(plane) => in_plane(grid, plane, frame.wanted.unwrap_or(frame.domain), path),
+                    None => Ok(grid.raster),
+                }
+            }),
+            (ReadRaster::Grid(read), over @ Some(_)) => {
+                let place = GridPlace { over: *over, window: None };
+                Ok(Arc::new(RasterPyramid::new(read(path, &place, &self.meter)?.raster)))
             }
             (ReadRaster::Array(read), Some(place)) => {
                 Ok(Arc::new(RasterPyramid::new(read(path, *place, &self.meter)?)))
             }
             (ReadRaster::Array(read), None) => {
-                self.read_once((path.clone(), false), |meter| read(path, frame.domain, meter))
+                self.read_once((path.clone(), false), |meter| Ok(read(path, frame.domain, meter)?))
             }
             (ReadRaster::Image(read), _) => {
                 let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
                 let place = bounds.unwrap_or(frame.domain);
-                let read = |meter: &Meter| read(path, place, behind, meter);
+                let read = |meter: &Meter| Ok(read(path, place, behind, meter)?);
                 match bounds {
                     Some(_) => Ok(Arc::new(RasterPyramid::new(read(&self.meter)?))),
                     None => self.read_once((path.clone(), behind == Behind::Black), read),
@@ -151,19 +177,11 @@ impl RasterLoader {
         }
     }
 
-    fn grid(
-        &mut self,
-        path: &Path,
-        read: fn(&Path, Option<Rect>, &Meter) -> Result<Raster, ReadError>,
-    ) -> Result<Arc<RasterPyramid>, ReadError> {
-        self.read_once((path.to_owned(), false), |meter| read(path, None, meter))
-    }
-
-    fn read_once(
+    fn read_once<E>(
         &mut self,
         key: (PathBuf, bool),
-        read: impl FnOnce(&Meter) -> Result<Raster, ReadError>,
-    ) -> Result<Arc<RasterPyramid>, ReadError> {
+        read: impl FnOnce(&Meter) -> Result<Raster, E>,
+    ) -> Result<Arc<RasterPyramid>, E> {
         if let Some(raster) = self.known.get(&key) {
             return Ok(raster.clone());
         }
@@ -171,6 +189,21 @@ impl RasterLoader {
         self.known.insert(key, raster.clone());
         Ok(raster)
     }
+}
+
+/// Returns a grid in the plane of a document, as far as it covers an area there.
+fn in_plane(grid: FileGrid, plane: &Projection, area: Rect, path: &Path) -> Result<Raster, RasterError> {
+    let named = |problem: &dyn Display| RasterError::Value(format!("{}: {problem}", path.display()));
+    if grid.is_in_degrees() {
+        return projected_raster(&grid.raster, plane, area).map_err(|error| named(&error));
+    }
+    let name = grid.system.and_then(|system| system.name);
+    let system =
+        name.map_or("no coordinate system that is known here".to_owned(), |name| format!("“{name}”"));
+    Err(named(&format_args!(
+        "its coordinates are in {system}, and the document is in the plane {plane}. Convert the file to longitudes and \
+         latitudes first, for example with gdalwarp -t_srs EPSG:4326."
+    )))
 }
 
 /// Checks the values of a raster: risks are from 0 to 1, and target diameters positive. Pixels without a

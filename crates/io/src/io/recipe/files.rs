@@ -82,7 +82,12 @@ impl SavedSettings {
             loading,
             rasters: RasterLoader::new(loading.meter),
             projects: BTreeMap::new(),
-            frame: RasterFrame { domain: Rect::UNIT, transfer: Settings::default().transfer },
+            frame: RasterFrame {
+                domain: Rect::UNIT,
+                wanted: None,
+                plane: None,
+                transfer: Settings::default().transfer,
+            },
             paint: PaintLayers::default(),
             projection: None,
             note: None,
@@ -188,7 +193,8 @@ impl Storage for Files<'_> {
         if !(layer.visible || self.loading.with_hidden) {
             return Ok(None);
         }
-        self.frame = RasterFrame { domain, transfer: *transfer };
+        self.frame =
+            RasterFrame { domain, wanted: Some(domain), plane: self.projection, transfer: *transfer };
         let loaded = layer.load(number, self)?;
         self.add_paint(layer, number)?;
         Ok(Some(loaded))
@@ -206,12 +212,6 @@ impl LayerData for Files<'_> {
     const STORED: Stored = Stored::InFiles;
 
     fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, LoadError> {
-        if self.projection.is_some() {
-            let problem = "a raster cannot be used where the domain is projected: it is not projected with the domain. \
-                           Convert all files to the plane that the program names first, and give that projection, as \
-                           PROJ writes it, in place of the word.";
-            return Err(layer.error(problem).into());
-        }
         let values = layer.raster_values().unwrap_or(RasterValues::Any);
         self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
             RasterError::Read(error) => error.into(),

@@ -108,7 +108,7 @@ fn the_text_beside_a_file_tells_the_unit() {
     let meter = Meter::default();
     let outline = read_outline(&path, &meter).unwrap();
     assert_eq!((outline.polygons.len(), outline.unit), (1, LengthUnit::Degree));
-    assert_eq!((meter.total(), coordinate_system(&path)), (Some(meter.done()), None));
+    assert_eq!((meter.total(), CoordinateSystem::beside(&path)), (Some(meter.done()), None));
     fs::write(folder.join("coast.prj"), r#"PROJCS["UTM",GEOGCS["WGS 84"],UNIT["metre",1]]"#).unwrap();
     assert_eq!(read_outline(&path, &meter).unwrap().unit, LengthUnit::Metre);
     assert_eq!(read(&path, &meter).unwrap().unit, LengthUnit::Metre);
