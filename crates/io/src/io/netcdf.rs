@@ -1,9 +1,9 @@
-//! NetCDF: grids are read, in the classic forms and in NetCDF-4; the mesh files of UGRID are written.
+//! `.nc`, `.grd`: NetCDF, a raster with its own placement, in the classic forms and in NetCDF-4.
 //!
-//! A grid is a variable over two coordinate variables, which are the centres of its pixels. Only the part that a
-//! window needs is read, so a grid of the whole Earth opens as fast as a small one. Values are unpacked
-//! (`scale_factor`, `add_offset`), and those that mean nothing (`_FillValue`, `missing_value`, beyond
-//! `valid_range`, what NetCDF puts where nothing was written) become NaN.
+//! A grid is a variable over two coordinate variables, which are the centres of its pixels. Only the part
+//! that a window needs is read, so a grid of the whole Earth opens as fast as a small one. Values are
+//! unpacked (`scale_factor`, `add_offset`), and those that mean nothing (`_FillValue`, `missing_value`,
+//! beyond `valid_range`, what NetCDF puts where nothing was written) become NaN.
 
 mod axis;
 mod classic;
@@ -18,13 +18,13 @@ mod window;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{DVec2, dvec2};
 
 use super::coordinate_system::CoordinateSystem;
 use super::error::PlacedFlaw;
-use super::{Flaw, Meter, RasterFormatSpec, ReadError, ReadRaster};
+use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster};
 use contents::{Sample, Source};
 use grid::Grid;
 use meshbrush_core::raster::{LONGEST_SIDE, MOST_PIXELS, Raster, is_raster_size};
@@ -35,42 +35,43 @@ use window::Span;
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["nc", "grd", "nc4", "cdf"], read: ReadRaster::Grid(read_placed) };
+    RasterFormatSpec { endings: &["nc", "grd", "nc4", "cdf"], read: ReadRaster::Grid(read_grid) };
 
 /// The first bytes of an HDF5 file.
 const HDF5_MAGIC: &[u8; 4] = b"\x89HDF";
 /// Samples that are read at once, or one row where it has more.
 const BLOCK: u64 = 1 << 22;
 
-/// A grid from a file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FileGrid {
-    /// The values, in the coordinates of the file; NaN where there is none.
-    pub raster: Raster,
-    /// What the file says about the coordinates.
-    pub system: Option<CoordinateSystem>,
-}
+/// What follows the name of a file before the name of a variable in it, as in `FILE.nc#VARIABLE`.
+const BEFORE_VARIABLE: char = '#';
 
-/// Reads a grid, or the part of it that a window in the file's own coordinates meets, with one pixel more on
-/// each side. Longitudes repeat after 360 degrees: the raster lies where the window is. The meter counts bytes of
-/// samples.
+/// Reads a grid, or the part of it that is wanted, with one pixel more on each side. Longitudes repeat after
+/// 360 degrees: the raster lies where the window is. The meter counts bytes of samples. After the path of the
+/// file, `#` and the name of a variable may follow.
 ///
 /// # Errors
-/// Fails when the file cannot be read, is not NetCDF, is cut off, has no grid or several among which none has a
-/// well-known name, has coordinates that are not evenly spaced, has no pixel in the window, too many pixels for a
-/// raster, or a value beyond single precision; and when the work was cancelled.
-pub fn read_grid(path: &Path, window: Option<Rect>, meter: &Meter) -> Result<FileGrid, ReadError> {
-    let read =
-        File::open(path).map_err(PlacedFlaw::from).and_then(|file| Ok(decode(file, None, window, meter)?));
-    read.map_err(|flaw| flaw.in_file(path))
+/// Fails when the file cannot be read, is not NetCDF, is cut off, has no grid or several among which none has
+/// a well-known name, has coordinates that are not evenly spaced, has no pixel in the window, too many pixels
+/// for a raster, or a value beyond single precision; and when the work was cancelled.
+pub fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
+    let (file, variable) = file_and_variable(path);
+    let read = || -> Result<FileGrid, PlacedFlaw> {
+        let source = File::open(&file)?;
+        Ok(decode(source, variable.as_deref(), place, meter)?)
+    };
+    let grid = read().map_err(|flaw| flaw.in_file(path))?;
+    Ok(FileGrid { system: grid.system.or_else(|| CoordinateSystem::beside(&file)), ..grid })
 }
 
-fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster, ReadError> {
-    let FileGrid { raster, .. } = read_grid(path, None, meter)?;
-    Ok(match place {
-        Some(place) => Raster::from_values(place, raster.size(), raster.values().to_vec()),
-        None => raster,
-    })
+/// Returns the file that a path means, and the variable in it that follows its name, as in `a.nc#depth`.
+pub(super) fn file_and_variable(path: &Path) -> (PathBuf, Option<String>) {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let named = name.rsplit_once(BEFORE_VARIABLE).filter(|_| !path.exists()).and_then(|(file, variable)| {
+        let ending = Path::new(file).extension()?;
+        let is_known = RASTER.endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
+        is_known.then(|| (path.with_file_name(file), Some(variable.to_owned())))
+    });
+    named.unwrap_or_else(|| (path.to_owned(), None))
 }
 
 /// Reads as [`read_grid`] does, from any source of bytes; the variable with a name, if there is one.
@@ -80,16 +81,17 @@ fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster
 pub fn decode(
     source: impl Read + Seek + Send + 'static,
     name: Option<&str>,
-    window: Option<Rect>,
+    place: &GridPlace,
     meter: &Meter,
 ) -> Result<FileGrid, Flaw> {
     meter.check()?;
     let mut source = open(source)?;
     let grid = Grid::choose(source.variables(), name)?;
     let system = grid.system(source.variables());
-    let spans = spans(&mut *source, &grid, window)?;
+    let window = place.window.filter(|_| place.over.is_none());
+    let spans = spans(&mut *source, &grid, window.map(|window| grid.area(&window)))?;
     let values = values(&mut *source, &grid, &spans, meter)?;
-    let bounds = Rect::new(corner(&spans, 0), corner(&spans, 1));
+    let bounds = place.over.unwrap_or_else(|| Rect::new(corner(&spans, 0), corner(&spans, 1)));
     if !bounds.is_proper() {
         let problem = "its pixels are too small for their distance from zero";
         return Err(Flaw::Syntax(format!("{problem}: they cover no rectangle.")));
@@ -125,20 +127,22 @@ fn spans(source: &mut dyn Source, grid: &Grid, window: Option<Rect>) -> Result<[
             let most = LONGEST_SIDE.into();
             let along_x = x.within([min.x, max.x], grid.is_geographic(), most);
             let along_y = y.within([min.y, max.y], false, most);
-            let outside = |name: &str, [low, high]: [f64; 2], [from, to]: [f64; 2]| {
-                let [low, high, from, to] = [low, high, from, to].map(Number);
-                Flaw::Syntax(format!(
-                    "the grid has {name} from {low} to {high}, and the domain needs it from {from} to {to}. Use a file \
-                     that covers the domain."
-                ))
-            };
-            [
-                along_x.ok_or_else(|| outside("x", x.bounds(), [min.x, max.x]))?,
-                along_y.ok_or_else(|| outside("y", y.bounds(), [min.y, max.y]))?,
-            ]
+            match (along_x, along_y) {
+                (Some(along_x), Some(along_y)) => [along_x, along_y],
+                _ => return Err(apart(x.bounds(), y.bounds(), [min.x, max.x, min.y, max.y])),
+            }
         }
     };
     if is_raster_size(size(&spans)) { Ok(spans) } else { Err(too_large(&spans, window.is_some())) }
+}
+
+fn apart(x: [f64; 2], y: [f64; 2], window: [f64; 4]) -> Flaw {
+    let ([west, east], [south, north]) = (x.map(Number), y.map(Number));
+    let [left, right, low, high] = window.map(Number);
+    Flaw::Syntax(format!(
+        "it covers nothing of the domain: it lies from {west} to {east} in x and from {south} to {north} in y, and the \
+         domain from {left} to {right} and from {low} to {high}. Use a file that covers the domain."
+    ))
 }
 
 fn size(spans: &[Span; 2]) -> [u32; 2] {

@@ -61,7 +61,7 @@ impl<S: Read + Seek> Classic<S> {
     }
 }
 
-/// Returns the bytes of a record: of all parts, each padded to a multiple of four. A single part is not padded.
+/// Returns the bytes of a record: of all parts, each padded to a multiple of four. One alone is not padded.
 fn record_bytes(variables: &[Variable], places: &[Place]) -> Result<u64, Flaw> {
     let parts = variables.iter().zip(places).filter(|(_, place)| place.is_record);
     let sizes: Vec<u128> = parts.map(|(variable, _)| size(variable, &variable.dimensions[1..])).collect();

@@ -103,8 +103,8 @@ impl Sample {
 pub(super) trait Source {
     fn variables(&self) -> &[Variable];
 
-    /// Returns the samples of a variable from the index `corner` on, `extent` of them along each dimension, the
-    /// last dimension fastest. They lie within the variable.
+    /// Returns the samples of a variable from the index `corner` on, `extent` of them along each dimension,
+    /// the last dimension fastest. They lie within the variable.
     ///
     /// # Errors
     /// Fails when the file cannot be read there, or ends before.

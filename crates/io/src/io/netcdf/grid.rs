@@ -2,10 +2,14 @@
 
 use std::collections::HashMap;
 
-use super::super::Flaw;
+use glam::dvec2;
+
 use super::super::coordinate_system::{CoordinateKind, CoordinateSystem};
+use super::super::{Flaw, GridWindow};
 use super::axis::{AxisUnit, Direction, direction};
 use super::contents::Variable;
+use meshbrush_core::earth::GeographicExtent;
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, excerpt};
 
 /// Names of grids that are chosen among several, the first one first, without regard to case.
@@ -44,7 +48,7 @@ pub(super) struct GridSide {
 }
 
 impl Grid {
-    /// Chooses the variable with a name, or else the only one over coordinates, or one with a well-known name.
+    /// Chooses the variable with a name, or else the only grid, or one with a well-known name.
     ///
     /// # Errors
     /// Fails with a sentence when there is none, and when there are several.
@@ -114,6 +118,16 @@ impl Grid {
                 Some(CoordinateSystem { unit: LengthUnit::Metre, ..plane })
             }
             _ => described,
+        }
+    }
+
+    /// Returns the rectangle of a window in the coordinates of the grid.
+    pub(super) fn area(&self, window: &GridWindow) -> Rect {
+        match window.geographic {
+            Some(GeographicExtent { west, width, south, north, .. }) if self.is_geographic() => {
+                Rect::new(dvec2(west, south), dvec2(west + width, north))
+            }
+            _ => window.area,
         }
     }
 

@@ -1,13 +1,15 @@
-//! Classic files are written here, byte by byte. Those in NetCDF-4 are in the folder `netcdf/tests`, made with
-//! its script `make.py`.
+//! Classic files are written here, byte by byte. Those in NetCDF-4 are in the folder `netcdf/tests`, made
+//! with its script `make.py`.
 
 mod hdf;
 mod written;
 
 use std::io::Cursor;
 
+use meshbrush_core::earth::GeographicExtent;
 use meshbrush_mesh::text::LengthUnit;
 
+use super::super::GridWindow;
 use super::super::coordinate_system::CoordinateKind;
 use super::*;
 use written::{File as Classic, Of, Written};
@@ -16,12 +18,17 @@ const LON: [f64; 4] = [10.25, 10.75, 11.25, 11.75];
 const LAT: [f64; 3] = [50.5, 51.5, 52.5];
 
 fn read(file: &Classic) -> Result<FileGrid, Flaw> {
-    decode(Cursor::new(file.bytes()), None, None, &Meter::default())
+    decode(Cursor::new(file.bytes()), None, &GridPlace::default(), &Meter::default())
 }
 
 fn read_window(file: &Classic, [low_x, low_y, high_x, high_y]: [f64; 4]) -> Result<FileGrid, Flaw> {
-    let window = Rect::new(dvec2(low_x, low_y), dvec2(high_x, high_y));
-    decode(Cursor::new(file.bytes()), None, Some(window), &Meter::default())
+    let place = at(Rect::new(dvec2(low_x, low_y), dvec2(high_x, high_y)));
+    decode(Cursor::new(file.bytes()), None, &place, &Meter::default())
+}
+
+/// Returns the place of a grid of which a window is wanted.
+fn at(area: Rect) -> GridPlace {
+    GridPlace { over: None, window: Some(GridWindow { area, geographic: None }) }
 }
 
 fn said(file: &Classic) -> String {
@@ -118,7 +125,7 @@ fn records_and_further_dimensions_of_length_one_are_read() {
     // A file that was not closed has as many records as it holds.
     let mut bytes = file.bytes();
     bytes[4..8].fill(0xff);
-    let grid = decode(Cursor::new(bytes), None, None, &Meter::default()).unwrap();
+    let grid = decode(Cursor::new(bytes), None, &GridPlace::default(), &Meter::default()).unwrap();
     assert_eq!(grid.raster.size(), [3, 3]);
     // Two times are two grids.
     file.dimensions[2].1 = 2;
@@ -258,7 +265,7 @@ fn one_of_several_grids_is_chosen_by_its_name() {
     file.variables.push(other("Depth", 7.0));
     file.variables.push(other("elevation", 8.0));
     let first = |file: &Classic, name| {
-        let grid = decode(Cursor::new(file.bytes()), name, None, &Meter::default());
+        let grid = decode(Cursor::new(file.bytes()), name, &GridPlace::default(), &Meter::default());
         grid.map(|grid| grid.raster.get(0, 0)).map_err(|flaw| flaw.to_string())
     };
     assert_eq!(first(&file, None), Ok(8.0));
@@ -317,9 +324,18 @@ fn a_window_is_where_the_grid_is_or_a_sentence_says_where_that_is() {
     assert_eq!(sides(&part), [-30.0, 50.0, 30.0, 53.0]);
     assert_eq!(part.raster.values()[..6], [33.0, 34.0, 35.0, 0.0, 1.0, 2.0]);
     assert_eq!(part.raster.get(3, 2), 72.0);
+    // Of a document in a plane, the window in degrees counts.
+    let extent = GeographicExtent { west: -15.0, width: 27.0, south: 51.2, north: 51.3, pole: None };
+    let window = GridWindow { area: Rect::new(dvec2(1e5, 1e5), dvec2(2e5, 2e5)), geographic: Some(extent) };
+    let mut place = GridPlace { over: None, window: Some(window) };
+    let read = |place: &GridPlace| decode(Cursor::new(file.bytes()), None, place, &Meter::default()).unwrap();
+    assert_eq!(read(&place), part);
+    // All of it lies where a recipe says.
+    place.over = Some(Rect::UNIT);
+    assert_eq!((read(&place).raster.bounds(), read(&place).raster.size()), (Rect::UNIT, [36, 3]));
     let outside = read_window(&file, [0.0, -20.0, 10.0, -10.0]).unwrap_err().to_string();
     assert!(
-        outside.contains("the grid has y from 50 to 53, and the domain needs it from -20 to -10"),
+        outside.contains("from 50 to 53 in y, and the domain from 0 to 10 and from -20 to -10"),
         "{outside}"
     );
 }
@@ -350,7 +366,9 @@ fn every_cut_and_every_changed_byte_gives_a_result_or_a_sentence() {
     for version in [1, 2, 5] {
         file.version = version;
         let whole = file.bytes();
-        let tried = |bytes: &[u8]| decode(Cursor::new(bytes.to_vec()), None, None, &Meter::default());
+        let tried = |bytes: &[u8]| {
+            decode(Cursor::new(bytes.to_vec()), None, &GridPlace::default(), &Meter::default())
+        };
         for end in 0..whole.len() {
             assert!(tried(&whole[..end]).is_err(), "cut at {end}");
         }

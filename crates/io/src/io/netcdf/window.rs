@@ -53,7 +53,8 @@ impl Span {
 impl Axis {
     /// Returns the span of all pixels.
     pub(super) fn whole(&self) -> Span {
-        self.span(0, 0..self.count as i64, vec![0..self.count as i64])
+        let all = 0..self.count as i64;
+        self.span(0, all.clone(), vec![all])
     }
 
     /// Returns the outer edges of all pixels.

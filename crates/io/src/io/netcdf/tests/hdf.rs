@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Files that other programs wrote, and whether values are `2 z + 20` of what is stored.
+/// Files that other programs wrote.
 const FILES: [(&str, &[u8]); 8] = [
     ("contiguous", include_bytes!("contiguous.nc")),
     ("packed", include_bytes!("packed.nc")),
@@ -15,7 +15,8 @@ const FILES: [(&str, &[u8]); 8] = [
 ];
 
 fn read(bytes: &[u8], window: Option<Rect>) -> Result<FileGrid, Flaw> {
-    decode(Cursor::new(bytes.to_vec()), None, window, &Meter::default())
+    let place = window.map_or(GridPlace::default(), at);
+    decode(Cursor::new(bytes.to_vec()), None, &place, &Meter::default())
 }
 
 #[test]
