@@ -189,6 +189,10 @@ fn no_grid(variables: &[Variable]) -> Flaw {
             curved.dimensions.len()
         ));
     }
+    if variables.iter().any(|variable| variable.name == "x_range") {
+        let problem = "it is a grid as GMT 3 wrote them, with ranges in place of coordinates";
+        return Flaw::Syntax(format!("{problem}. Convert it with gmt grdconvert OLD.grd NEW.grd=nf."));
+    }
     let shape = |variable: &Variable| {
         let names: Vec<&str> = variable.dimensions.iter().map(|dimension| dimension.name.as_str()).collect();
         format!("{}({})", variable.name, names.join(", "))

@@ -307,6 +307,12 @@ fn coordinates_that_are_not_even_are_refused() {
     assert_eq!(read(&fine).unwrap().raster.size(), [400, 3]);
     let single = said(&Classic::grid(&LON[..1], &LAT, 5, counted()));
     assert!(single.contains("“lon” has 1 values"), "{single}");
+    let mut old = sample();
+    for (variable, name) in old.variables.iter_mut().zip(["x_range", "y_range", "z"]) {
+        variable.name = name;
+        variable.attributes.clear();
+    }
+    assert!(said(&old).contains("gmt grdconvert"), "{}", said(&old));
     let mut curved = sample();
     for variable in &mut curved.variables[..2] {
         variable.dimensions = vec![0, 1];
