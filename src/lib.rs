@@ -61,8 +61,9 @@ pub use meshbrush_core::document::{
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
-    Combine, Coverage, CurveError, Decision, DiameterLimit, DistanceTo, FineAt, InvalidLayer, Layer, LayerId,
-    LayerKind, LeastTarget, Mask, PaintChange, PaintLayers, Quantity, RasterReading, RasterSource, RiskField,
+    Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
+    DiameterLimit, DistanceTo, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, NoDepth,
+    NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading, RasterSource, RiskField,
     SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, Threat, ThreatError, ThreatLaw,
     Threats, ValueCurve,
 };

@@ -14,12 +14,13 @@ use super::view::View;
 use super::widgets::format;
 use meshbrush_core::document::{Document, Example, Recording, Settings};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
+use meshbrush_core::layers::NodeDepths;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::png::{Behind, decode};
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
-use meshbrush_io::io::{self, MeshData, MeshSource, Provenance, recording};
+use meshbrush_io::io::{self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, recording};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::ExportFormat;
@@ -127,7 +128,13 @@ pub fn export(
             };
             let boundary = MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
             let parts = extract.part_numbers();
-            let (target_diameter, quantities) = (&target_diameter, &[][..]);
+            let depths = match format.wants_node_data() {
+                true => NodeDepths::of(&settings.layers, extract.view()),
+                false => None,
+            };
+            let depths = depths.transpose().map_err(std::io::Error::other)?;
+            let depths = depths.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths });
+            let (target_diameter, quantities) = (&target_diameter, depths.as_slice());
             let source = MeshSource::Document(&settings.name);
             let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
             let provenance = &provenance.in_degrees(settings.domain.projection);

@@ -9,8 +9,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
+    Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -96,6 +96,22 @@ fn kinds() -> Vec<LayerKind> {
         LayerKind::Paint(Quantity::Risk),
         LayerKind::Paint(Quantity::Diameter),
         LayerKind::Paint(Quantity::Diameter),
+        LayerKind::Depth(Depths::new(
+            source("depth.asc", &shared),
+            DepthSizes {
+                positive: PositiveDepth::Down,
+                between: [0.3, f64::INFINITY],
+                rule: DepthRule::Wavelength { period: 12.0, triangles: 80.0 },
+            },
+        )),
+        LayerKind::Depth(Depths::new(
+            source("depth.asc", &shared),
+            DepthSizes {
+                positive: PositiveDepth::Up,
+                between: DepthSizes::ALL_WATER,
+                rule: DepthRule::Nothing,
+            },
+        )),
     ]
 }
 
@@ -154,6 +170,7 @@ fn every_kind_of_layer_is_read_as_it_was_saved() {
     assert!(project_bytes(&opened) == bytes, "saving again gives the same file");
     let rasters = opened.settings.layers.iter().filter_map(|layer| match &layer.kind {
         LayerKind::Raster { source, .. } | LayerKind::Band { source, .. } => Some(&source.raster),
+        LayerKind::Depth(depths) => Some(&depths.source().raster),
         _ => None,
     });
     let rasters: Vec<_> = rasters.collect();

@@ -3,6 +3,7 @@
 mod causes;
 mod cli;
 mod data_formats;
+mod depth;
 mod earth;
 mod folder;
 mod layer_files;

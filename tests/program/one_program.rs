@@ -9,8 +9,8 @@ use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, 
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
+    Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -117,7 +117,7 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
-    match random.u8(..if has_outline { 13 } else { 12 }) {
+    match random.u8(..if has_outline { 14 } else { 13 }) {
         0 => LayerKind::constant(between(random, 0.1, 1.0)),
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
@@ -144,12 +144,26 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             let to = DistanceTo::Shapes { name: "lights.geojson".into(), shapes: shapes(random) };
             LayerKind::Distance { to, at_zero, slope, range }
         }
-        11 => {
+        11 => LayerKind::Depth(depths(random)),
+        12 => {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
         _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
+}
+
+fn depths(random: &mut fastrand::Rng) -> Depths {
+    let source = RasterSource { name: "depth.asc".into(), raster: raster(random, -30.0, 5.0) };
+    let rule = match random.u8(..4) {
+        0 => DepthRule::Nothing,
+        1 => DepthRule::Wavelength { period: 12.0, triangles: between(random, 60.0, 200.0) },
+        2 => DepthRule::Slope { triangles: 0.1, smoothing: [0.0, 0.8][random.usize(..2)] },
+        _ => DepthRule::Courant { time_step: 0.02, number: between(random, 0.4, 2.0) },
+    };
+    let positive = [PositiveDepth::Up, PositiveDepth::Down][random.usize(..2)];
+    let between = [DepthSizes::ALL_WATER, [2.0, 20.0], [3.0, f64::INFINITY]][random.usize(..3)];
+    Depths::new(source, DepthSizes { positive, between, rule })
 }
 
 fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {
@@ -209,7 +223,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         let kind = kind(random, has_outline);
         Layer { id: LayerId(2 * id + 1), ..layer(random, kind) }
     });
-    let layers = layers.collect();
+    let layers: Vec<Layer> = layers.collect();
     let spacing = between(random, 0.25, 0.6);
     let diameter = between(random, 0.1, 0.3);
     let transfer = Transfer {
@@ -228,6 +242,7 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         1 => KeptParts::Largest,
         _ => KeptParts::Share(between(random, 0.0, 0.2)),
     };
+    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
     let settings = Settings {
         pins: Arc::new((0..random.usize(..4)).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),
@@ -240,7 +255,8 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         rule: if random.u8(..3) == 0 { RefinementRule::Vertex } else { RefinementRule::Area },
         max_triangles: random.usize(300_000..900_000),
         max_memory: random.usize(100_000_000..900_000_000),
-        unit: LengthUnit::Kilometre,
+        // Sizes from depths are in metres.
+        unit: if has_depths { LengthUnit::Metre } else { LengthUnit::Kilometre },
         ..Settings::for_domain("Random".into(), domain)
     };
     settings.checked().unwrap()

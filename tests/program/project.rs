@@ -444,7 +444,7 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 6";
+const VERSION: &str = "\"version\": 7";
 
 /// Returns the settings as if an older program had written them.
 fn of_version(text: &str, version: u32) -> String {
@@ -455,10 +455,10 @@ fn of_version(text: &str, version: u32) -> String {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace(VERSION, "\"version\": 7, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 8, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 7", "up to version 6"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 8", "up to version 7"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.
@@ -484,7 +484,7 @@ fn projects_of_versions_2_4_and_5_open() {
 #[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        (VERSION, "\"version\": 6, \"seasons\": 4", &["line 3", "seasons"]),
+        (VERSION, "\"version\": 7, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
+use super::depth::DepthArguments;
 use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
@@ -242,6 +243,9 @@ pub struct InputArguments {
     /// The distance beyond which --distance asks for nothing [default: unlimited]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
     pub distance_range: Option<f64>,
+
+    #[command(flatten)]
+    pub depth: DepthArguments,
 
     /// Bound on the gradation: over a distance d, the target diameter changes by G times d at most
     ///

@@ -6,6 +6,7 @@ use super::args::OutputCoordinates;
 use super::build::FinishedMesh;
 use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
+use meshbrush_core::layers::{DepthFit, NoDepth, NodeDepths};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 
@@ -17,29 +18,26 @@ pub struct MeshDetails {
     pub parts: Vec<u32>,
     /// The origin of the mesh.
     pub provenance: Provenance,
+    /// The depths at the nodes, if a layer has them.
+    pub depths: Option<NodeDepths>,
 }
 
 impl MeshDetails {
     /// Collects the details of an exported mesh that the command `line` requested.
+    ///
+    /// # Errors
+    /// Fails when there are layers of depths, and a node is far from all of them.
     pub fn of(
         finished: &FinishedMesh,
         extract: &Extract,
         line: &str,
         input: &Input,
         coordinates: OutputCoordinates,
-    ) -> Self {
-        let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
-        let meaning = match (finished.domain().projection, file) {
-            (Some(plane), _) => format!("x, y in {plane}"),
-            (None, Some(file)) => format!("x, y as in {}", file.display()),
-            (None, None) => "x, y".to_owned(),
-        };
-        let fingerprint = finished.mesh().fingerprint();
-        let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &meaning);
-        let provenance = provenance.with_unit(finished.unit);
-        let in_degrees = finished.domain().projection.filter(|_| coordinates == OutputCoordinates::Lonlat);
-        let provenance = provenance.in_degrees(in_degrees);
-        Self { boundary: finished.boundary(extract), parts: extract.part_numbers(), provenance }
+    ) -> Result<Self, NoDepth> {
+        let provenance = provenance(finished, line, input, coordinates);
+        let depths = NodeDepths::of(finished.layers(), extract.view()).transpose()?;
+        let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
+        Ok(Self { boundary, parts, provenance, depths })
     }
 
     /// Returns the number of triangles of each part.
@@ -51,6 +49,61 @@ impl MeshDetails {
             counts[part] += 1;
         }
         counts
+    }
+}
+
+/// Returns the origin of a mesh that the command `line` requested.
+pub fn provenance(
+    finished: &FinishedMesh,
+    line: &str,
+    input: &Input,
+    coordinates: OutputCoordinates,
+) -> Provenance {
+    let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
+    let meaning = match (finished.domain().projection, file) {
+        (Some(plane), _) => format!("x, y in {plane}"),
+        (None, Some(file)) => format!("x, y as in {}", file.display()),
+        (None, None) => "x, y".to_owned(),
+    };
+    let fingerprint = finished.mesh().fingerprint();
+    let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &meaning);
+    let provenance = provenance.with_unit(finished.unit);
+    let in_degrees = finished.domain().projection.filter(|_| coordinates == OutputCoordinates::Lonlat);
+    provenance.in_degrees(in_degrees)
+}
+
+/// How far depths that are linear over triangles are from the pixels of the layers of depths.
+#[derive(Clone, Debug, Serialize)]
+pub struct DepthSummary {
+    /// Pixels that were compared.
+    pub pixels: usize,
+    /// The largest difference of either sign, in metres.
+    pub largest_error: f64,
+    /// Where that is.
+    pub at: [f64; 2],
+    /// The square root of the mean of the squares, in metres.
+    pub rms_error: f64,
+    /// The mean, in metres: positive where the mesh holds more water.
+    pub mean_error: f64,
+    /// Nodes outside the layers of depths, which have the depth of the nearest pixel.
+    pub filled_nodes: usize,
+    /// The distance of the farthest of these pixels.
+    pub farthest_filled: f64,
+}
+
+impl From<&NodeDepths> for DepthSummary {
+    fn from(depths: &NodeDepths) -> Self {
+        let NodeDepths { depths: _, filled, farthest, fit } = depths;
+        let DepthFit { pixels, largest, at, rms, mean } = *fit;
+        Self {
+            pixels,
+            largest_error: largest,
+            at: at.into(),
+            rms_error: rms,
+            mean_error: mean,
+            filled_nodes: *filled,
+            farthest_filled: *farthest,
+        }
     }
 }
 

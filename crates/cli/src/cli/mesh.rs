@@ -48,13 +48,15 @@ pub fn run(
     let (details, summary) = terminal.while_working("measuring the mesh", || {
         let details =
             wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, typed.out_crs));
+        let details = details.transpose().map_err(|error| Failure::Work(error.to_string()))?;
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
-        (details, summary)
-    });
+        Ok::<_, Failure>((details, summary))
+    })?;
     if !typed.json {
         terminal.say(&summary.for_people());
     }
     note_capped(&finished, terminal);
+    note_filled(details.as_ref(), terminal);
     note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, typed.out_crs, terminal)?;
@@ -77,6 +79,19 @@ pub fn note_capped(finished: &FinishedMesh, terminal: &mut Terminal) {
     if finished.capped > 0 {
         let count = Grouped(finished.capped);
         terminal.note(&format!("--max-level left {count} triangles coarser than their target."));
+    }
+}
+
+/// Tells the user which nodes have a depth from elsewhere.
+fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
+    let Some(depths) = details.and_then(|details| details.depths.as_ref()) else { return };
+    if depths.filled > 0 {
+        let (filled, nodes) = (Grouped(depths.filled), Grouped(depths.depths.len()));
+        terminal.note(&format!(
+            "{filled} of {nodes} nodes are where no raster of depths has a value; they have that of the nearest pixel, at \
+             most {:.1} away.",
+            depths.farthest
+        ));
     }
 }
 

@@ -7,6 +7,7 @@
 mod args;
 mod build;
 mod command_line;
+mod depth;
 mod details;
 mod failure;
 mod help;

@@ -98,6 +98,7 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         let (at_zero, slope) = (Some(at_zero), Some(slope));
         layers.push((option, SavedLayer { at_zero, slope, range: typed.distance_range, ..layer }));
     }
+    layers.extend(typed.depth.layers());
     Ok(layers)
 }
 

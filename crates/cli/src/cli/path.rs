@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::args::OutputCoordinates;
 use super::build::{FinishedMesh, build_from};
-use super::details::MeshDetails;
+use super::details::provenance;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::mesh::note_capped;
@@ -69,7 +69,7 @@ pub fn run(
     }
     let seconds = start.elapsed().as_secs_f64();
     let export = PathExport::new(&solution, &*density, typed.simplify)?;
-    let provenance = MeshDetails::of(&finished, &extract, line, &input, OutputCoordinates::Plane).provenance;
+    let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;

@@ -11,7 +11,7 @@ use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
 use super::terminal::Terminal;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{Interruption, KeyFault, MeshData};
+use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, NodeValues};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::render::export::ExportFormat;
 
@@ -126,11 +126,11 @@ pub fn write_files(
         true => finished.target_at_nodes(extract, terminal),
         false => Vec::new(),
     };
-    let MeshDetails { boundary, parts, provenance } = details;
+    let MeshDetails { boundary, parts, provenance, depths } = details;
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for files in requested {
         let look = files.look.for_mesh(mesh);
-        let quantities = match files.wants_node_data() {
+        let mut quantities: Vec<NodeValues> = match files.wants_node_data() {
             true => files
                 .quantities
                 .iter()
@@ -138,6 +138,10 @@ pub fn write_files(
                 .collect::<Result<_, _>>()?,
             false => Vec::new(),
         };
+        let has_own = quantities.iter().any(|quantity| quantity.name == DEPTH);
+        let of_layers = depths.as_ref().filter(|_| files.wants_node_data() && !has_own);
+        quantities
+            .extend(of_layers.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths.clone() }));
         let (target_diameter, quantities) = (&target_diameter, &quantities);
         let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
         for output in &files.outputs {

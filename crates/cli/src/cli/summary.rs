@@ -4,7 +4,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::build::FinishedMesh;
-use super::details::{LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary};
+use super::details::{DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary};
 use meshbrush_core::domain::{FitQuality, MeshBoundary, Region};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::outline::OutlineFit;
@@ -45,6 +45,9 @@ pub struct Summary {
     pub part_triangles: Option<Vec<usize>>,
     /// Edges, areas, angles and gradation.
     pub statistics: Option<MeshStatistics>,
+    /// How far the depths at the nodes are from the layers of depths, if there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<DepthSummary>,
     /// Side δ of a coarse cell, in world units.
     pub spacing: f64,
     /// "vertex" or "area".
@@ -285,6 +288,7 @@ impl Summary {
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
+            depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
             capped: finished.capped,

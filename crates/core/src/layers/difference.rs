@@ -418,6 +418,7 @@ fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<T
             }
             _ => Some(Any),
         },
+        LayerKind::Depth(_) => Some(Any),
     }
 }
 

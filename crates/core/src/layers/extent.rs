@@ -1,7 +1,8 @@
 //! The area in which a layer can have a target diameter.
 
 use super::{
-    Combine, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading, SizeFieldSpec, Threats,
+    Combine, DepthRule, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
+    SizeFieldSpec, Threats,
 };
 use crate::geometry::{Rect, z_order};
 use crate::raster::ValueRanges;
@@ -83,7 +84,7 @@ impl Layer {
             }
             LayerKind::Raster { reading, source: _ } => *reading == RasterReading::Risk,
             LayerKind::Threats(_) => true,
-            LayerKind::Distance { .. } | LayerKind::Band { .. } => false,
+            LayerKind::Distance { .. } | LayerKind::Band { .. } | LayerKind::Depth(_) => false,
         }
     }
 
@@ -119,6 +120,10 @@ impl Layer {
             | LayerKind::Band { source, between: _, diameter: _ } => {
                 Extent::of([source.raster.raster().bounds()])
             }
+            LayerKind::Depth(depths) if depths.sizes().rule == DepthRule::Nothing => {
+                Extent::Within(Vec::new())
+            }
+            LayerKind::Depth(depths) => Extent::of([depths.source().raster.raster().bounds()]),
             LayerKind::Threats(threats) => Extent::of(threats.reaches()),
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let farthest = range.min(self.range_below_ceiling(*at_zero, *slope, context));

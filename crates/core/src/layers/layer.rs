@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Mask, PaintLayers, Shapes, Threats, ValueCurve};
+use super::{Depths, Mask, PaintLayers, Shapes, Threats, ValueCurve};
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
 
@@ -105,6 +105,8 @@ pub enum LayerKind {
         /// The target diameter there, in world units.
         diameter: f64,
     },
+    /// Depths of water.
+    Depth(Depths),
 }
 
 /// The target of a distance.
@@ -252,6 +254,7 @@ impl LayerKind {
     pub fn raster_source(&self) -> Option<&RasterSource> {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(source),
+            Self::Depth(depths) => Some(depths.source()),
             _ => None,
         }
     }
@@ -260,6 +263,7 @@ impl LayerKind {
     pub fn file_name(&self) -> Option<&str> {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(&source.name),
+            Self::Depth(depths) => Some(&depths.source().name),
             Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => Some(name),
             Self::Paint(_) | Self::Formula { .. } | Self::Threats(_) | Self::Distance { .. } => None,
         }
@@ -281,6 +285,7 @@ impl LayerKind {
             Self::Distance { to: DistanceTo::Corridor { .. }, .. } => "Corridor",
             Self::Distance { .. } => "Distance",
             Self::Band { .. } => "Band",
+            Self::Depth(_) => "Depth",
         }
     }
 
@@ -294,6 +299,7 @@ impl LayerKind {
             Self::Distance { to: DistanceTo::Corridor { .. }, .. } => "corridor",
             Self::Distance { .. } => "distance",
             Self::Band { .. } => "band",
+            Self::Depth(_) => "depth",
         }
     }
 
@@ -310,6 +316,11 @@ impl LayerKind {
             Self::Formula { formula, .. } => [Some((formula.address(), formula.bytes())), None],
             Self::Raster { source, reading } => [raster(source), curve(reading)],
             Self::Band { source, .. } => [raster(source), None],
+            Self::Depth(depths) => {
+                let computed = depths.computed();
+                let computed = computed.map(|raster| (Arc::as_ptr(raster).addr(), raster.bytes()));
+                [raster(depths.source()), computed]
+            }
             Self::Threats(threats) => [Some(threats.shared_data()), None],
             Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
         };

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{DistanceTo, FineAt, LayerKind, RasterReading, RasterSource, Shapes, ValueCurve};
+use super::{
+    DepthRule, DepthSizes, Depths, DistanceTo, FineAt, LayerKind, PositiveDepth, RasterReading, RasterSource,
+    Shapes, ValueCurve,
+};
 use crate::field::Transfer;
 
 impl LayerKind {
@@ -22,6 +25,24 @@ impl LayerKind {
         let values = source.raster.sorted_sample();
         let curve = ValueCurve::fine_at(FineAt::Zero, &values, transfer.h_min, transfer.h_max)?;
         Some(Self::Raster { source, reading: RasterReading::Curve(Arc::new(curve)) })
+    }
+
+    /// Returns depths that ask for thirty triangles in the length of a tide. Values are depths where none is
+    /// below 0, and else heights. `None` if no pixel has a finite value.
+    pub fn depths_of(source: RasterSource, _: &Transfer) -> Option<Self> {
+        Self::depths(source, DepthRule::USUAL_WAVELENGTH)
+    }
+
+    /// Returns depths as [`Self::depths_of`] does, which ask for nothing.
+    pub fn depths_without_sizes(source: RasterSource, _: &Transfer) -> Option<Self> {
+        Self::depths(source, DepthRule::Nothing)
+    }
+
+    fn depths(source: RasterSource, rule: DepthRule) -> Option<Self> {
+        let has_heights = source.raster.finite_range()?.least < 0.0;
+        let positive = if has_heights { PositiveDepth::Up } else { PositiveDepth::Down };
+        let sizes = DepthSizes { positive, between: DepthSizes::ALL_WATER, rule };
+        Some(Self::Depth(Depths::new(source, sizes)))
     }
 
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.

@@ -1,6 +1,7 @@
 //! Rasters: row-major grids of values over a rectangle, the lowest row first; sparse rasters of any depth;
 //! and the ranges of their values over squares of any size.
 
+mod linear;
 mod projected;
 mod pyramid;
 mod ranges;

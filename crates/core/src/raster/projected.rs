@@ -3,6 +3,7 @@
 use glam::{DVec2, dvec2};
 use rayon::prelude::*;
 
+use super::linear::linear;
 use super::{LONGEST_SIDE, MOST_PIXELS, Raster};
 use crate::earth::Projection;
 use crate::geometry::Rect;
@@ -53,7 +54,7 @@ pub fn projected_raster(
     projection: &Projection,
     area: Rect,
 ) -> Result<Raster, ProjectedRasterError> {
-    let source = Source { raster: source, projection };
+    let source = Source { raster: source, bounds: eastward(source.bounds()), projection };
     let (bounds, side) = source.place(area).ok_or(ProjectedRasterError::Apart(source.raster.bounds()))?;
     let size = (bounds.size() / side).ceil().max(DVec2::ONE).to_array().map(|count| count as u64);
     if size.iter().any(|&count| count > u64::from(LONGEST_SIDE)) || size[0] * size[1] > MOST_PIXELS {
@@ -83,7 +84,16 @@ pub fn projected_raster(
 /// A raster in degrees, and the plane where it is wanted.
 struct Source<'a> {
     raster: &'a Raster,
+    /// Its longitudes and latitudes.
+    bounds: Rect,
     projection: &'a Projection,
+}
+
+/// Returns a rectangle of longitudes and latitudes whose western side is below 180°: rasters from 0° to 360°
+/// have the same place as those from −180° to 180°.
+fn eastward(bounds: Rect) -> Rect {
+    let turn = if bounds.min.x >= 180.0 { 360.0 } else { 0.0 };
+    Rect::new(bounds.min - dvec2(turn, 0.0), bounds.max - dvec2(turn, 0.0))
 }
 
 /// Where the centres of a block of pixels are in the source.
@@ -110,8 +120,8 @@ impl Source<'_> {
     /// Returns the place of a point of the plane in the source, in pixels: its floor is (column, row).
     fn position(&self, point: DVec2) -> DVec2 {
         let at = self.projection.geographic_from_plane(point);
-        let west = self.raster.bounds().min.x;
-        self.raster.pixel_from_world(dvec2(west + (at.x - west).rem_euclid(360.0), at.y))
+        let from = at - self.bounds.min;
+        dvec2(from.x.rem_euclid(360.0), from.y) / self.raster.pixel_size()
     }
 
     /// Returns the places of the centres of a block of `[columns, rows]` pixels.
@@ -141,28 +151,12 @@ impl Source<'_> {
             let is_within = (0..columns).contains(&x) && (0..rows).contains(&y);
             is_within.then(|| self.raster.get(x as u32, y as u32)).filter(|value| !value.is_nan())
         };
-        let [around_x, around_y] = at.floor().to_array().map(|at| at as i64);
-        if pixel(around_x, around_y).is_none() {
-            return f32::NAN;
-        }
-        let from = at - 0.5;
-        let share = from - from.floor();
-        let [x, y] = from.floor().to_array().map(|at| at as i64);
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let weight = (if dx == 1 { share.x } else { 1.0 - share.x })
-                * (if dy == 1 { share.y } else { 1.0 - share.y });
-            if let Some(value) = pixel(x + dx, y + dy) {
-                sum += weight * f64::from(value);
-                weights += weight;
-            }
-        }
-        (sum / weights) as f32
+        linear(at, pixel).map_or(f32::NAN, |value| value as f32)
     }
 
     /// Returns whether the source goes once around the Earth.
     fn is_round(&self) -> bool {
-        let width = self.raster.bounds().size().x;
+        let width = self.bounds.size().x;
         (width - 360.0).abs() < 0.5 * self.raster.pixel_size().x
     }
 
@@ -171,7 +165,7 @@ impl Source<'_> {
     fn place(&self, area: Rect) -> Option<(Rect, f64)> {
         let share = |n: u32| f64::from(n) / f64::from(SAMPLES - 1);
         let samples = || (0..SAMPLES * SAMPLES).map(|n| dvec2(share(n % SAMPLES), share(n / SAMPLES)));
-        let Rect { min, max } = self.raster.bounds();
+        let Rect { min, max } = self.bounds;
         let plane = |at: DVec2| self.projection.plane_from_geographic(at);
         let in_plane = samples().map(|share| plane(min + share * (max - min)));
         let in_plane = in_plane.filter(|at| at.is_finite()).map(|at| Rect::new(at, at));
@@ -191,7 +185,7 @@ impl Source<'_> {
 
     /// Returns the side of a square about as large as the pixel at a place, in metres in the plane.
     fn side_of_pixel(&self, at: DVec2) -> f64 {
-        let Rect { min, max } = self.raster.bounds();
+        let Rect { min, max } = self.bounds;
         let pixel = self.raster.pixel_size();
         let geographic =
             (min + at * pixel).clamp(min + 0.5 * pixel, (max - 0.5 * pixel).max(min + 0.5 * pixel));

@@ -154,7 +154,7 @@ pub struct NodeValues {
 }
 
 /// The name of the quantity that is the depth.
-const DEPTH: &str = "depth";
+pub const DEPTH: &str = "depth";
 
 impl MeshData<'_> {
     /// The depth at each node, positive downwards, for the formats of coastal solvers: the quantity with the

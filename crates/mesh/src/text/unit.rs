@@ -37,6 +37,11 @@ impl LengthUnit {
         }
     }
 
+    /// Returns whether lengths can be compared with depths in metres: plain numbers are then metres.
+    pub fn may_be_metres(self) -> bool {
+        matches!(self, Self::None | Self::Metre)
+    }
+
     /// Returns a number with the symbol: `12 m`, `0.5°`.
     ///
     /// ```

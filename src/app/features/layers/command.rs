@@ -46,6 +46,8 @@ pub enum LayerCommand {
     OpenDiameters(PathBuf),
     /// Reads a picture or a grid, and adds a band of its values.
     OpenBand(PathBuf),
+    /// Reads a grid of heights or depths, and adds a layer of depths.
+    OpenDepth(PathBuf),
     /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.
     OpenValues(PathBuf),
     /// Reads points, lines and polygons, and adds a layer of the distance to them.

@@ -30,6 +30,7 @@ impl Feature for LayerEditor {
             LayerCommand::OpenImage(path) => load::load_image(session, background, &path),
             LayerCommand::OpenDiameters(path) => load::load_diameters(session, background, &path),
             LayerCommand::OpenBand(path) => load::load_band(session, background, &path),
+            LayerCommand::OpenDepth(path) => load::load_depth(session, background, &path),
             LayerCommand::OpenValues(path) => load::load_values(session, background, &path),
             LayerCommand::OpenShapes(path) => load::load_shapes(session, background, &path),
             LayerCommand::ReplaceShapes(path) => load::replace_shapes(session, background, &path),

@@ -35,6 +35,15 @@ pub static OPEN_DIAMETERS: FileKind = FileKind {
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDiameters(path)))
 };
 
+/// A grid of heights or depths of water.
+pub static OPEN_DEPTH: FileKind = FileKind {
+    title: "Open grid of depths",
+    endings: grid_endings,
+    contents: "Grids",
+    folder: "pictures",
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenDepth(path)))
+};
+
 /// A picture or a grid, for a band of its values.
 pub static OPEN_BAND: FileKind = FileKind {
     title: "Open picture or grid as band",
@@ -81,7 +90,7 @@ pub static OPEN_MASK: FileKind = FileKind {
 };
 
 /// The uses of a file that layers have.
-pub static ROLES: [DataRole; 6] = [
+pub static ROLES: [DataRole; 7] = [
     DataRole {
         place: 12,
         title: "Shapes to measure the distance to",
@@ -126,6 +135,14 @@ pub static ROLES: [DataRole; 6] = [
             DataContents::Grid(_) => refused_values(file, |least, _| least > 0.0, "above 0"),
             _ => Some("Diameters are read from grids, not from pictures.".into()),
         },
+    },
+    DataRole {
+        place: 24,
+        title: "Depth of water",
+        sentence: "Files get the depth at each node; a layer asks for triangles by wavelength, slope or time step.",
+        kind: &OPEN_DEPTH,
+        is_for: |contents| matches!(contents, DataContents::Grid(_)),
+        refusal: |file, _| refused_values(file, |_, _| true, ""),
     },
     DataRole {
         place: 23,

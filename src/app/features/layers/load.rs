@@ -36,6 +36,15 @@ pub fn load_band(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Any, LayerKind::band_of);
 }
 
+/// Reads a grid of heights or depths, and adds a layer of depths.
+pub fn load_depth(session: &Session, background: &mut Background, path: &Path) {
+    let kind_of = match session.document().settings().unit.may_be_metres() {
+        true => LayerKind::depths_of,
+        false => LayerKind::depths_without_sizes,
+    };
+    load_raster(session, background, path, RasterValues::Any, kind_of);
+}
+
 /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.
 pub fn load_values(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Any, LayerKind::curve_of);

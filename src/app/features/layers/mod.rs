@@ -18,7 +18,7 @@ pub mod tests;
 mod transfer;
 
 pub use command::LayerCommand;
-use files::{OPEN_BAND, OPEN_MASK, OPEN_SHAPES, REPLACE_SHAPES, ROLES};
+use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, REPLACE_SHAPES, ROLES};
 pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use gradation::GRADATION;
 use kinds::KINDS;

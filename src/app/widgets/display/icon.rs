@@ -77,6 +77,8 @@ impl Icon {
     pub const THREATS: Self = Self(material::ICON_RADAR.codepoint);
     /// A layer of a distance.
     pub const DISTANCE: Self = Self(material::ICON_STRAIGHTEN.codepoint);
+    /// A layer of depths.
+    pub const DEPTH: Self = Self(material::ICON_WAVES.codepoint);
     /// A layer of a band of values.
     pub const BAND: Self = Self(material::ICON_LINE_WEIGHT.codepoint);
     /// The first of many.

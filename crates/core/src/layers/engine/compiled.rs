@@ -8,7 +8,7 @@ use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Octagon};
 use crate::layers::{
     Combine, Coverage, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
-    RasterSource, Shapes,
+    Shapes,
 };
 use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 
@@ -68,7 +68,7 @@ impl CompiledLayer {
                         (Reading::Curve { curve: curve.clone(), lengths: lengths(spacing) }, f32::INFINITY)
                     }
                 };
-                (reading, Values::of_raster(source, gap, lattice))
+                (reading, Values::of_raster(&source.raster, gap, lattice))
             }
             LayerKind::Threats(threats) => {
                 let function = Function::Threats(threats.clone());
@@ -95,7 +95,11 @@ impl CompiledLayer {
             LayerKind::Band { source, between, diameter } => {
                 let lengths = lengths(spacing);
                 let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
-                (reading, Values::of_raster(source, f32::INFINITY, lattice))
+                (reading, Values::of_raster(&source.raster, f32::INFINITY, lattice))
+            }
+            LayerKind::Depth(depths) => {
+                let reading = Reading::Depth { depths: depths.clone(), lengths: lengths(spacing) };
+                (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))
             }
         };
         let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());
@@ -368,9 +372,9 @@ impl PaintGrid {
 }
 
 impl Values {
-    fn of_raster(source: &RasterSource, gap: f32, lattice: &Lattice) -> Self {
-        let grid = GridOnLattice::new(source.raster.grid(), lattice);
-        Self::Raster { raster: source.raster.clone(), gap, grid }
+    fn of_raster(raster: &Arc<RasterPyramid>, gap: f32, lattice: &Lattice) -> Self {
+        let grid = GridOnLattice::new(raster.grid(), lattice);
+        Self::Raster { raster: raster.clone(), gap, grid }
     }
 
     fn of_formula(quantity: Quantity, formula: &Formula) -> Self {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::field::{Bounds, RiskToDiameter, Transfer, TransferTable};
-use crate::layers::ValueCurve;
+use crate::layers::{Depths, ValueCurve};
 use crate::mesh::bisection_edge_length;
 use crate::raster::ValueRange;
 
@@ -37,6 +37,8 @@ pub enum Reading {
     Curve { curve: Arc<ValueCurve>, lengths: Box<[f64; LEVELS]> },
     /// One diameter for all values from the first to the second number.
     Band { between: [f64; 2], diameter: f64, lengths: Box<[f64; LEVELS]> },
+    /// What is asked of depths; infinity is a pixel without a value.
+    Depth { depths: Depths, lengths: Box<[f64; LEVELS]> },
 }
 
 /// The answer for the values of a range.
@@ -115,7 +117,7 @@ impl Reading {
             Self::Diameter { .. } => {
                 Answer { asks: asks(), present: share(least < f32::INFINITY, greatest < f32::INFINITY) }
             }
-            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
+            Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
                 let diameters = self.diameters(range);
                 Answer { asks: diameters.share_below(lengths[level]), present: diameters.present }
             }
@@ -128,7 +130,7 @@ impl Reading {
         match self {
             Self::Risk { least, .. } => Question::AtLeast(least[level]),
             Self::Diameter { most } => Question::AtMost(most[level]),
-            Self::Curve { lengths, .. } | Self::Band { lengths, .. } => {
+            Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
                 Question::Below { reading: self, diameter: lengths[level] }
             }
         }
@@ -141,7 +143,9 @@ impl Reading {
             Self::Risk { nothing, .. } if value <= f64::from(*nothing) => f64::INFINITY,
             Self::Risk { transfer, .. } => transfer.diameter(value),
             Self::Diameter { .. } => value,
-            Self::Curve { .. } | Self::Band { .. } => self.diameters(ValueRange::one(value as f32)).least,
+            Self::Curve { .. } | Self::Band { .. } | Self::Depth { .. } => {
+                self.diameters(ValueRange::one(value as f32)).least
+            }
         }
     }
 
@@ -187,6 +191,13 @@ impl Reading {
                 };
                 Diameters { least, greatest, present }
             }
+            Self::Depth { depths, .. } if least < f32::INFINITY => {
+                let asked = depths.asked(f64::from(least), f64::from(greatest.min(f32::MAX)));
+                let present = share(asked.any, asked.all && greatest < f32::INFINITY);
+                let greatest = if present == Share::All { asked.greatest } else { f64::INFINITY };
+                Diameters { least: asked.least, greatest, present }
+            }
+            Self::Depth { .. } => Diameters::NOTHING,
         }
     }
 }
@@ -238,7 +249,7 @@ impl Reading {
                 diameter.times(power).times(factor)
             }
             Self::Diameter { .. } => Bounds::one(1.0),
-            Self::Curve { .. } | Self::Band { .. } => Bounds::ANYTHING,
+            Self::Curve { .. } | Self::Band { .. } | Self::Depth { .. } => Bounds::ANYTHING,
         }
     }
 }

@@ -6,8 +6,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::domain::{Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DistanceTo, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList, Shapes, Threat, ThreatLaw,
-    Threats, ValueCurve,
+    DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, Mask, PositiveDepth, Quantity, RasterReading,
+    RasterSource, ShapeList, Shapes, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -103,8 +103,12 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
     let corner = dvec2(choices.share(), choices.share()) - 0.4;
     let bounds = Rect::new(corner, corner + 0.2 + choices.share());
     let size = [1 + choices.below(9) as u32, 1 + choices.below(9) as u32];
-    let reading = choices.below(4);
-    let value = |share: f64| if reading == 1 { diameter * (0.5 + 4.0 * share) } else { share };
+    let reading = choices.below(5);
+    let value = |share: f64| match reading {
+        1 => diameter * (0.5 + 4.0 * share),
+        4 => 20.0 * share - 8.0,
+        _ => share,
+    };
     let count = (size[0] * size[1]) as usize;
     let mut values: Vec<f32> = (0..count).map(|_| value(choices.share()) as f32).collect();
     values[choices.below(count)] = f32::NAN;
@@ -117,12 +121,27 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
             let knots = vec![[0.2, 5.0 * diameter], [0.6, diameter], [0.8, 2.0 * diameter]];
             RasterReading::Curve(Arc::new(ValueCurve::new(knots).unwrap()))
         }
+        4 => return LayerKind::Depth(Depths::new(source, depth_sizes(choices, diameter))),
         _ => {
             let from = choices.share();
             return LayerKind::Band { source, between: [from, from + 0.3], diameter };
         }
     };
     LayerKind::Raster { source, reading }
+}
+
+/// Returns sizes of about a diameter in water of some metres.
+fn depth_sizes(choices: &mut impl Choices, diameter: f64) -> DepthSizes {
+    let rule = match choices.below(4) {
+        0 => DepthRule::Nothing,
+        1 => DepthRule::Wavelength { period: 10.0, triangles: 40.0 / diameter },
+        2 => DepthRule::Slope { triangles: 0.01 / diameter, smoothing: 0.3 * choices.share() },
+        _ => DepthRule::Courant { time_step: diameter, number: 8.0 },
+    };
+    let positive = [PositiveDepth::Up, PositiveDepth::Down][choices.below(2)];
+    let between =
+        if choices.below(2) == 0 { DepthSizes::ALL_WATER } else { [1.0, 9.0 * choices.share() + 2.0] };
+    DepthSizes { positive, between, rule }
 }
 
 fn threat(choices: &mut impl Choices, scale: Scale) -> Threat {
@@ -194,6 +213,16 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
             0 => *diameter = (factor * *diameter).max(scale.diameter),
             _ => between[1] = (factor * between[1]).max(between[0]),
         },
+        LayerKind::Depth(depths) => {
+            let mut sizes = *depths.sizes();
+            match &mut sizes.rule {
+                DepthRule::Nothing => return None,
+                DepthRule::Wavelength { triangles: number, .. }
+                | DepthRule::Slope { triangles: number, .. }
+                | DepthRule::Courant { number, .. } => *number /= factor.max(0.9),
+            }
+            *depths = depths.with_sizes(sizes);
+        }
     }
     Some(kind)
 }

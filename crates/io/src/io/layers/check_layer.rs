@@ -8,7 +8,9 @@ use super::{
 use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{LayerKind, RasterReading, ShapeList, Threat, ThreatError, ValueCurve};
+use meshbrush_core::layers::{
+    DepthSizes, LayerKind, RasterReading, ShapeList, Threat, ThreatError, ValueCurve,
+};
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
 pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
@@ -38,6 +40,8 @@ pub enum CheckedKind {
     Corridor(CheckedShapes, Growth, f64),
     /// One diameter, in world units, where a raster's value lies between two numbers.
     Band([f64; 2], f64),
+    /// Depths of water.
+    Depth(DepthSizes),
 }
 
 /// The target of a distance.
@@ -89,6 +93,10 @@ impl SavedLayer {
                 CheckedKind::Corridor(along, self.growth()?, width)
             }
             SavedKind::Band => self.band(stored)?,
+            SavedKind::Depth => {
+                self.check_raster_file(stored)?;
+                CheckedKind::Depth(self.depth_sizes()?)
+            }
         })
     }
 
@@ -228,7 +236,7 @@ impl SavedLayer {
         positive_length(value).map_err(|fault| fault.within(key))
     }
 
-    fn needed<T>(&self, key: &'static str, value: Option<T>) -> Result<T, KeyFault> {
+    pub(super) fn needed<T>(&self, key: &'static str, value: Option<T>) -> Result<T, KeyFault> {
         value.ok_or_else(|| self.missing(&format!("needs `{key}`")))
     }
 

@@ -8,7 +8,7 @@ use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
 use crate::io::KeyFault;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Threat, Threats,
+    Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Threat, Threats,
 };
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::abridged;
@@ -86,6 +86,7 @@ impl SavedLayer {
             CheckedKind::Band(between, diameter) => {
                 LayerKind::Band { source: self.source(data)?, between, diameter }
             }
+            CheckedKind::Depth(sizes) => LayerKind::Depth(Depths::new(self.source(data)?, sizes)),
         };
         let (visible, locked, combine) = (self.visible, self.locked, self.combine.into());
         let mask = self.loaded_mask(data)?;

@@ -15,6 +15,7 @@
 
 mod check_layer;
 mod checks;
+mod depth;
 mod fill;
 mod rasters;
 mod saved;
@@ -27,4 +28,6 @@ pub use checks::{point, points, positive_length, rect_of, rings};
 pub use fill::{LayerData, TextError};
 pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues, check_values};
 pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat, saved_polygon};
-pub use words::{SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};
+pub use words::{
+    SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedPositive, SavedQuantity,
+};

@@ -3,7 +3,10 @@ use std::path::PathBuf;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::{RasterValues, SavedCombine, SavedDistanceTo, SavedKind, SavedLaw, SavedQuantity};
+use super::{
+    RasterValues, SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedPositive,
+    SavedQuantity,
+};
 use crate::io::RasterFormat;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Threat, ThreatLaw};
@@ -80,6 +83,33 @@ pub struct SavedLayer {
     /// The target diameter in a band.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
+    /// Whether values are heights or depths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub positive: Option<SavedPositive>,
+    /// How the depth decides the target diameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<SavedDepthSize>,
+    /// The least depth at which something is asked for, in metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_from: Option<f64>,
+    /// The greatest depth at which something is asked for, in metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_to: Option<f64>,
+    /// The period of a wave, in seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
+    /// Triangles in the length of a wave, or of a change of the depth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub triangles: Option<f64>,
+    /// The side of the square over which heights are averaged, in metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smoothing: Option<f64>,
+    /// A time step, in seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_step: Option<f64>,
+    /// A Courant number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub courant: Option<f64>,
 }
 
 /// A polygon: its rings, the outer one first, and their points.
@@ -142,6 +172,15 @@ impl SavedLayer {
             range: None,
             between: None,
             diameter: None,
+            positive: None,
+            size: None,
+            depth_from: None,
+            depth_to: None,
+            period: None,
+            triangles: None,
+            smoothing: None,
+            time_step: None,
+            courant: None,
         }
     }
 
@@ -189,6 +228,7 @@ impl SavedLayer {
             LayerKind::Band { between, diameter, .. } => {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
+            LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
         };
         let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
@@ -225,7 +265,7 @@ impl SavedLayer {
             SavedKind::Paint | SavedKind::Formula => self.quantity == Some(SavedQuantity::Risk),
             SavedKind::Raster => self.read_as == Some(SavedQuantity::Risk),
             SavedKind::Threats => true,
-            SavedKind::Distance | SavedKind::Corridor | SavedKind::Band => false,
+            SavedKind::Distance | SavedKind::Corridor | SavedKind::Band | SavedKind::Depth => false,
         }
     }
 
@@ -234,7 +274,7 @@ impl SavedLayer {
         match (self.kind, self.read_as) {
             (SavedKind::Raster, Some(SavedQuantity::Risk)) => Some(RasterValues::Risk),
             (SavedKind::Raster, Some(SavedQuantity::Diameter)) => Some(RasterValues::Diameter),
-            (SavedKind::Raster | SavedKind::Band, _) => Some(RasterValues::Any),
+            (SavedKind::Raster | SavedKind::Band | SavedKind::Depth, _) => Some(RasterValues::Any),
             _ => None,
         }
     }
@@ -258,6 +298,15 @@ impl SavedLayer {
             ("range", self.range.is_some()),
             ("between", self.between.is_some()),
             ("diameter", self.diameter.is_some()),
+            ("positive", self.positive.is_some()),
+            ("size", self.size.is_some()),
+            ("depth_from", self.depth_from.is_some()),
+            ("depth_to", self.depth_to.is_some()),
+            ("period", self.period.is_some()),
+            ("triangles", self.triangles.is_some()),
+            ("smoothing", self.smoothing.is_some()),
+            ("time_step", self.time_step.is_some()),
+            ("courant", self.courant.is_some()),
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
     }

@@ -47,6 +47,15 @@ fn every_kind_is_read_from_its_keys() {
             r#"{ "kind": "band", "file": "depth.asc", "between": [-20, 0], "diameter": 0.5 }"#,
             "Band([-20.0, 0.0], 0.5)",
         ),
+        (
+            r#"{ "kind": "depth", "file": "depth.asc" }"#,
+            "Depth(DepthSizes { positive: Up, between: [0.0, inf], rule: Nothing })",
+        ),
+        (
+            r#"{ "kind": "depth", "file": "d.asc", "positive": "down", "size": "wavelength", "period": 10, "triangles": 8,
+                 "depth_to": 50 }"#,
+            "Depth(DepthSizes { positive: Down, between: [0.0, 50.0], rule: Wavelength { period: 10.0, triangles: 8.0 } })",
+        ),
     ] {
         assert_eq!(format!("{:?}", checked(json).unwrap()), expected, "{json}");
     }
@@ -123,6 +132,18 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             r#"{ "kind": "band", "file": "a.asc", "between": [1, 0], "diameter": 1 }"#,
             "between: write two finite numbers",
         ),
+        (
+            r#"{ "kind": "depth", "file": "a.asc", "size": "slope" }"#,
+            "kind: a layer of the kind \"depth\" needs `triangles`",
+        ),
+        (
+            r#"{ "kind": "depth", "file": "a.asc", "size": "courant", "time_step": 1, "courant": 1, "period": 1 }"#,
+            "period: depths with size = \"courant\" have no `period`",
+        ),
+        (
+            r#"{ "kind": "depth", "file": "a.asc", "depth_from": 9, "depth_to": 3 }"#,
+            "depth_to: 3 cannot be used",
+        ),
         (r#"{ "kind": "paint", "quantity": "risk", "mask": [] }"#, "mask: a mask needs a polygon"),
         (
             r#"{ "kind": "paint", "quantity": "risk", "mask": [[[[0, 0], [1, 0]]]] }"#,
@@ -142,7 +163,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 #[test]
 fn the_kinds_and_their_keys_agree() {
     use super::SavedKind::*;
-    let all = [Paint, Formula, Raster, Threats, Distance, Band];
+    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
         "formula" => r#""x""#,
@@ -151,6 +172,8 @@ fn the_kinds_and_their_keys_agree() {
         "curve" => "[[0, 1]]",
         "threats" | "shapes" => "[]",
         "between" => "[0, 1]",
+        "positive" => r#""up""#,
+        "size" => r#""slope""#,
         "file" | "layer" => r#""a""#,
         _ => "1",
     };

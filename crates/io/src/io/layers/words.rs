@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use meshbrush_core::layers::{Combine, DistanceTo, Quantity};
+use meshbrush_core::layers::{Combine, DistanceTo, PositiveDepth, Quantity};
 
 /// The kinds of layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,6 +22,8 @@ pub enum SavedKind {
     Corridor,
     /// One diameter where a raster's value lies between two numbers.
     Band,
+    /// Depths of water.
+    Depth,
 }
 
 /// See [`Combine`].
@@ -55,6 +57,70 @@ pub enum SavedDistanceTo {
     Outline,
     /// The boundary of the domain without its open parts.
     Coasts,
+}
+
+/// See [`PositiveDepth`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedPositive {
+    /// Values are heights.
+    Up,
+    /// Values are depths.
+    Down,
+}
+
+/// How the depth decides the target diameter. See [`DepthRule`](meshbrush_core::layers::DepthRule).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedDepthSize {
+    /// It does not.
+    Nothing,
+    /// Triangles in the length of a wave.
+    Wavelength,
+    /// Triangles in the length in which the depth changes by itself.
+    Slope,
+    /// The distance that a wave travels in a time step.
+    Courant,
+}
+
+impl SavedDepthSize {
+    /// Returns the keys of this rule alone.
+    pub fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Nothing => &[],
+            Self::Wavelength => &["period", "triangles"],
+            Self::Slope => &["triangles", "smoothing"],
+            Self::Courant => &["time_step", "courant"],
+        }
+    }
+
+    /// Returns the word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Nothing => "nothing",
+            Self::Wavelength => "wavelength",
+            Self::Slope => "slope",
+            Self::Courant => "courant",
+        }
+    }
+}
+
+impl From<SavedPositive> for PositiveDepth {
+    fn from(saved: SavedPositive) -> Self {
+        match saved {
+            SavedPositive::Up => Self::Up,
+            SavedPositive::Down => Self::Down,
+        }
+    }
+}
+
+impl From<PositiveDepth> for SavedPositive {
+    fn from(positive: PositiveDepth) -> Self {
+        match positive {
+            PositiveDepth::Up => Self::Up,
+            PositiveDepth::Down => Self::Down,
+        }
+    }
 }
 
 /// How the risk of a threat falls with the distance.
@@ -101,6 +167,7 @@ impl SavedKind {
             Self::Distance => "distance",
             Self::Corridor => "corridor",
             Self::Band => "band",
+            Self::Depth => "depth",
         }
     }
 
@@ -114,6 +181,7 @@ impl SavedKind {
             Self::Distance => "Distance",
             Self::Corridor => "Corridor",
             Self::Band => "Band",
+            Self::Depth => "Depth",
         }
     }
 
@@ -127,6 +195,19 @@ impl SavedKind {
             Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
+            Self::Depth => &[
+                "file",
+                "bounds",
+                "positive",
+                "size",
+                "depth_from",
+                "depth_to",
+                "period",
+                "triangles",
+                "smoothing",
+                "time_step",
+                "courant",
+            ],
         }
     }
 }

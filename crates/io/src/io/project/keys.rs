@@ -6,7 +6,7 @@ use super::VERSION;
 use super::settings::Saved;
 
 /// Texts in which one key or word, `qqqq`, is unknown, beside the place that it stands in.
-const PLACES: [(&str, &str); 26] = [
+const PLACES: [(&str, &str); 28] = [
     ("", r#"{"qqqq":1}"#),
     ("unit", r#"{"unit":"qqqq"}"#),
     ("background", r#"{"background":{"qqqq":1}}"#),
@@ -30,6 +30,8 @@ const PLACES: [(&str, &str); 26] = [
     ("layers.layer.combine", r#"{"layers":[{"layer":{"combine":"qqqq"}}]}"#),
     ("layers.layer.quantity", r#"{"layers":[{"layer":{"quantity":"qqqq"}}]}"#),
     ("layers.layer.to", r#"{"layers":[{"layer":{"to":"qqqq"}}]}"#),
+    ("layers.layer.positive", r#"{"layers":[{"layer":{"positive":"qqqq"}}]}"#),
+    ("layers.layer.size", r#"{"layers":[{"layer":{"size":"qqqq"}}]}"#),
     ("layers.layer.threats", r#"{"layers":[{"layer":{"threats":[{"qqqq":1}]}}]}"#),
     ("layers.layer.threats.law", r#"{"layers":[{"layer":{"threats":[{"law":"qqqq"}]}}]}"#),
     ("layers.layer.shapes", r#"{"layers":[{"layer":{"shapes":[{"qqqq":1}]}}]}"#),
@@ -37,7 +39,7 @@ const PLACES: [(&str, &str); 26] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (6, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (7, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -60,11 +62,14 @@ rule: vertex area
 layers: id layer raster
 layers.raster: part bounds columns rows
 layers.layer: kind name visible locked combine mask mask_file quantity formula file layer bounds as \
-    curve threats to shapes width at_zero slope range between diameter
-layers.layer.kind: paint formula raster threats distance corridor band
+    curve threats to shapes width at_zero slope range between diameter positive size depth_from depth_to \
+    period triangles smoothing time_step courant
+layers.layer.kind: paint formula raster threats distance corridor band depth
 layers.layer.combine: finest floor replace
 layers.layer.quantity: risk diameter
 layers.layer.to: outline coasts
+layers.layer.positive: up down
+layers.layer.size: nothing wavelength slope courant
 layers.layer.threats: x y range peak law
 layers.layer.threats.law: radar gaussian disc
 layers.layer.shapes: point line polygon

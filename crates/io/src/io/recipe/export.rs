@@ -180,6 +180,9 @@ impl Plan {
             LayerKind::Band { source, .. } => {
                 self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
             }
+            LayerKind::Depth(depths) => {
+                self.put_grid(&mut saved, layer, depths.source(), AtInfinity::Nothing);
+            }
             LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
                 saved.threats = None;
                 saved.file = Some(self.add(&layer.name, "csv", Content::Threats(threats.clone())).into());

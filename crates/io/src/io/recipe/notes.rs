@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::super::geojson::Outline;
 use meshbrush_core::document::Settings;
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{Layer, LayerKind, RasterSource};
+use meshbrush_core::layers::{Layer, RasterSource};
 use meshbrush_mesh::geometry::Rect;
 
 /// The share of a rectangle that a raster covers which covers all of it, but for rounding.
@@ -45,10 +45,10 @@ pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = Strin
             "The mask of the layer “{}” does not meet the domain: it asks for nothing.",
             layer.name
         )),
-        (LayerKind::Raster { source, .. } | LayerKind::Band { source, .. }, _) => {
-            of_raster(layer, source, domain, has_frame)
+        (kind, _) => {
+            let source = kind.raster_source();
+            source.and_then(|source| of_raster(layer, source, domain, has_frame))
         }
-        _ => None,
     };
     settings.layers.iter().filter(|layer| layer.visible).filter_map(note)
 }

@@ -14,7 +14,7 @@ const HEADER: &str =
 const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
 
 /// The order of keys. Others follow in the order of their letters.
-const ORDER: [&str; 36] = [
+const ORDER: [&str; 38] = [
     "region",
     "bounds",
     "inside",
@@ -51,6 +51,8 @@ const ORDER: [&str; 36] = [
     "at_zero",
     "slope",
     "between",
+    "positive",
+    "size",
 ];
 
 /// Returns the text of a recipe.

@@ -2,6 +2,7 @@
 
 mod band;
 mod curve;
+mod depth;
 mod distance;
 mod formula;
 mod paint;
@@ -11,8 +12,8 @@ use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 5] =
-    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &band::BAND];
+pub static KINDS: [&LayerKindRow; 6] =
+    [&paint::PAINT, &formula::FORMULA, &raster::RASTER, &distance::DISTANCE, &band::BAND, &depth::DEPTH];
 
 /// Returns the kind of a layer.
 pub fn kind_of(rows: &'static [Row], kind: &LayerKind) -> &'static LayerKindRow {

@@ -1,0 +1,117 @@
+//! The options on the depth of water.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
+
+/// The period of the tide that the moon raises twice a day, in seconds.
+const TIDE: f64 = 44_712.0;
+
+/// Depths of water, and the sizes that they ask for.
+#[derive(Debug, Args)]
+pub struct DepthArguments {
+    /// Depths of water: a grid of heights in metres, for the nodes of files and the options below; may be
+    /// repeated, the first that has a value at a place counts
+    ///
+    /// Files get the depth at each node: the value there, or the mean of the pixels around it where triangles
+    /// are larger than four of them.
+    #[arg(long, value_name = "FILE")]
+    pub depth: Vec<PathBuf>,
+
+    /// Whether the values of --depth are heights, so that water is below 0, or depths [default: up]
+    #[arg(long, value_name = "up|down", requires = "depth")]
+    pub depth_positive: Option<PositiveArgument>,
+
+    /// At least this many triangles in the length of a wave with the period --period
+    ///
+    /// The length follows from the depth, by the dispersion relation. Land asks for nothing.
+    #[arg(long, value_name = "N", requires = "depth", allow_hyphen_values = true)]
+    pub per_wavelength: Option<f64>,
+
+    /// Period of the wave of --per-wavelength, in seconds [default: 44712, the tide]
+    #[arg(long, value_name = "SECONDS", requires = "per_wavelength", allow_hyphen_values = true)]
+    pub period: Option<f64>,
+
+    /// At least this many triangles in the length in which the depth changes by itself, 2π H / slope
+    #[arg(long, value_name = "N", requires = "depth", allow_hyphen_values = true)]
+    pub per_slope: Option<f64>,
+
+    /// Side of the squares over which heights are averaged for --per-slope, in metres [default: none]
+    #[arg(long, value_name = "LENGTH", requires = "per_slope", allow_hyphen_values = true)]
+    pub smoothing: Option<f64>,
+
+    /// Largest Courant number of a wave of 1 m with --time-step: where other options ask for smaller triangles,
+    /// they are as large as this needs
+    #[arg(long, value_name = "C", requires_all = ["depth", "time_step"], allow_hyphen_values = true)]
+    pub max_courant: Option<f64>,
+
+    /// Smallest Courant number of a wave of 1 m with --time-step: no triangle is larger than this allows
+    #[arg(long, value_name = "C", requires_all = ["depth", "time_step"], allow_hyphen_values = true)]
+    pub min_courant: Option<f64>,
+
+    /// Time step of a solver, in seconds, for the Courant numbers
+    #[arg(long, value_name = "SECONDS", requires = "depth", allow_hyphen_values = true)]
+    pub time_step: Option<f64>,
+}
+
+/// The direction in which values grow.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum PositiveArgument {
+    /// Heights.
+    Up,
+    /// Depths.
+    Down,
+}
+
+impl DepthArguments {
+    /// Returns the layers of the options, from the bottom of the stack to its top, each with its option as
+    /// typed. The last file is the lowest.
+    pub fn layers(&self) -> Vec<(String, SavedLayer)> {
+        let rules = [
+            self.per_wavelength.map(|triangles| {
+                let period = Some(self.period.unwrap_or(TIDE));
+                let size = Some(SavedDepthSize::Wavelength);
+                ("--per-wavelength", SavedLayer { size, period, triangles: Some(triangles), ..depths() })
+            }),
+            self.per_slope.map(|triangles| {
+                let (size, smoothing) = (Some(SavedDepthSize::Slope), self.smoothing);
+                ("--per-slope", SavedLayer { size, triangles: Some(triangles), smoothing, ..depths() })
+            }),
+            self.min_courant.map(|number| ("--min-courant", self.courant(number, SavedCombine::Finest))),
+            // A floor counts for all layers below it.
+            self.max_courant.map(|number| ("--max-courant", self.courant(number, SavedCombine::Floor))),
+        ];
+        let files = || self.depth.iter().rev();
+        let of_file = |layer: &SavedLayer, file: &PathBuf| SavedLayer {
+            file: Some(file.clone()),
+            positive: self.depth_positive.map(Into::into),
+            ..layer.clone()
+        };
+        let nodes = files().map(|file| (format!("--depth {}", file.display()), of_file(&depths(), file)));
+        let sizes = rules.iter().flatten();
+        let sizes = sizes.flat_map(|(option, layer)| {
+            files().map(move |file| ((*option).to_owned(), of_file(layer, file)))
+        });
+        nodes.chain(sizes).collect()
+    }
+
+    fn courant(&self, number: f64, combine: SavedCombine) -> SavedLayer {
+        let (size, time_step) = (Some(SavedDepthSize::Courant), self.time_step);
+        SavedLayer { size, time_step, courant: Some(number), combine, ..depths() }
+    }
+}
+
+fn depths() -> SavedLayer {
+    SavedLayer::of_kind(SavedKind::Depth)
+}
+
+impl From<PositiveArgument> for SavedPositive {
+    fn from(typed: PositiveArgument) -> Self {
+        match typed {
+            PositiveArgument::Up => Self::Up,
+            PositiveArgument::Down => Self::Down,
+        }
+    }
+}

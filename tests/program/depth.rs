@@ -1,0 +1,323 @@
+//! Sizes from depths, and depths at nodes, against an evaluation of their own of the formulas.
+
+use std::f64::consts::TAU;
+
+use crate::folder::Folder;
+
+const COLUMNS: usize = 160;
+const ROWS: usize = 100;
+/// Side of a pixel, in metres.
+const PIXEL: f64 = 500.0;
+const G: f64 = 9.81;
+
+/// Heights of a bay with a bank and an island, in metres, by row from the south.
+struct Bay(Vec<Vec<f64>>);
+
+impl Bay {
+    fn new() -> Self {
+        let height = |column: usize, row: usize| {
+            let (x, y) = (column as f64 / COLUMNS as f64, row as f64 / ROWS as f64);
+            let shelf = -5.0 - 900.0 * x * x;
+            let bank = 300.0 * (-60.0 * ((x - 0.7).powi(2) + (y - 0.4).powi(2))).exp();
+            let island = 90.0 * (-250.0 * ((x - 0.3).powi(2) + (y - 0.6).powi(2))).exp();
+            // As a file has it: with three decimals.
+            (1000.0 * (shelf + bank + island + 3.0 * (40.0 * y).sin())).round() / 1000.0
+        };
+        Self((0..ROWS).map(|row| (0..COLUMNS).map(|column| height(column, row)).collect()).collect())
+    }
+
+    /// The text of a grid, in which some pixels have no value.
+    fn grid(&self, has_value: impl Fn(usize, usize) -> bool) -> String {
+        let mut text = format!("ncols {COLUMNS}\nnrows {ROWS}\nxllcorner 0\nyllcorner 0\ncellsize {PIXEL}\n");
+        text += "NODATA_value -32768\n";
+        for (row, heights) in self.0.iter().enumerate().rev() {
+            let shown = |(column, height): (usize, &f64)| match has_value(column, row) {
+                true => height.to_string(),
+                false => "-32768".to_owned(),
+            };
+            text += &heights.iter().enumerate().map(shown).collect::<Vec<_>>().join(" ");
+            text.push('\n');
+        }
+        text
+    }
+
+    fn depth(&self, column: usize, row: usize) -> f64 {
+        -self.0[row][column]
+    }
+
+    /// The slope by the neighbours on both sides, or on one at the edges.
+    fn steepness(&self, column: usize, row: usize) -> f64 {
+        let (west, east) = (column.saturating_sub(1), (column + 1).min(COLUMNS - 1));
+        let (south, north) = (row.saturating_sub(1), (row + 1).min(ROWS - 1));
+        let along_x = (self.depth(east, row) - self.depth(west, row)) / ((east - west) as f64 * PIXEL);
+        let along_y =
+            (self.depth(column, north) - self.depth(column, south)) / ((north - south) as f64 * PIXEL);
+        along_x.hypot(along_y)
+    }
+}
+
+/// The length of a wave, by halving an interval of its wave number.
+fn wavelength(period: f64, depth: f64) -> f64 {
+    let (mut low, mut high) = (1e-12, 1e6);
+    let omega = TAU / period;
+    for _ in 0..200 {
+        let middle = f64::sqrt(low * high);
+        if G * middle * (middle * depth).tanh() < omega * omega { low = middle } else { high = middle }
+    }
+    TAU / low
+}
+
+/// Nodes and triangles of an ADCIRC file, with the depths of the nodes.
+fn fort14(text: &str) -> (Vec<[f64; 3]>, Vec<[usize; 3]>) {
+    let mut lines = text.lines().skip(1);
+    let numbers =
+        |line: &str| -> Vec<f64> { line.split_whitespace().map_while(|word| word.parse().ok()).collect() };
+    let counts = numbers(lines.next().unwrap());
+    let node = |line: &str| [1, 2, 3].map(|n| numbers(line)[n]);
+    let nodes = lines.by_ref().take(counts[1] as usize).map(node).collect();
+    let triangle = |line: &str| [2, 3, 4].map(|n| numbers(line)[n] as usize - 1);
+    let triangles = lines.take(counts[0] as usize).map(triangle).collect();
+    (nodes, triangles)
+}
+
+/// Returns the pixels whose centres are in a triangle, with the weights of its corners there.
+fn pixels_in(corners: [[f64; 3]; 3]) -> Vec<(usize, usize, [f64; 3])> {
+    let range = |axis: usize, most: usize| {
+        let least = corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+        let greatest = corners.iter().map(|corner| corner[axis]).fold(0.0, f64::max);
+        let bound = |at: f64| ((at / PIXEL) as usize).min(most - 1);
+        bound(least)..bound(greatest) + 1
+    };
+    let cross =
+        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let [a, b, c] = corners.map(|corner| [corner[0], corner[1]]);
+    let mut found = Vec::new();
+    for row in range(1, ROWS) {
+        for column in range(0, COLUMNS) {
+            let at = [(column as f64 + 0.5) * PIXEL, (row as f64 + 0.5) * PIXEL];
+            let whole = cross(a, b, c);
+            let weights = [cross(b, c, at), cross(c, a, at), cross(a, b, at)].map(|part| part / whole);
+            if weights.iter().all(|&weight| weight >= 0.0) {
+                found.push((column, row, weights));
+            }
+        }
+    }
+    found
+}
+
+const DOMAIN: &str = "--domain 0,0,80000,50000 --spacing 10000 --h-min 300";
+
+/// What a size of every pixel asks for.
+type Asked = Box<dyn Fn(&Bay, usize, usize) -> f64>;
+
+#[test]
+fn triangles_are_as_small_as_the_formulas_ask_for_and_no_smaller() {
+    let folder = Folder::new("depth-sizes");
+    let bay = Bay::new();
+    folder.file("bay.asc", bay.grid(|_, _| true));
+    let wet = |depth: f64, size: f64| if depth > 0.0 { size } else { f64::INFINITY };
+    let cases: [(&str, Asked); 3] = [
+        (
+            "--per-wavelength 12 --period 300",
+            Box::new(move |bay, x, y| {
+                let depth = bay.depth(x, y);
+                wet(depth, wavelength(300.0, depth.max(1.0)) / 12.0)
+            }),
+        ),
+        (
+            "--per-slope 8",
+            Box::new(move |bay, x, y| {
+                let depth = bay.depth(x, y);
+                wet(depth, TAU / 8.0 * depth.max(1.0) / bay.steepness(x, y))
+            }),
+        ),
+        (
+            "--min-courant 0.4 --time-step 40",
+            Box::new(move |bay, x, y| {
+                let depth = bay.depth(x, y).max(1.0);
+                wet(bay.depth(x, y), ((G * depth).sqrt() + (G / depth).sqrt()) * 40.0 / 0.4)
+            }),
+        ),
+    ];
+    for (options, asked) in cases {
+        let ran = folder.run(format!("mesh {DOMAIN} --depth bay.asc {options} -o m.14"));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let (nodes, triangles) = fort14(&folder.read("m.14"));
+        let (mut checked, mut slack) = (0, Vec::new());
+        for triangle in &triangles {
+            let corners = triangle.map(|node| nodes[node]);
+            let side =
+                |a: usize, b: usize| (corners[a][0] - corners[b][0]).hypot(corners[a][1] - corners[b][1]);
+            let diameter = side(0, 1).max(side(1, 2)).max(side(2, 0));
+            let asked = pixels_in(corners).into_iter().map(|(x, y, _)| asked(&bay, x, y).max(300.0));
+            let Some(least) = asked.reduce(f64::min) else { continue };
+            // The pixels hold single precision.
+            assert!(diameter <= least * (1.0 + 1e-6), "{options}: {diameter} m of {least} m at {corners:?}");
+            checked += 1;
+            if least < 10_000.0 {
+                slack.push(diameter / least);
+            }
+        }
+        slack.sort_by(f64::total_cmp);
+        assert!(checked > 500 && slack.len() > 200, "{options}: {checked}, {}", slack.len());
+        // A triangle is larger than half of its target unless it was forced, or a pixel beside it decides.
+        let median = slack[slack.len() / 2];
+        assert!(median > 0.5, "{options}: {median} of the target in the median");
+    }
+}
+
+#[test]
+fn the_largest_courant_number_is_a_floor_for_all_other_sizes() {
+    let folder = Folder::new("depth-floor");
+    let bay = Bay::new();
+    folder.file("bay.asc", bay.grid(|_, _| true));
+    let mesh =
+        |options: &str| folder.json("mesh", format!("{DOMAIN} --depth bay.asc --target 800 {options}"));
+    let (plain, floored) = (mesh(""), mesh("--max-courant 0.5 --time-step 20"));
+    let triangles = |summary: &serde_json::Value| summary["triangles"].as_u64().unwrap();
+    assert!(triangles(&floored) < triangles(&plain) / 2, "{floored}");
+    for (options, sentence) in [
+        ("--max-courant 0.5", "--time-step <SECONDS>"),
+        ("--max-courant 0 --time-step 2", "--max-courant"),
+        ("--per-wavelength 5 --period -1", "--per-wavelength"),
+    ] {
+        let ran = folder.run(format!("mesh {DOMAIN} --depth bay.asc {options}"));
+        assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+}
+
+#[test]
+fn nodes_have_the_depths_of_the_grid_and_the_differences_are_those_that_are_printed() {
+    let folder = Folder::new("depth-nodes");
+    let bay = Bay::new();
+    let is_known = |column: usize, row: usize| column >= 6 || row >= 9;
+    folder.file("bay.asc", bay.grid(is_known));
+    for target in [1200.0, 7000.0] {
+        let command = format!("{DOMAIN} --depth bay.asc --target {target} -o m.14 -o m.msh");
+        let summary = folder.json("mesh", command);
+        let (nodes, triangles) = fort14(&folder.read("m.14"));
+        let found = &summary["depth"];
+        let mut sides = vec![(0.0, 0.0); nodes.len()];
+        for triangle in &triangles {
+            for (a, b) in [(0, 1), (1, 2), (2, 0)] {
+                let [from, to] = [triangle[a], triangle[b]];
+                let length = (nodes[from][0] - nodes[to][0]).hypot(nodes[from][1] - nodes[to][1]);
+                [from, to].into_iter().for_each(|n| sides[n] = (sides[n].0 + length, sides[n].1 + 1.0));
+            }
+        }
+        let mut filled = 0;
+        for (&[x, y, depth], (sum, count)) in nodes.iter().zip(&sides) {
+            let pixel = |at: f64, most: usize| ((at / PIXEL) as usize).min(most - 1);
+            let (column, row) = (pixel(x, COLUMNS), pixel(y, ROWS));
+            if !is_known(column, row) {
+                filled += 1;
+                continue;
+            }
+            let side = sum / count;
+            let expected = if side < 4.0 * PIXEL {
+                linear(&bay, [x, y], is_known)
+            } else {
+                mean(&bay, [x, y], 0.5 * side, is_known)
+            };
+            assert!((depth - expected).abs() < 1e-3, "{depth} m for {expected} m at {x}, {y}");
+        }
+        assert!(filled > 0 && found["filled_nodes"] == filled, "{filled}: {found}");
+        let (mut largest, mut squares, mut sum, mut count) = (0.0_f64, 0.0, 0.0, 0.0);
+        let mut seen = std::collections::BTreeSet::new();
+        for triangle in &triangles {
+            let corners = triangle.map(|node| nodes[node]);
+            for (x, y, weights) in pixels_in(corners) {
+                if !is_known(x, y) || !seen.insert((x, y)) {
+                    continue;
+                }
+                let mesh: f64 = (0..3).map(|n| weights[n] * corners[n][2]).sum();
+                let off = mesh - bay.depth(x, y);
+                (largest, squares, sum, count) =
+                    (largest.max(off.abs()), squares + off * off, sum + off, count + 1.0);
+            }
+        }
+        assert_eq!(found["pixels"].as_f64(), Some(count));
+        let close = |key: &str, expected: f64| {
+            let value = found[key].as_f64().unwrap();
+            assert!((value - expected).abs() < 1e-3, "{key}: {value} for {expected}");
+        };
+        close("largest_error", largest);
+        close("rms_error", f64::sqrt(squares / count));
+        close("mean_error", sum / count);
+    }
+    assert!(folder.read("m.msh").contains("\"depth\""));
+}
+
+/// The value between the centres of pixels.
+fn linear(bay: &Bay, [x, y]: [f64; 2], is_known: impl Fn(usize, usize) -> bool) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    let from = [x / PIXEL - 0.5, y / PIXEL - 0.5];
+    for (dx, dy) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let [column, row] = [from[0].floor() + dx, from[1].floor() + dy];
+        let weight = (1.0 - (from[0] - column).abs()) * (1.0 - (from[1] - row).abs());
+        let is_within = column >= 0.0 && row >= 0.0 && column < COLUMNS as f64 && row < ROWS as f64;
+        if is_within && is_known(column as usize, row as usize) {
+            sum += weight * bay.depth(column as usize, row as usize);
+            weights += weight;
+        }
+    }
+    sum / weights
+}
+
+/// The mean of the pixels whose centres are in a square.
+fn mean(bay: &Bay, [x, y]: [f64; 2], half: f64, is_known: impl Fn(usize, usize) -> bool) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for row in 0..ROWS {
+        for column in 0..COLUMNS {
+            let center = [(column as f64 + 0.5) * PIXEL, (row as f64 + 0.5) * PIXEL];
+            let is_within = (center[0] - x).abs() <= half && (center[1] - y).abs() <= half;
+            if is_within && is_known(column, row) {
+                sum += bay.depth(column, row);
+                count += 1.0;
+            }
+        }
+    }
+    sum / count
+}
+
+#[test]
+fn the_first_grid_with_a_value_counts_and_nodes_without_any_are_refused() {
+    let folder = Folder::new("depth-stack");
+    let flat = |depth: f64, west: f64, size: usize| {
+        let header = format!("ncols {size}\nnrows {size}\nxllcorner {west}\nyllcorner 0\ncellsize 100\n");
+        header + &format!("{depth} ").repeat(size * size) + "\n"
+    };
+    folder.file("survey.asc", flat(-3.0, 1000.0, 10));
+    folder.file("chart.asc", flat(-50.0, 0.0, 40));
+    folder.file("down.asc", flat(50.0, 0.0, 40));
+    let mesh = "mesh --domain 0,0,4000,4000 --spacing 500 -o m.14";
+    assert_eq!(folder.run(format!("{mesh} --depth survey.asc --depth chart.asc")).status, 0);
+    let (nodes, _) = fort14(&folder.read("m.14"));
+    for [x, y, depth] in nodes {
+        let is_surveyed = (1000.0..=2000.0).contains(&x) && y <= 1000.0;
+        assert_eq!(depth, if is_surveyed { 3.0 } else { 50.0 }, "{x}, {y}");
+    }
+    assert_eq!(folder.run(format!("{mesh} --depth down.asc --depth-positive down")).status, 0);
+    assert!(fort14(&folder.read("m.14")).0.iter().all(|node| node[2] == 50.0));
+    let far = folder.run(format!("{} --depth survey.asc", mesh.replace("4000,4000", "40000,40000")));
+    assert!(far.status != 0 && far.err.contains("nodes have no depth"), "{}", far.err);
+}
+
+#[test]
+fn sizes_in_degrees_are_refused() {
+    let folder = Folder::new("depth-degrees");
+    folder.file("sea.geojson", r#"{"type":"Polygon","coordinates":[[[0,50],[2,50],[2,51],[0,51],[0,50]]]}"#);
+    let header = "ncols 20\nnrows 10\nxllcorner 0\nyllcorner 50\ncellsize 0.1\n";
+    folder.file("depth.asc", header.to_owned() + &"-40 ".repeat(200));
+    let mesh = "mesh --region sea.geojson --depth depth.asc --per-wavelength 20";
+    let refused = folder.run(mesh);
+    assert!(
+        refused.status != 0 && refused.err.contains("lengths of the domain are in degrees"),
+        "{}",
+        refused.err
+    );
+    let projected = format!("{mesh} --projection auto --spacing 20000 -o m.14");
+    assert_eq!(folder.run(projected).status, 0);
+    let (nodes, _) = fort14(&folder.read("m.14"));
+    assert!(nodes.iter().all(|node| (node[2] - 40.0).abs() < 1e-9 && node[0] < 2.000_001));
+}
