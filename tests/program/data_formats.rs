@@ -35,6 +35,35 @@ fn tiff(is_placed: bool) -> Vec<u8> {
     bytes
 }
 
+/// Returns a classic NetCDF file of the values, the top row first, and of another grid `b`.
+fn netcdf() -> Vec<u8> {
+    let words = |list: &[u32]| list.iter().flat_map(|number| number.to_be_bytes()).collect::<Vec<u8>>();
+    let name = |name: u8| [vec![0, 0, 0, 1], vec![name, 0, 0, 0]].concat();
+    let side = |axis: u8| [name(axis), words(&[2])].concat();
+    let header =
+        [b"CDF\x01\0\0\0\0".to_vec(), words(&[10, 2]), side(b'y'), side(b'x'), words(&[0, 0, 11, 4])];
+    let mut bytes = header.concat();
+    let fill =
+        [words(&[12, 1, 10]), b"_FillValue\0\0".to_vec(), words(&[5, 1]), (-9999f32).to_be_bytes().to_vec()];
+    let (fill, none) = (fill.concat(), words(&[0, 0]));
+    let mut begin = 300;
+    for (axis, dimensions, attributes, [kind, size]) in [
+        (b'y', &[1, 0][..], &none, [6, 16]),
+        (b'x', &[1, 1], &none, [6, 16]),
+        (b'z', &[2, 0, 1], &fill, [5, 16]),
+        (b'b', &[2, 0, 1], &none, [5, 16]),
+    ] {
+        bytes.extend(
+            [name(axis), words(dimensions), attributes.clone(), words(&[kind, size, begin])].concat(),
+        );
+        begin += size;
+    }
+    bytes.resize(300, 0);
+    bytes.extend([1.5f64, 0.5, 4.5, 5.5].iter().flat_map(|number| number.to_be_bytes()));
+    bytes.extend(VALUES.iter().chain(&[7.0; 4]).flat_map(|value| value.to_be_bytes()));
+    bytes
+}
+
 #[test]
 fn a_grid_is_the_same_in_every_format() {
     let folder = Folder::new("formats-grids");
@@ -49,11 +78,13 @@ fn a_grid_is_the_same_in_every_format() {
         "a.npy",
         [b"\x93NUMPY\x01\0", &[header.len() as u8, 0][..], header.as_bytes(), &values].concat(),
     );
+    folder.file("a.nc", netcdf());
+    folder.file("b.grd", netcdf());
     let mesh = |options: &str| folder.json("mesh", format!("--spacing 1 --target-raster {options}"));
     let expected = mesh("a.asc");
     assert_eq!(expected["max_level"], 7);
     // An array says no place, and covers the domain.
-    for options in ["a.tif", "beside.tiff", "a.npy --domain 4,0,6,2"] {
+    for options in ["a.tif", "beside.tiff", "a.nc", "a.nc#z", "b.grd", "a.npy --domain 4,0,6,2"] {
         assert_eq!(mesh(options)["hash"], expected["hash"], "{options}");
     }
     folder.file("nowhere.tif", tiff(false));
@@ -64,7 +95,7 @@ fn a_grid_is_the_same_in_every_format() {
         ran.err
     );
     // A recipe may say the place of any raster.
-    for file in ["nowhere.tif", "a.npy"] {
+    for file in ["nowhere.tif", "a.npy", "a.nc#z"] {
         let layer = format!("kind = \"raster\"\nfile = \"{file}\"\nas = \"diameter\"\nbounds = [4, 0, 6, 2]");
         folder.file(
             "r.toml",

@@ -2,8 +2,10 @@
 #![cfg(target_os = "linux")]
 
 use std::fs;
+use std::io::Write;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::folder::Folder;
 use meshbrush_mesh::mesh::MemoryLimit;
@@ -107,6 +109,51 @@ fn is_kept(folder: &Folder, field: &str, base: usize) {
     let (status, peak, _) = peak_of(folder, &limited);
     assert_eq!(status, 1, "{limited}");
     assert!(peak <= base + budget + ROUNDING, "{limited}: {peak}, {base} without");
+}
+
+/// Writes a classic NetCDF file as large as the grid of GEBCO, with 43,200 × 86,400 heights of 0. They take no
+/// space on the disk.
+fn write_globe(file: &Path) {
+    let words = |list: &[u32]| list.iter().flat_map(|number| number.to_be_bytes()).collect::<Vec<u8>>();
+    let (rows, columns) = (43_200u32, 86_400u32);
+    let mut bytes = [b"CDF\x01\0\0\0\0".to_vec(), words(&[10, 2])].concat();
+    for (name, length) in [(b"lat\0", rows), (b"lon\0", columns)] {
+        bytes.extend([words(&[3]), name.to_vec(), words(&[length])].concat());
+    }
+    bytes.extend(words(&[0, 0, 11, 3]));
+    let (start, of_lat) = (300, 8 * rows);
+    for (name, dimension, begin) in [(b"lat\0", 0, start), (b"lon\0", 1, start + of_lat)] {
+        bytes.extend([words(&[3]), name.to_vec(), words(&[1, dimension, 0, 0, 6, 0, begin])].concat());
+    }
+    let begin = start + of_lat + 8 * columns;
+    bytes.extend([words(&[1]), b"z\0\0\0".to_vec(), words(&[2, 0, 1, 0, 0, 3, 0, begin])].concat());
+    bytes.resize(start as usize, 0);
+    for (count, low) in [(rows, -90.0), (columns, -180.0)] {
+        let center = |n: u32| low + (f64::from(n) + 0.5) / 240.0;
+        bytes.extend((0..count).flat_map(|n| center(n).to_be_bytes()));
+    }
+    let mut written = fs::File::create(file).unwrap();
+    written.write_all(&bytes).unwrap();
+    written.set_len(u64::from(begin) + 2 * u64::from(rows) * u64::from(columns)).unwrap();
+}
+
+#[test]
+fn only_the_domain_of_a_grid_of_the_whole_earth_is_read() {
+    let folder = Folder::new("globe");
+    write_globe(&folder.0.join("globe.nc"));
+    let recipe = "[domain]\nbounds = [10, 53, 30, 66]\n[mesh]\nspacing = 2\n[[layer]]\nkind = \"band\"\nfile = \"globe.nc\"\n\
+                  between = [-20, 0]\ndiameter = 0.5\n";
+    folder.file("globe.toml", recipe);
+    let began = Instant::now();
+    let (status, peak, triangles) = peak_of(&folder, "globe.toml");
+    let (seconds, megabytes) = (began.elapsed().as_secs_f64(), peak / 1_000_000);
+    if crate::runs::prints_table() {
+        eprintln!("20° × 13° of 43,200 × 86,400 pixels: {seconds:.2} s, {megabytes} MB at the peak");
+    }
+    // 15 million pixels of four bytes, their ranges, and a block of the file.
+    assert!(status == 0 && triangles > 1000 && megabytes < 300, "{triangles} triangles, {megabytes} MB");
+    let even = folder.json("mesh", "--domain 10,53,30,66 --spacing 2 --target 0.5");
+    assert_eq!(even["triangles"], triangles);
 }
 
 #[test]

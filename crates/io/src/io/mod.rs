@@ -44,7 +44,8 @@ pub mod layers;
 pub mod located;
 pub mod msh;
 pub mod msh2;
-mod netcdf;
+pub mod netcdf;
+mod netcdf_writer;
 pub mod node;
 pub mod npy;
 pub mod obj;
@@ -118,7 +119,8 @@ static MESH_FORMATS: [&FormatSpec; 15] = [
 ];
 
 /// The formats of rasters. A new one is a module and an entry here.
-static RASTER_FORMATS: [&RasterFormatSpec; 4] = [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &npy::RASTER];
+static RASTER_FORMATS: [&RasterFormatSpec; 5] =
+    [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &netcdf::RASTER, &npy::RASTER];
 
 /// The formats of shapes. A new one is a module and an entry here.
 static SHAPE_FORMATS: [&ShapeFormatSpec; 2] = [&geojson::FORMAT, &shp::FORMAT];

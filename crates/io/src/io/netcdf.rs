@@ -1,271 +1,231 @@
-//! NetCDF in its classic form: a header that describes dimensions, attributes and variables, then the values
-//! of one variable after the other, big-endian. There is no record dimension.
+//! `.nc`, `.grd`: NetCDF, a raster with its own placement, in the classic forms and in NetCDF-4.
 //!
-//! CDF-1 has 32-bit offsets. A file whose end they cannot reach is CDF-2, with 64-bit offsets. In both, a
-//! variable has less than 4 GiB.
+//! A grid is a variable over two coordinate variables, which are the centres of its pixels. Only the part
+//! that a window needs is read, so a grid of the whole Earth opens as fast as a small one. Values are
+//! unpacked (`scale_factor`, `add_offset`), and those that mean nothing (`_FillValue`, `missing_value`,
+//! beyond `valid_range`, what NetCDF puts where nothing was written) become NaN.
 
-use std::io::{self, Write};
-
-use super::{Meter, write_rows};
-use meshbrush_mesh::text::Grouped;
-
-/// The value of an attribute.
-#[derive(Clone, Debug)]
-pub(super) enum AttributeValue {
-    /// Text in UTF-8.
-    Text(String),
-    /// Whole numbers.
-    Ints(Vec<i32>),
-    /// Real numbers.
-    Reals(Vec<f64>),
-}
-
-impl From<&str> for AttributeValue {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
-
-impl From<i32> for AttributeValue {
-    fn from(value: i32) -> Self {
-        Self::Ints(vec![value])
-    }
-}
-
-impl From<f64> for AttributeValue {
-    fn from(value: f64) -> Self {
-        Self::Reals(vec![value])
-    }
-}
-
-/// Names and values of attributes.
-pub(super) type Attributes = Vec<(&'static str, AttributeValue)>;
-
-/// The type of the values of a variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Whole numbers of 4 bytes.
-    Int,
-    /// Real numbers of 8 bytes.
-    Double,
-}
-
-impl Kind {
-    fn bytes(self) -> u64 {
-        match self {
-            Self::Int => 4,
-            Self::Double => 8,
-        }
-    }
-}
-
-/// The format's numbers for types and lists.
-const CHAR: u32 = 2;
-const INT: u32 = 4;
-const DOUBLE: u32 = 6;
-const DIMENSIONS: u32 = 10;
-const VARIABLES: u32 = 11;
-const ATTRIBUTES: u32 = 12;
-
-/// Appends a row of values, by its number, to some bytes.
-pub(super) type WriteRow<'a> = Box<dyn Fn(&mut Vec<u8>, usize) -> io::Result<()> + Sync + 'a>;
-
-/// A variable, and a function that makes its values.
-pub(super) struct Variable<'a> {
-    /// Its name; no other variable has it.
-    pub(super) name: String,
-    /// The type of its values.
-    pub(super) kind: Kind,
-    /// The numbers of its dimensions in [`Dataset::dimensions`]; none for a single value.
-    pub(super) dimensions: Vec<usize>,
-    /// Its attributes.
-    pub(super) attributes: Attributes,
-    /// The number of rows that `write_row` makes; together they are all values, big-endian.
-    pub(super) rows: usize,
-    /// Makes a row.
-    pub(super) write_row: WriteRow<'a>,
-}
-
-/// A file.
-pub(super) struct Dataset<'a> {
-    /// Names and lengths of dimensions.
-    pub(super) dimensions: Vec<(&'static str, usize)>,
-    /// Attributes of the whole file.
-    pub(super) attributes: Attributes,
-    /// The variables, in the order of the file.
-    pub(super) variables: Vec<Variable<'a>>,
-}
-
-/// Most values along a dimension.
-const LONGEST_DIMENSION: usize = i32::MAX as usize;
-/// Most bytes of a variable: four less than 4 GiB.
-const LARGEST_VARIABLE: u64 = u32::MAX as u64 - 3;
-
-impl Dataset<'_> {
-    /// Writes the file, and tells the meter its length.
-    ///
-    /// # Errors
-    /// Fails with the errors of `out`, when the work was cancelled, and where a dimension or a variable is
-    /// too large for the format.
-    pub(super) fn write(&self, out: &mut impl Write, meter: &Meter) -> io::Result<()> {
-        self.check_sizes()?;
-        let header = self.header();
-        meter.expect(
-            header.len() as u64 + self.variables.iter().map(|variable| self.bytes(variable)).sum::<u64>(),
-        );
-        let mut out = meter.count(out);
-        out.write_all(&header)?;
-        self.variables
-            .iter()
-            .try_for_each(|variable| write_rows(&mut out, variable.rows, &variable.write_row))
-    }
-
-    fn check_sizes(&self) -> io::Result<()> {
-        let help = "choose a larger diameter, or another format, as .vtu";
-        if let Some((name, length)) = self.dimensions.iter().find(|(_, length)| *length > LONGEST_DIMENSION) {
-            let (length, most) = (Grouped(*length), Grouped(LONGEST_DIMENSION));
-            let problem =
-                format!("the dimension {name} has {length} values, and NetCDF holds {most} at most");
-            return Err(io::Error::other(format!("{problem}; {help}")));
-        }
-        if let Some(variable) = self.variables.iter().find(|variable| self.bytes(variable) > LARGEST_VARIABLE)
-        {
-            let (name, bytes) = (&variable.name, Grouped(self.bytes(variable) as usize));
-            let problem = format!("the variable {name} has {bytes} bytes, and NetCDF holds less than 4 GiB");
-            return Err(io::Error::other(format!("{problem}; {help}")));
-        }
-        Ok(())
-    }
-
-    /// Returns the bytes of the values of a variable, a multiple of four.
-    fn bytes(&self, variable: &Variable) -> u64 {
-        let counts = variable.dimensions.iter().map(|&dimension| self.dimensions[dimension].1 as u64);
-        variable.kind.bytes() * counts.product::<u64>()
-    }
-
-    /// Returns the header, with offsets as long as the file needs.
-    fn header(&self) -> Vec<u8> {
-        let length = self.header_with(false, 0).len() as u64;
-        let all: u64 = self.variables.iter().map(|variable| self.bytes(variable)).sum();
-        let is_long = length + all > i32::MAX as u64;
-        let length = self.header_with(is_long, 0).len() as u64;
-        self.header_with(is_long, length)
-    }
-
-    /// Returns the header for values that begin at an offset.
-    fn header_with(&self, is_long: bool, start: u64) -> Vec<u8> {
-        let mut header = vec![b'C', b'D', b'F', if is_long { 2 } else { 1 }];
-        put(&mut header, 0); // records
-        put_list(&mut header, DIMENSIONS, self.dimensions.len());
-        for (name, length) in &self.dimensions {
-            put_name(&mut header, name);
-            put(&mut header, *length as u32);
-        }
-        put_attributes(&mut header, &self.attributes);
-        put_list(&mut header, VARIABLES, self.variables.len());
-        let mut offset = start;
-        for variable in &self.variables {
-            put_name(&mut header, &variable.name);
-            put(&mut header, variable.dimensions.len() as u32);
-            variable.dimensions.iter().for_each(|&dimension| put(&mut header, dimension as u32));
-            put_attributes(&mut header, &variable.attributes);
-            put(&mut header, if variable.kind == Kind::Int { INT } else { DOUBLE });
-            put(&mut header, self.bytes(variable) as u32);
-            match is_long {
-                true => header.extend(offset.to_be_bytes()),
-                false => put(&mut header, offset as u32),
-            }
-            offset += self.bytes(variable);
-        }
-        header
-    }
-}
-
-fn put(header: &mut Vec<u8>, value: u32) {
-    header.extend(value.to_be_bytes());
-}
-
-/// Begins a list; an empty one has no number of its kind.
-fn put_list(header: &mut Vec<u8>, kind: u32, count: usize) {
-    put(header, if count == 0 { 0 } else { kind });
-    put(header, count as u32);
-}
-
-/// Text with its length, padded to a multiple of four bytes.
-fn put_name(header: &mut Vec<u8>, name: &str) {
-    put(header, name.len() as u32);
-    header.extend(name.as_bytes());
-    header.resize(header.len().next_multiple_of(4), 0);
-}
-
-fn put_attributes(header: &mut Vec<u8>, attributes: &Attributes) {
-    put_list(header, ATTRIBUTES, attributes.len());
-    for (name, value) in attributes {
-        put_name(header, name);
-        match value {
-            AttributeValue::Text(text) => {
-                put(header, CHAR);
-                put_name(header, text);
-            }
-            AttributeValue::Ints(values) => {
-                put(header, INT);
-                put(header, values.len() as u32);
-                values.iter().for_each(|value| header.extend(value.to_be_bytes()));
-            }
-            AttributeValue::Reals(values) => {
-                put(header, DOUBLE);
-                put(header, values.len() as u32);
-                values.iter().for_each(|value| header.extend(value.to_be_bytes()));
-            }
-        }
-    }
-}
-
+mod axis;
+mod classic;
+mod contents;
+mod grid;
+mod hdf;
+mod packing;
 #[cfg(test)]
-mod tests {
-    use super::*;
+mod tests;
+mod window;
 
-    /// Returns a file of two variables along one dimension. None of its values is made here.
-    fn dataset(length: usize) -> Dataset<'static> {
-        let variable = |name: &str, kind| Variable {
-            name: name.into(),
-            kind,
-            dimensions: vec![0],
-            attributes: vec![("units", "m".into()), ("range", AttributeValue::Reals(vec![0.0, 1.0]))],
-            rows: length,
-            write_row: Box::new(|_, _| unreachable!()),
-        };
-        let variables = vec![variable("a", Kind::Double), variable("b", Kind::Int)];
-        Dataset { dimensions: vec![("n", length)], attributes: vec![("three", 3.into())], variables }
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use glam::{DVec2, dvec2};
+
+use super::coordinate_system::CoordinateSystem;
+use super::error::PlacedFlaw;
+use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster};
+use contents::{Sample, Source};
+use grid::Grid;
+use meshbrush_core::raster::{LONGEST_SIDE, MOST_PIXELS, Raster, is_raster_size};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{Grouped, Number};
+use packing::Packing;
+use window::Span;
+
+/// The format, for the list of all formats of rasters.
+pub static RASTER: RasterFormatSpec =
+    RasterFormatSpec { endings: &["nc", "grd", "nc4", "cdf"], read: ReadRaster::Grid(read_grid) };
+
+/// The first bytes of an HDF5 file.
+const HDF5_MAGIC: &[u8; 4] = b"\x89HDF";
+/// Samples that are read at once, or one row where it has more.
+const BLOCK: u64 = 1 << 22;
+
+/// What follows the name of a file before the name of a variable in it, as in `FILE.nc#VARIABLE`.
+const BEFORE_VARIABLE: char = '#';
+
+/// Reads a grid, or the part of it that is wanted, with one pixel more on each side. Longitudes repeat after
+/// 360 degrees: the raster lies where the window is. The meter counts bytes of samples. After the path of the
+/// file, `#` and the name of a variable may follow.
+///
+/// # Errors
+/// Fails when the file cannot be read, is not NetCDF, is cut off, has no grid or several among which none has
+/// a well-known name, has coordinates that are not evenly spaced, has no pixel in the window, too many pixels
+/// for a raster, or a value beyond single precision; and when the work was cancelled.
+pub fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
+    let (file, variable) = file_and_variable(path);
+    let read = || -> Result<FileGrid, PlacedFlaw> {
+        let source = File::open(&file)?;
+        Ok(decode(source, variable.as_deref(), place, meter)?)
+    };
+    let grid = read().map_err(|flaw| flaw.in_file(path))?;
+    Ok(FileGrid { system: grid.system.or_else(|| CoordinateSystem::beside(&file)), ..grid })
+}
+
+/// Returns the file that a path means, and the variable in it that follows its name, as in `a.nc#depth`.
+pub(super) fn file_and_variable(path: &Path) -> (PathBuf, Option<String>) {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let named = name.rsplit_once(BEFORE_VARIABLE).filter(|_| !path.exists()).and_then(|(file, variable)| {
+        let ending = Path::new(file).extension()?;
+        let is_known = RASTER.endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
+        is_known.then(|| (path.with_file_name(file), Some(variable.to_owned())))
+    });
+    named.unwrap_or_else(|| (path.to_owned(), None))
+}
+
+/// Reads as [`read_grid`] does, from any source of bytes; the variable with a name, if there is one.
+///
+/// # Errors
+/// Fails as [`read_grid`] does.
+pub fn decode(
+    source: impl Read + Seek + Send + 'static,
+    name: Option<&str>,
+    place: &GridPlace,
+    meter: &Meter,
+) -> Result<FileGrid, Flaw> {
+    meter.check()?;
+    let mut source = open(source)?;
+    let grid = Grid::choose(source.variables(), name)?;
+    let system = grid.system(source.variables());
+    let window = place.window.filter(|_| place.over.is_none());
+    let spans = spans(&mut *source, &grid, window.map(|window| grid.area(&window)))?;
+    let values = values(&mut *source, &grid, &spans, meter)?;
+    let bounds = place.over.unwrap_or_else(|| Rect::new(corner(&spans, 0), corner(&spans, 1)));
+    if !bounds.is_proper() {
+        let problem = "its pixels are too small for their distance from zero";
+        return Err(Flaw::Syntax(format!("{problem}: they cover no rectangle.")));
     }
+    Ok(FileGrid { raster: Raster::from_values(bounds, size(&spans), values), system })
+}
 
-    #[test]
-    fn a_file_beyond_2_gib_has_64_bit_offsets() {
-        let short = dataset(1000).header();
-        assert_eq!(&short[..4], b"CDF\x01");
-        let begins_at = (short.len() as u32 + 8000).to_be_bytes();
-        assert_eq!(
-            (&short[short.len() - 8..short.len() - 4], &short[short.len() - 4..]),
-            (&4000_u32.to_be_bytes()[..], &begins_at[..])
-        );
-        let last = (i32::MAX as usize - short.len()) / 12;
-        assert_eq!(dataset(last).header()[3], 1);
-        let long = dataset(last + 1).header();
-        assert_eq!((long[3], long.len()), (2, short.len() + 8));
-        let offset = u64::from_be_bytes(long[long.len() - 8..].try_into().unwrap());
-        assert_eq!(offset, long.len() as u64 + 8 * (last as u64 + 1));
+fn corner([x, y]: &[Span; 2], end: usize) -> DVec2 {
+    dvec2(x.bounds[end], y.bounds[end])
+}
+
+fn open(mut source: impl Read + Seek + Send + 'static) -> Result<Box<dyn Source>, Flaw> {
+    let mut start = Vec::new();
+    source.by_ref().take(HDF5_MAGIC.len() as u64).read_to_end(&mut start)?;
+    source.seek(SeekFrom::Start(0))?;
+    if start == HDF5_MAGIC {
+        Ok(Box::new(hdf::Hdf::open(source)?))
+    } else if start.starts_with(classic::MAGIC) {
+        Ok(Box::new(classic::Classic::open(source)?))
+    } else {
+        let problem = "this is not a NetCDF file: it begins with other bytes";
+        Err(Flaw::Syntax(format!("{problem}. Export it again as NetCDF.")))
     }
+}
 
-    #[test]
-    fn what_the_format_cannot_hold_is_refused_before_anything_is_written() {
-        for (length, problem) in [
-            (536_870_912, "the variable a has 4,294,967,296 bytes, and NetCDF holds less than 4 GiB"),
-            (1 << 31, "the dimension n has 2,147,483,648 values, and NetCDF holds 2,147,483,647 at most"),
-        ] {
-            let mut out = Vec::new();
-            let error = dataset(length).write(&mut out, &Meter::default()).unwrap_err().to_string();
-            assert!(error.starts_with(problem) && out.is_empty(), "{error}");
+/// Returns the pixels that are read along x and y: not more than a raster has.
+fn spans(source: &mut dyn Source, grid: &Grid, window: Option<Rect>) -> Result<[Span; 2], Flaw> {
+    let x = axis::read(source, grid.x.coordinates)?;
+    let y = axis::read(source, grid.y.coordinates)?;
+    let spans = match window {
+        None => [x.whole(), y.whole()],
+        Some(Rect { min, max }) => {
+            let most = LONGEST_SIDE.into();
+            let along_x = x.within([min.x, max.x], grid.is_geographic(), most);
+            let along_y = y.within([min.y, max.y], false, most);
+            match (along_x, along_y) {
+                (Some(along_x), Some(along_y)) => [along_x, along_y],
+                _ => return Err(apart(x.bounds(), y.bounds(), [min.x, max.x, min.y, max.y])),
+            }
         }
-        assert!(dataset(536_870_911).check_sizes().is_ok());
+    };
+    if is_raster_size(size(&spans)) { Ok(spans) } else { Err(too_large(&spans, window.is_some())) }
+}
+
+fn apart(x: [f64; 2], y: [f64; 2], window: [f64; 4]) -> Flaw {
+    let ([west, east], [south, north]) = (x.map(Number), y.map(Number));
+    let [left, right, low, high] = window.map(Number);
+    Flaw::Syntax(format!(
+        "it covers nothing of the domain: it lies from {west} to {east} in x and from {south} to {north} in y, and the \
+         domain from {left} to {right} and from {low} to {high}. Use a file that covers the domain."
+    ))
+}
+
+fn size(spans: &[Span; 2]) -> [u32; 2] {
+    [&spans[0], &spans[1]].map(|span| u32::try_from(span.count).unwrap_or(u32::MAX))
+}
+
+fn too_large([x, y]: &[Span; 2], is_window: bool) -> Flaw {
+    let [columns, rows] = [x.count, y.count].map(|count| Grouped(count as usize));
+    let (longest, most) = (Grouped(LONGEST_SIDE as usize), Grouped(MOST_PIXELS as usize));
+    let (what, help) = match is_window {
+        true => ("of the grid in the domain", "Use a coarser grid, or a smaller domain"),
+        false => {
+            ("of the grid", "Choose a domain first, so that only the part in it is read, or cut the grid")
+        }
+    };
+    Flaw::Syntax(format!(
+        "{columns} × {rows} pixels {what} cannot be read: a raster has at most {longest} along each side, and {most} in \
+         all. {help}."
+    ))
+}
+
+/// Reads the values of the pixels, the lowest row first. Memory grows with what was read.
+fn values(source: &mut dyn Source, grid: &Grid, spans: &[Span; 2], meter: &Meter) -> Result<Vec<f32>, Flaw> {
+    let [x, y] = spans;
+    let variable = &source.variables()[grid.variable];
+    let (packing, rank) = (Packing::of(variable), variable.dimensions.len());
+    let sample = variable.sample.map_or(1, Sample::bytes) as u64;
+    let width: u64 = x.pieces.iter().map(|piece| piece.file.end - piece.file.start).sum();
+    meter.expect(width * y.count * sample);
+    let columns = x.count as usize;
+    let mut values = Vec::new();
+    for bottom in (0..y.count).step_by((BLOCK / width).max(1) as usize) {
+        let count = (BLOCK / width).max(1).min(y.count - bottom);
+        let start = values.len();
+        values.resize(start + count as usize * columns, f32::NAN);
+        for piece in &x.pieces {
+            let block = Block { grid, rank, columns: piece.file.clone(), rows: y.rows(bottom, count) };
+            let samples = block.read(source)?;
+            let rows = values[start..].chunks_exact_mut(columns);
+            for (row, place) in rows.enumerate() {
+                let place = &mut place[piece.at as usize..][..block.size()[0]];
+                for (column, value) in place.iter_mut().enumerate() {
+                    *value = packing.value(samples[block.index(column, row, [x, y])])?;
+                }
+            }
+        }
+        meter.add(width * count * sample)?;
+    }
+    Ok(values)
+}
+
+/// Pixels that are read at once: their numbers in the file.
+struct Block<'a> {
+    grid: &'a Grid,
+    /// The number of dimensions of the grid.
+    rank: usize,
+    columns: Range<u64>,
+    rows: Range<u64>,
+}
+
+impl Block<'_> {
+    fn read(&self, source: &mut dyn Source) -> Result<Vec<f64>, Flaw> {
+        let (mut corner, mut extent) = (vec![0; self.rank], vec![1; self.rank]);
+        for (side, range) in [(self.grid.x, &self.columns), (self.grid.y, &self.rows)] {
+            corner[side.dimension] = range.start;
+            extent[side.dimension] = range.end - range.start;
+        }
+        source.block(self.grid.variable, &corner, &extent)
+    }
+
+    /// [columns, rows].
+    fn size(&self) -> [usize; 2] {
+        [&self.columns, &self.rows].map(|range| (range.end - range.start) as usize)
+    }
+
+    /// Returns where a pixel of the raster is in the block.
+    fn index(&self, column: usize, row: usize, [x, y]: [&Span; 2]) -> usize {
+        let [columns, rows] = self.size();
+        let column = if x.is_reversed { columns - 1 - column } else { column };
+        let row = if y.is_reversed { rows - 1 - row } else { row };
+        match self.grid.y.dimension < self.grid.x.dimension {
+            true => row * columns + column,
+            false => column * rows + row,
+        }
     }
 }

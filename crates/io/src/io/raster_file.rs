@@ -2,6 +2,7 @@ use std::fmt;
 use std::path::Path;
 
 use super::coordinate_system::{CoordinateKind, CoordinateSystem};
+use super::netcdf::file_and_variable;
 use super::png::Behind;
 use super::{Meter, RASTER_FORMATS, ReadError};
 use meshbrush_core::earth::GeographicExtent;
@@ -87,6 +88,7 @@ impl RasterFormat {
     /// # Errors
     /// Fails with a sentence when it is the ending of no raster.
     pub fn of(path: &Path) -> Result<Self, String> {
+        let (path, _) = file_and_variable(path);
         let ending = path.extension().unwrap_or_default();
         let has = |format: &Self| format.endings().iter().any(|known| ending.eq_ignore_ascii_case(known));
         Self::all().find(has).ok_or_else(|| {

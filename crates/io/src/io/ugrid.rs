@@ -12,7 +12,7 @@
 
 use std::io::{self, Write};
 
-use super::netcdf::{AttributeValue, Attributes, Dataset, Kind, Variable, WriteRow};
+use super::netcdf_writer::{AttributeValue, Attributes, Dataset, Kind, Variable, WriteRow};
 use super::triangle_pieces::TrianglePieces;
 use super::{FormatSpec, MeshData, Meter, TypicalSize};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};

@@ -12,7 +12,9 @@ use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_io::io::png::{Behind, decode};
-use meshbrush_io::io::{Meter, asc, geojson, geotiff, npy, points, recipe, recording, shapes, shp, threats};
+use meshbrush_io::io::{
+    GridPlace, Meter, asc, geojson, geotiff, netcdf, npy, points, recipe, recording, shapes, shp, threats,
+};
 use meshbrush_mesh::geometry::Rect;
 use tiff::tags::Tag;
 
@@ -56,6 +58,11 @@ fn read_png(bytes: &[u8]) -> Result<(), String> {
 
 fn read_geotiff(bytes: &[u8]) -> Result<(), String> {
     geotiff::decode(Cursor::new(bytes)).map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
+}
+
+fn read_netcdf(bytes: &[u8]) -> Result<(), String> {
+    let read = netcdf::decode(Cursor::new(bytes.to_vec()), None, &GridPlace::default(), &Meter::default());
+    read.map(drop).map_err(|flaw| format!("{NAME}: {flaw}"))
 }
 
 fn read_npy(bytes: &[u8]) -> Result<(), String> {
@@ -157,6 +164,41 @@ fn npy_sample() -> Vec<u8> {
     [b"\x93NUMPY\x01\0".as_slice(), &[header.len() as u8, 0], header.as_bytes(), &[0xff; 12]].concat()
 }
 
+/// Returns a classic NetCDF file with a grid of 3 × 2 numbers, of which one is no value.
+fn netcdf_sample() -> Vec<u8> {
+    let (mut header, mut begin) = (b"CDF\x01\0\0\0\0".to_vec(), 200u32);
+    let words = |header: &mut Vec<u8>, list: &[u32]| header.extend(list.iter().flat_map(|n| n.to_be_bytes()));
+    words(&mut header, &[10, 2, 1]);
+    header.extend(b"y\0\0\0");
+    words(&mut header, &[2, 1]);
+    header.extend(b"x\0\0\0");
+    words(&mut header, &[3, 0, 0, 11, 3]);
+    for (name, dimensions, kind, bytes) in
+        [("y", &[0u32][..], 6u32, 16), ("x", &[1], 6, 24), ("z", &[0, 1], 3, 12)]
+    {
+        words(&mut header, &[1]);
+        header.extend([name.as_bytes(), &[0; 3]].concat());
+        words(&mut header, &[dimensions.len() as u32]);
+        words(&mut header, dimensions);
+        match name {
+            "z" => {
+                words(&mut header, &[12, 1, 13]);
+                header.extend(b"missing_value\0\0\0");
+                words(&mut header, &[3, 1, 5 << 16]);
+            }
+            _ => words(&mut header, &[0, 0]),
+        }
+        words(&mut header, &[kind, bytes, begin]);
+        begin += bytes;
+    }
+    assert_eq!(header.len(), 200);
+    let axes = [1.5f64, 2.5, 10.0, 12.0, 14.0];
+    let samples = [1i16, -2, 3, 4, 5, 6];
+    header.extend(axes.iter().flat_map(|number| number.to_be_bytes()));
+    header.extend(samples.iter().flat_map(|number| number.to_be_bytes()));
+    header
+}
+
 /// Returns a shapefile with a point and a triangle.
 fn shp_sample() -> Vec<u8> {
     let numbers = |list: &[f64]| list.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>();
@@ -186,6 +228,7 @@ fn samples() -> Vec<(Vec<u8>, Reader)> {
         ("name,\"Y\", X \n\"a, \"\"b\"\"\",\"2\", 1\n,inf,-2e3\n".into(), read_points),
         (png, read_png),
         (geotiff_sample(), read_geotiff),
+        (netcdf_sample(), read_netcdf),
         (npy_sample(), read_npy),
         (shp_sample(), read_shp),
         (SHAPES.into(), read_shapes),

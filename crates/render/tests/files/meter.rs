@@ -12,7 +12,8 @@ use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_io::io::{
-    MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, npy, shapes, stl, vtu, write_file_metered,
+    GridPlace, MeshData, MeshFormat, Meter, Provenance, asc, geojson, geotiff, netcdf, npy, shapes, stl, vtu,
+    write_file_metered,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
@@ -167,6 +168,7 @@ fn a_cancelled_read_is_an_error() {
     let bad = [
         asc::read_metered(&grid, &meter).err(),
         geotiff::read(&grid, &meter).err(),
+        netcdf::read_grid(&array, &GridPlace::default(), &meter).err(),
         npy::read(&array, Rect::UNIT, &meter).err(),
         shapes::read(Path::new("../../assets/aegean_sea.geojson"), &meter).err(),
         geojson::read_named_metered(Path::new("../../assets/aegean_sea.geojson"), &meter).err(),

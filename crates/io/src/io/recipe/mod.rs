@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::PlacedFlaw;
 use super::layers::FindFile;
+use super::netcdf::file_and_variable;
 use super::settings::SavedSettings;
 use super::{Flaw, KeyFault, ReadError};
 pub use export::RecipeFiles;
@@ -91,7 +92,8 @@ impl Recipe {
 /// Returns the path of an input file, which must be there.
 fn found_in(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
-    match path.metadata() {
+    let (file, _) = file_and_variable(&path);
+    match file.metadata() {
         Ok(found) if found.is_file() => Ok(path),
         Ok(_) => Err(format!("{} is not a file.", path.display())),
         Err(error) => Err(format!(
