@@ -154,7 +154,11 @@ pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, unit: LengthUnit) {
 
 /// Returns a length, and for degrees about how many kilometres it is along a parallel at a latitude.
 fn bar_text(length: f64, unit: LengthUnit, latitude: f64) -> String {
-    let text = format::length(length, unit);
+    let is_long = unit == LengthUnit::Metre && length >= 1000.0;
+    let text = match is_long {
+        true => format::length(length / 1000.0, LengthUnit::Kilometre),
+        false => format::length(length, unit),
+    };
     if unit != LengthUnit::Degree || latitude.abs() > 89.0 {
         return text;
     }
@@ -196,5 +200,7 @@ mod tests {
         assert_eq!(bar_text(1.0, LengthUnit::Degree, 0.0), "1° ≈ 110 km");
         assert_eq!(bar_text(0.001, LengthUnit::Degree, 60.0), "0.001° ≈ 56 m");
         assert_eq!(bar_text(2.0, LengthUnit::Kilometre, 60.0), "2 km");
+        assert_eq!(bar_text(50_000.0, LengthUnit::Metre, 0.0), "50 km");
+        assert_eq!(bar_text(500.0, LengthUnit::Metre, 0.0), "500 m");
     }
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN};
+use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_IN_METRES};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
@@ -40,6 +40,12 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .palette_only(),
         CatalogItem::new(File, "Open domain…", Command::File(FileCommand::Ask(&OPEN_DOMAIN)))
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::O),
+        CatalogItem::new(
+            File,
+            "Open domain in metres…",
+            Command::File(FileCommand::Ask(&OPEN_DOMAIN_IN_METRES)),
+        )
+        .palette_only(),
         CatalogItem::new(
             File,
             "Add outline to this document…",

@@ -11,10 +11,11 @@ use glam::dvec2;
 
 use super::project::Dropped;
 use super::{
-    Window, active, click_button, document, entries, key, notice, open_menu, paint, send, set, settings,
-    value_of, wait_for_notice, wait_until, window,
+    Window, active, click_button, document, entries, key, notice, open_menu, open_tab, paint, send, set,
+    settings, value_of, wait_for_notice, wait_until, window,
 };
 use crate::app::command::{Command, FileCommand, LayerCommand, PictureCommand};
+use crate::app::kit::Tab;
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::earth::Projection;
@@ -134,7 +135,8 @@ fn shapes_give_an_empty_document_their_extent_and_unit() {
     new_document(&mut window);
     drop_and_wait(&mut window, &file);
     let (possible, chosen) = roles(&window);
-    assert_eq!(chosen.as_deref(), Some("Domain of a new document"));
+    assert_eq!(chosen.as_deref(), Some("Domain in metres"));
+    assert!(possible.iter().any(|role| role == "Domain of a new document"), "{possible:?}");
     assert!(possible.iter().any(|role| role == "Keep-out region of paths"), "{possible:?}");
     choose_role(&mut window, "Shapes to measure the distance to");
     wait_until(&mut window, |window| settings(window).layers.len() == 4);
@@ -152,6 +154,17 @@ fn polygons_become_a_domain_an_outline_a_mask_or_a_region() {
     click_button(&mut window, "Add");
     wait_until(&mut window, |window| settings(window).name == "coast");
     assert_ne!(settings(&window).boundary, BoundaryTreatment::Report);
+    let Domain { projection, bounds, .. } = settings(&window).domain.clone();
+    let plane = projection.expect("longitudes and latitudes are projected");
+    open_tab(&mut window, Tab::Domain);
+    assert_eq!(
+        (settings(&window).unit, value_of(&window, Role::Definition, "Plane").as_str()),
+        (LengthUnit::Metre, plane.kind().name())
+    );
+    assert!(bounds.size().min_element() > 3e5, "{bounds:?}");
+    drop_and_wait(&mut window, &file);
+    choose_role(&mut window, "Domain of a new document");
+    wait_until(&mut window, |window| settings(window).unit == LengthUnit::Degree);
     drop_and_wait(&mut window, &file);
     choose_role(&mut window, "Mask of the selected layer");
     wait_until(&mut window, |window| active(window).mask.is_some());

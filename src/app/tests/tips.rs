@@ -17,12 +17,18 @@ use crate::app::features::ROWS;
 use crate::app::kit::{Tab, all_tools};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{DistanceTo, LayerKind, RasterSource, ShapeList, Shapes, Threats};
+use meshbrush_core::layers::{
+    DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, PositiveDepth, RasterSource, ShapeList, Shapes,
+    Threats,
+};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
 
 /// Height of the menu bar, in points.
 const MENU_BAR: f32 = 36.0;
+
+const SLOPE: DepthRule = DepthRule::Slope { triangles: 9.0, smoothing: 0.0 };
+const COURANT: DepthRule = DepthRule::Courant { time_step: 1.0, number: 0.5 };
 
 const CONTROLS: [Role; 7] = [
     Role::Button,
@@ -86,7 +92,12 @@ fn every_control_of_the_panels_has_a_sentence() {
     let line = ShapeList { lines: vec![vec![FREE, DVec2::ZERO]], ..ShapeList::default() };
     let corridor = LayerKind::corridor(Shapes::new(line, true).unwrap(), 1.0, &transfer, 0.2);
     let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
-    for kind in [formula, risk, distance, corridor, curve, band] {
+    let straits = LayerKind::straits(&transfer);
+    let depths = [DepthRule::Nothing, DepthRule::USUAL_WAVELENGTH, SLOPE, COURANT].map(|rule| {
+        let sizes = DepthSizes { positive: PositiveDepth::Up, between: [0.0, 9.0], rule };
+        LayerKind::Depth(Depths::new(raster(), sizes))
+    });
+    for kind in [formula, risk, distance, corridor, curve, band, straits].into_iter().chain(depths) {
         send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }

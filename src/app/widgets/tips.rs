@@ -1,5 +1,6 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
+use super::layer_tips;
 use super::shown_keys::with_keys;
 use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
@@ -132,18 +133,6 @@ static SENTENCES: &[(&str, &str)] = &[
         "How the risk falls/Disc",
         "At the distance r from a threat of range R: the peak up to r = 3R/4, then the peak × t² (3 − 2t) with t = 4 (1 − r/R), 0 from r = R.",
     ),
-    ("What the formula gives/Diameter", "The formula gives the target diameter itself."),
-    (
-        "What the formula gives/Risk",
-        "The formula gives the risk, from 0 to 1, which the transfer curve turns into a diameter.",
-    ),
-    ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
-    ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
-    ("What the values mean/Curve", "A curve gives the target diameter for each value of the raster."),
-    (
-        "Curve of the values",
-        "The target diameter for each value of the raster; behind it, how often each value occurs. A click adds a knot.",
-    ),
     ("Fine at low", "Makes the curve fine at the least values, and coarse at the greatest."),
     ("Fine near 0", "Makes the curve fine at the values nearest to 0, as in shallow water or at a shore."),
     ("Fine at high", "Makes the curve fine at the greatest values, and coarse at the least."),
@@ -156,9 +145,6 @@ static SENTENCES: &[(&str, &str)] = &[
         "Open shapes…",
         "Reads points, lines and polygons from a GeoJSON file, to measure the distance to them.",
     ),
-    ("Leave out open boundaries", "Only coasts count, and no boundary along the frame of the domain."),
-    ("Use outline", "Measures the distance to the outline of the domain again."),
-    ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
     (
         "Show on the canvas",
         "Draws the triangles that led to the queried one, and a cross where the least target diameter is.",
@@ -409,7 +395,8 @@ static SENTENCES: &[(&str, &str)] = &[
 
 /// Returns the sentence for a control, or an empty text.
 pub fn sentence(name: &str) -> &'static str {
-    SENTENCES.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
+    let all = SENTENCES.iter().chain(layer_tips::SENTENCES);
+    all.into_iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
 }
 
 /// Adds a sentence to a control, for the pointer and for screen readers.
@@ -467,9 +454,10 @@ mod tests {
 
     #[test]
     fn every_sentence_ends_with_a_full_stop_and_every_name_occurs_once() {
-        for (number, (name, text)) in SENTENCES.iter().enumerate() {
+        let all: Vec<_> = SENTENCES.iter().chain(layer_tips::SENTENCES).collect();
+        for (number, (name, text)) in all.iter().enumerate() {
             assert!(text.ends_with('.'), "{name}: {text}");
-            assert!(SENTENCES[..number].iter().all(|(other, _)| other != name), "{name}");
+            assert!(all[..number].iter().all(|(other, _)| other != name), "{name}");
         }
     }
 }

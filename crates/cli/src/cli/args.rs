@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
-use super::depth::DepthArguments;
 use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
@@ -15,6 +14,7 @@ use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
 use super::path_args::PathArguments;
+use super::water::WaterArguments;
 use meshbrush_core::field::RefinementRule;
 
 /// Paint where detail matters; the mesh follows the brush.
@@ -245,18 +245,7 @@ pub struct InputArguments {
     pub distance_range: Option<f64>,
 
     #[command(flatten)]
-    pub depth: DepthArguments,
-
-    /// At least this many triangles across every strait of a region, down to --h-min
-    ///
-    /// A strait is where the water between two coasts is narrow. Those in which K triangles are smaller than
-    /// --h-min get triangles of that size.
-    #[arg(long, value_name = "K", requires = "region", requires = "h_min", allow_hyphen_values = true)]
-    pub straits: Option<f64>,
-
-    /// Width of the widest strait of --straits [default: K times --h-max]
-    #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
-    pub widest_strait: Option<f64>,
+    pub water: WaterArguments,
 
     /// Bound on the gradation: over a distance d, the target diameter changes by G times d at most
     ///

@@ -208,8 +208,8 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--risk-raster", !typed.risk_raster.is_empty()),
         ("--threats", !typed.threats.is_empty()),
         ("--distance", !typed.distance.is_empty()),
-        ("--depth", !typed.depth.depth.is_empty()),
-        ("--straits", typed.straits.is_some()),
+        ("--depth", !typed.water.depth.is_empty()),
+        ("--straits", typed.water.straits.is_some()),
     ];
     let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
     let rule = "domain and layers are those of the file, and other options override its settings";

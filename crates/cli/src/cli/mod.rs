@@ -7,7 +7,6 @@
 mod args;
 mod build;
 mod command_line;
-mod depth;
 mod details;
 mod failure;
 mod help;
@@ -27,6 +26,7 @@ mod requested_files;
 mod run_clock;
 mod summary;
 mod terminal;
+mod water;
 mod why;
 
 use std::ffi::OsString;

@@ -98,22 +98,26 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         let (at_zero, slope) = (Some(at_zero), Some(slope));
         layers.push((option, SavedLayer { at_zero, slope, range: typed.distance_range, ..layer }));
     }
-    layers.extend(typed.depth.layers());
-    if let (Some(across), Some(h_min)) = (typed.straits, typed.h_min) {
-        let widest = typed.widest_strait.or(typed.h_max.map(|h_max| across * h_max));
-        let widest = widest.ok_or_else(|| {
-            let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
-            Failure::Usage(format!("--straits {across}: {problem}."))
-        })?;
-        let layer = SavedLayer {
-            across: Some(across),
-            width_from: Some(across * h_min),
-            width_to: Some(widest),
-            ..SavedLayer::of_kind(SavedKind::Straits)
-        };
-        layers.push((format!("--straits {across}"), layer));
-    }
+    layers.extend(typed.water.depth_layers());
+    layers.extend(straits(typed)?);
     Ok(layers)
+}
+
+/// Returns the layer of `--straits`.
+fn straits(typed: &InputArguments) -> Result<Option<(String, SavedLayer)>, Failure> {
+    let (Some(across), Some(h_min)) = (typed.water.straits, typed.h_min) else { return Ok(None) };
+    let widest = typed.water.widest_strait.or(typed.h_max.map(|h_max| across * h_max));
+    let widest = widest.ok_or_else(|| {
+        let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
+        Failure::Usage(format!("--straits {across}: {problem}."))
+    })?;
+    let layer = SavedLayer {
+        across: Some(across),
+        width_from: Some(across * h_min),
+        width_to: Some(widest),
+        ..SavedLayer::of_kind(SavedKind::Straits)
+    };
+    Ok(Some((format!("--straits {across}"), layer)))
 }
 
 /// Returns the sentence for a value that cannot be used, with its option.
@@ -127,7 +131,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
             "at_zero" => number("--distance-at-zero", typed.distance_at_zero.or(typed.h_min)),
             "slope" => number("--distance-slope", typed.distance_slope),
             "range" => number("--distance-range", typed.distance_range),
-            "width_to" => number("--widest-strait", typed.widest_strait),
+            "width_to" => number("--widest-strait", typed.water.widest_strait),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {

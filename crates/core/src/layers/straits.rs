@@ -333,34 +333,44 @@ fn thinned(mut discs: Vec<StraitDisc>) -> Vec<StraitDisc> {
         let by_place = || a.center.x.total_cmp(&b.center.x).then(a.center.y.total_cmp(&b.center.y));
         a.width.total_cmp(&b.width).then_with(by_place)
     });
-    // Grids of cells by powers of two of the width, each with the centres of its discs.
-    let mut grids: Vec<(f64, HashMap<[i64; 2], Vec<DVec2>>)> = Vec::new();
+    let mut grids: Vec<CenterGrid> = Vec::new();
     let mut kept: Vec<StraitDisc> = Vec::new();
     for disc in discs {
-        if !(disc.width > 0.0 && disc.width.is_finite()) {
-            continue;
-        }
-        let is_near = |(cell, centers): &(f64, HashMap<[i64; 2], Vec<DVec2>>)| {
-            let [x, y] = (disc.center / *cell).floor().to_array().map(|at| at as i64);
-            let cells = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-            // Half of `CENTERS` times the radius: the discs of a grid are at least `cell / CENTERS` wide.
-            let near = 0.25 * cell;
-            cells.filter_map(|cell| centers.get(&cell)).flatten().any(|at| at.distance(disc.center) < near)
-        };
-        if grids.iter().any(is_near) {
+        let is_length = disc.width > 0.0 && disc.width.is_finite();
+        if !is_length || grids.iter().any(|grid| grid.has_near(disc.center)) {
             continue;
         }
         let cell = CENTERS * libm::exp2(libm::log2(disc.width).floor());
-        if grids.last().is_none_or(|(last, _)| *last != cell) {
-            grids.push((cell, HashMap::new()));
+        if grids.last().is_none_or(|last| last.cell != cell) {
+            grids.push(CenterGrid { cell, centers: HashMap::new() });
         }
-        if let Some((_, centers)) = grids.last_mut() {
-            let place = (disc.center / cell).floor().to_array().map(|at| at as i64);
-            centers.entry(place).or_default().push(disc.center);
+        if let Some(grid) = grids.last_mut() {
+            grid.centers.entry(grid.place(disc.center)).or_default().push(disc.center);
         }
         kept.push(disc);
     }
     kept
+}
+
+/// The centres of discs that are as wide as others, but for a factor of two, by the cells that they are in.
+struct CenterGrid {
+    /// The side of a cell: at most `CENTERS` times the width of each disc.
+    cell: f64,
+    centers: HashMap<[i64; 2], Vec<DVec2>>,
+}
+
+impl CenterGrid {
+    fn place(&self, center: DVec2) -> [i64; 2] {
+        (center / self.cell).floor().to_array().map(|at| at as i64)
+    }
+
+    /// Returns whether a centre is nearer than half of `CENTERS` times the radius of its disc.
+    fn has_near(&self, point: DVec2) -> bool {
+        let [x, y] = self.place(point);
+        let cells = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+        let centers = cells.filter_map(|cell| self.centers.get(&cell)).flatten();
+        centers.into_iter().any(|center| center.distance(point) < 0.25 * self.cell)
+    }
 }
 
 #[cfg(test)]

@@ -45,8 +45,8 @@ impl LayerKind {
         Some(Self::Depth(Depths::new(source, sizes)))
     }
 
-    /// Returns four triangles across each strait whose width four triangles of some diameter fill. They are not
-    /// looked for yet.
+    /// Returns four triangles across straits, which are not looked for yet: those that are as wide as four
+    /// triangles of some diameter.
     pub fn straits(transfer: &Transfer) -> Self {
         const ACROSS: f64 = 4.0;
         let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);

@@ -31,6 +31,8 @@ pub enum DomainCommand {
     Bounds(Rect),
     /// Reads polygons, and opens a new document with them as its domain.
     Open(PathBuf),
+    /// Opens a document whose domain are longitudes and latitudes in the plane of a projection.
+    OpenInMetres(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),
     /// Adds an outline that was read.

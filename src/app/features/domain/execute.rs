@@ -6,6 +6,7 @@ use super::{
 };
 use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
+use meshbrush_core::earth::ProjectionChoice;
 
 impl Feature for DomainEditor {
     type Command = DomainCommand;
@@ -37,7 +38,10 @@ impl Feature for DomainEditor {
                 ctx.tools.domain.mode = mode;
             }
             DomainCommand::Adds(adds) => tool.adds = adds,
-            DomainCommand::Open(path) => load_domain(ctx.background, &path),
+            DomainCommand::Open(path) => load_domain(ctx.background, &path, None),
+            DomainCommand::OpenInMetres(path) => {
+                load_domain(ctx.background, &path, Some(ProjectionChoice::Automatic));
+            }
             DomainCommand::AddOutline(path) => {
                 load_outline(ctx.session, ctx.background, &path);
             }

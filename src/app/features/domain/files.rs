@@ -3,6 +3,7 @@
 use crate::app::command::{Command, DomainCommand};
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Polygons as the domain of a new document.
 pub static OPEN_DOMAIN: FileKind = FileKind {
@@ -12,6 +13,16 @@ pub static OPEN_DOMAIN: FileKind = FileKind {
     contents: "Polygons",
     folder: "domains",
     ..FileKind::new(|path| Command::Domain(DomainCommand::Open(path)))
+};
+
+/// Longitudes and latitudes as the domain of a new document, in the plane of a projection.
+pub static OPEN_DOMAIN_IN_METRES: FileKind = FileKind {
+    title: "Open domain in metres",
+    act: FileAct::OpenDocument,
+    endings: shape_format::endings,
+    contents: "Polygons",
+    folder: "domains",
+    ..FileKind::new(|path| Command::Domain(DomainCommand::OpenInMetres(path)))
 };
 
 /// Polygons that are added to the domain of the document.
@@ -25,7 +36,19 @@ pub static ADD_OUTLINE: FileKind = FileKind {
 };
 
 /// The uses of a file that the domain has.
-pub static ROLES: [DataRole; 2] = [
+pub static ROLES: [DataRole; 3] = [
+    DataRole {
+        place: 9,
+        title: "Domain in metres",
+        sentence: "A new document opens. Its domain lies in the plane of a projection: lengths are metres on the Earth.",
+        kind: &OPEN_DOMAIN_IN_METRES,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+        refusal: |file, _| {
+            let is_in_degrees = file.unit == LengthUnit::Degree;
+            let problem = || "Its coordinates are not longitudes and latitudes.".into();
+            file.lacks_polygons().or_else(|| (!is_in_degrees).then(problem))
+        },
+    },
     DataRole {
         place: 10,
         title: "Domain of a new document",

@@ -8,13 +8,15 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
 use meshbrush_core::document::{Document, Settings};
-use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_core::domain::{BoundaryMarks, Domain};
+use meshbrush_core::earth::ProjectionChoice;
 use meshbrush_io::io::{self, Meter};
 
-/// Reads polygons, and opens a document with them as its domain.
-pub fn load_domain(background: &mut Background, path: &Path) {
+/// Reads polygons, and opens a document with them as its domain; in metres, in the plane of a projection that
+/// is chosen, or as they are.
+pub fn load_domain(background: &mut Background, path: &Path, projection: Option<ProjectionChoice>) {
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match domain_of(&file, meter) {
+    background.start(Aim::Read, path, move |meter| match domain_of(&file, projection, meter) {
         Ok(document) => {
             let opened = Opened { document: Arc::new(document), home: None };
             Outcome::Opened { path: file, opened }
@@ -46,10 +48,16 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
 }
 
 /// Returns a new document on the polygons of a file.
-fn domain_of(path: &Path, meter: &Meter) -> Result<Document, String> {
-    let outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
+fn domain_of(path: &Path, choice: Option<ProjectionChoice>, meter: &Meter) -> Result<Document, String> {
+    let mut outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
+    let mut projection = None;
+    if let Some(choice) = choice {
+        let projected = outline.projected(choice).map_err(|error| format!("{}: {error}", path.display()))?;
+        (outline, projection) = (projected.0, Some(projected.1));
+    }
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
         .map_err(|error| format!("{}: {error}", path.display()))?;
+    let domain = Domain { projection, ..domain };
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
     let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };

@@ -6,7 +6,8 @@ use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::widgets::{
-    ActionButton, NumberRow, Section, SliderRow, dropdown_row, format, segmented, toggle_row, value_row,
+    ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
+    value_row,
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
@@ -126,6 +127,14 @@ fn cleaning_rows(ui: &mut Ui, cleaning: Cleaning, boundary: BoundaryTreatment, c
 /// The unit of coordinates and lengths.
 fn unit_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut unit = state.unit();
+    if let Some(plane) = state.session.document().settings().domain.projection {
+        let help = format!(
+            "The domain lies in the plane {plane}. Lengths there are metres on the Earth, or a little more."
+        );
+        ValueRow::new("Plane", plane.kind().name()).help(&help).show(ui);
+        value_row(ui, "Unit", unit_title(unit));
+        return;
+    }
     let choices = LengthUnit::ALL.map(|unit| (unit, unit_title(unit)));
     if dropdown_row(ui, "Unit", &mut unit, &choices).changed() {
         set_once(Setting::LengthUnit(unit), commands);
@@ -167,7 +176,7 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let row = FormulaRow { label: "Domain where", hint, help };
     if let Some(inside) = row.show(ui, state, domain.formula()) {
         let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
-        set_once(Setting::Domain(Domain { bounds: domain.bounds, shape, projection: None }), commands);
+        set_once(Setting::Domain(Domain { shape, ..domain.clone() }), commands);
     }
 }
 
@@ -182,7 +191,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
     });
     let domain = &state.session.document().settings().domain;
-    let whole = Domain::rectangle(domain.bounds);
+    let whole = Domain { projection: domain.projection, ..Domain::rectangle(domain.bounds) };
     let button = ActionButton::new("Whole rectangle");
     if ui.add_enabled_ui(*domain != whole, |ui| ui.add(button)).inner.clicked() {
         set_once(Setting::Domain(whole), commands);

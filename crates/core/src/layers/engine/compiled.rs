@@ -75,21 +75,14 @@ impl CompiledLayer {
                 (reading(Quantity::Risk, 0.0), Values::Analytic(Analytic::new(function, Quantity::Risk)))
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
-                let shapes = match to {
-                    DistanceTo::Outline => outline,
-                    DistanceTo::Coasts | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => {
-                        to.shapes()
-                    }
+                let growth = Profile {
+                    reach: to.reach(),
+                    at_zero: *at_zero,
+                    slope: *slope,
+                    range: *range,
+                    graded: None,
                 };
-                let values = shapes.map_or(Values::Nothing, |shapes| {
-                    let (shapes, reach) = (shapes.clone(), to.reach());
-                    let (at_zero, slope, range) = (*at_zero, *slope, *range);
-                    let profile = Profile { reach, at_zero, slope, range, graded: None };
-                    Values::Analytic(Analytic::new(
-                        Function::Distance { shapes, profile },
-                        Quantity::Diameter,
-                    ))
-                });
+                let values = Values::of_distance(to, growth, outline);
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
             LayerKind::Band { source, between, diameter } => {
@@ -380,6 +373,16 @@ impl Values {
     fn of_raster(raster: &Arc<RasterPyramid>, gap: f32, lattice: &Lattice) -> Self {
         let grid = GridOnLattice::new(raster.grid(), lattice);
         Self::Raster { raster: raster.clone(), gap, grid }
+    }
+
+    fn of_distance(to: &DistanceTo, profile: Profile, outline: Option<&Shapes>) -> Self {
+        let shapes = match to {
+            DistanceTo::Outline => outline,
+            DistanceTo::Coasts | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => to.shapes(),
+        };
+        shapes.cloned().map_or(Self::Nothing, |shapes| {
+            Self::Analytic(Analytic::new(Function::Distance { shapes, profile }, Quantity::Diameter))
+        })
     }
 
     fn of_formula(quantity: Quantity, formula: &Formula) -> Self {

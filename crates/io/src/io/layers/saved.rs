@@ -9,7 +9,9 @@ use super::{
 };
 use crate::io::RasterFormat;
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Threat, ThreatLaw};
+use meshbrush_core::layers::{
+    DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
+};
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -241,15 +243,7 @@ impl SavedLayer {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
-            LayerKind::Straits(straits) => {
-                let [from, to] = straits.found.between();
-                Self {
-                    across: Some(straits.across),
-                    width_from: Some(from),
-                    width_to: Some(to),
-                    ..Self::of_kind(SavedKind::Straits)
-                }
-            }
+            LayerKind::Straits(straits) => Self::of_straits(straits),
         };
         let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
@@ -260,6 +254,16 @@ impl SavedLayer {
             file,
             mask,
             ..kind
+        }
+    }
+
+    fn of_straits(straits: &Straits) -> Self {
+        let [from, to] = straits.found.between();
+        Self {
+            across: Some(straits.across),
+            width_from: Some(from),
+            width_to: Some(to),
+            ..Self::of_kind(SavedKind::Straits)
         }
     }
 

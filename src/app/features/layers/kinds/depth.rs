@@ -33,7 +33,7 @@ enum Size {
 
 impl Size {
     const CHOICES: [(Self, &str); 4] = [
-        (Self::Nothing, "Nothing: depth in files only"),
+        (Self::Nothing, "Nothing"),
         (Self::Wavelength, "Wavelength"),
         (Self::Slope, "Slope of the ground"),
         (Self::Courant, "Time step"),

@@ -1,4 +1,5 @@
 //! The stack of layers, and layers of data from files.
 
 mod data;
+mod depth;
 pub mod stack;

@@ -1,4 +1,4 @@
-//! The options on the depth of water.
+//! The options on depths of water and on straits.
 
 use std::path::PathBuf;
 
@@ -9,9 +9,9 @@ use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLay
 /// The period of the tide that the moon raises twice a day, in seconds.
 const TIDE: f64 = 44_712.0;
 
-/// Depths of water, and the sizes that they ask for.
+/// Depths of water and straits, and the sizes that they ask for.
 #[derive(Debug, Args)]
-pub struct DepthArguments {
+pub struct WaterArguments {
     /// Depths of water: a grid of heights in metres, for the nodes of files and the options below; may be
     /// repeated, the first that has a value at a place counts
     ///
@@ -53,6 +53,17 @@ pub struct DepthArguments {
     /// Time step of a solver, in seconds, for the Courant numbers
     #[arg(long, value_name = "SECONDS", requires = "depth", allow_hyphen_values = true)]
     pub time_step: Option<f64>,
+
+    /// At least this many triangles across every strait of a region, down to --h-min
+    ///
+    /// A strait is where the water between two coasts is narrow. Those in which K triangles are smaller than
+    /// --h-min get triangles of that size.
+    #[arg(long, value_name = "K", requires = "region", requires = "h_min", allow_hyphen_values = true)]
+    pub straits: Option<f64>,
+
+    /// Width of the widest strait of --straits [default: K times --h-max]
+    #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
+    pub widest_strait: Option<f64>,
 }
 
 /// The direction in which values grow.
@@ -64,10 +75,10 @@ pub enum PositiveArgument {
     Down,
 }
 
-impl DepthArguments {
+impl WaterArguments {
     /// Returns the layers of the options, from the bottom of the stack to its top, each with its option as
     /// typed. The last file is the lowest.
-    pub fn layers(&self) -> Vec<(String, SavedLayer)> {
+    pub fn depth_layers(&self) -> Vec<(String, SavedLayer)> {
         let rules = [
             self.per_wavelength.map(|triangles| {
                 let period = Some(self.period.unwrap_or(TIDE));

@@ -1,0 +1,111 @@
+//! Layers of depths and straits.
+
+use std::fs;
+
+use eframe::egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
+use crate::app::tests::{
+    TALL, Window, active, click_button, entries, folder, send, settings, triangles, type_into, value_of,
+    wait_for_notice, wait_until, window_of,
+};
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::layers::{DepthRule, DepthSizes, LayerKind, PositiveDepth, Straits};
+use meshbrush_mesh::text::LengthUnit;
+
+/// Heights that fall from 10 m in the west to -190 m in the east, over 20 km.
+fn heights() -> String {
+    let row: Vec<String> = (0..20).map(|column| (5 - 10 * column).to_string()).collect();
+    let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1000\n";
+    header.to_owned() + &format!("{}\n", row.join(" ")).repeat(20)
+}
+
+fn sizes(window: &Window) -> DepthSizes {
+    let LayerKind::Depth(depths) = &active(window).kind else { panic!("depths: {:?}", active(window)) };
+    *depths.sizes()
+}
+
+#[test]
+fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
+    let folder = folder("app-depth", "sizes");
+    let file = folder.join("heights.asc");
+    fs::write(&file, heights()).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    assert_eq!(
+        (sizes(&window).positive, sizes(&window).rule),
+        (PositiveDepth::Up, DepthRule::USUAL_WAVELENGTH)
+    );
+    assert_eq!(settings(&window).domain.bounds.max.x, 20_000.0, "an empty document takes the extent");
+    click_on(&mut window, Role::RadioButton, "Slope of the ground");
+    wait_until(&mut window, |window| matches!(sizes(window).rule, DepthRule::Slope { .. }));
+    let before = triangles(&window);
+    type_into(&mut window, "Triangles", "60");
+    assert!(triangles(&window) > before, "the mesh follows: {} after {before}", triangles(&window));
+    // Deeper water and land ask for nothing.
+    let before = triangles(&window);
+    click_on(&mut window, Role::CheckBox, "Only between two depths");
+    type_into(&mut window, "To depth", "50");
+    assert!(sizes(&window).between == [0.0, 50.0] && triangles(&window) < before);
+    let exported = folder.join("mesh.14");
+    send(&mut window, Command::File(FileCommand::Export(exported.clone())));
+    let notice = wait_for_notice(&mut window);
+    assert!(notice.contains("mesh.14"), "{notice}");
+    let text = fs::read_to_string(exported).unwrap();
+    let nodes: usize = text.lines().nth(1).unwrap().split_whitespace().nth(1).unwrap().parse().unwrap();
+    for line in text.lines().skip(2).take(nodes) {
+        let [_, x, _, depth] = line.split_whitespace().collect::<Vec<_>>()[..] else { panic!("{line}") };
+        let [x, depth] = [x, depth].map(|number| number.parse::<f64>().unwrap());
+        // The pixels at both ends are flat as far as their middle.
+        let expected = (x.clamp(500.0, 19_500.0) - 1000.0) * 0.01;
+        assert!((depth - expected).abs() < 6.0, "{line}: {expected} m");
+    }
+}
+
+#[test]
+fn sizes_need_a_document_in_metres() {
+    let file = folder("app-depth", "unit").join("heights.asc");
+    fs::write(&file, heights()).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::LengthUnit(LengthUnit::Kilometre))));
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    assert_eq!(sizes(&window).rule, DepthRule::Nothing);
+    click_on(&mut window, Role::RadioButton, "Wavelength");
+    assert_eq!(sizes(&window).rule, DepthRule::Nothing);
+    assert!(window.query_by_label_contains("need a document in metres").is_some());
+}
+
+#[test]
+fn straits_are_found_again_when_the_outline_changes() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    let before = triangles(&window);
+    click_button(&mut window, "Add layer");
+    click_button(&mut window, "straits of the domain");
+    wait_until(&mut window, |window| triangles(window) > before);
+    assert_ne!(value_of(&window, Role::Definition, "Narrowest strait"), "none");
+    let found = |window: &Window| match &active(window).kind {
+        LayerKind::Straits(Straits { found, .. }) => found.clone(),
+        other => panic!("straits: {other:?}"),
+    };
+    let first = found(&window);
+    type_into(&mut window, "Triangles across", "2");
+    assert!(found(&window) == first, "another number needs no other straits");
+    let mut domain = settings(&window).domain.clone();
+    let rings = domain.region().unwrap().polygons()[0][0].clone();
+    domain = meshbrush_core::domain::Domain::of_polygons(&[vec![rings]]).unwrap();
+    let count = entries(&window);
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Domain(domain))));
+    assert!(found(&window) != first && entries(&window) > count, "without islands there are other straits");
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    assert!(found(&window) == first);
+}
+
+fn click_on(window: &mut Window, role: Role, label: &str) {
+    window.get_by_role_and_label(role, label).click();
+    window.run();
+}

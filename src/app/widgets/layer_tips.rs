@@ -1,0 +1,30 @@
+//! Sentences of the controls of layers, as [`tips`](super::tips) has them.
+
+/// The sentences, by the name of the control.
+pub(super) static SENTENCES: &[(&str, &str)] = &[
+    ("What the formula gives/Diameter", "The formula gives the target diameter itself."),
+    (
+        "What the formula gives/Risk",
+        "The formula gives the risk, from 0 to 1, which the transfer curve turns into a diameter.",
+    ),
+    ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
+    ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
+    ("What the values mean/Curve", "A curve gives the target diameter for each value of the raster."),
+    (
+        "Curve of the values",
+        "The target diameter for each value of the raster; behind it, how often each value occurs. A click adds a knot.",
+    ),
+    ("Values are/Heights", "The raster holds heights in metres: water is below 0."),
+    ("Values are/Depths", "The raster holds depths of water in metres, above 0."),
+    ("Size by/Nothing", "The layer asks for no diameter: exported files get its depths at the nodes."),
+    ("Size by/Wavelength", "A number of triangles in the length of a wave, which grows with the depth."),
+    (
+        "Size by/Slope of the ground",
+        "A number of triangles in the length in which the depth changes by itself.",
+    ),
+    ("Size by/Time step", "The diameter at which a wave has a Courant number in a time step of a solver."),
+    ("Only between two depths", "Shallower and deeper water asks for nothing."),
+    ("Leave out open boundaries", "Only coasts count, and no boundary along the frame of the domain."),
+    ("Use outline", "Measures the distance to the outline of the domain again."),
+    ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
+];
