@@ -228,7 +228,7 @@ impl Screen {
             MeshChange::Replaced => mirror.upload(mesh, revision),
             MeshChange::Within(changes) => mirror.apply_changes(mesh, revision, changes),
         }
-        .and_then(|()| mirror.retire(pieces, touched))
+        .and_then(|()| mirror.change_pieces(pieces, touched))
         .expect("the mesh fits the graphics memory");
         offscreen.queue().submit([]);
     }

@@ -106,7 +106,8 @@ pub use meshbrush_io::io::{
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{
-    BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
+    BoundaryEdge, Cell, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces,
+    PatchTriangle, Replacement,
 };
 #[doc(inline)]
 pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};

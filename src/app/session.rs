@@ -389,7 +389,7 @@ impl Session {
             self.last_update = Some(began.elapsed());
         }
         if let Some(change) = self.follower.take_change() {
-            self.derivation.note_change(&change, self.follower.mesh());
+            self.derivation.note_change(&change, &self.follower);
             self.ages.note(&change, self.follower.mesh());
             MeshChange::join(&mut self.mesh_change, change, self.follower.mesh());
         }

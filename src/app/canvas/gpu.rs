@@ -191,7 +191,7 @@ impl Sending {
         let pieces = session.derivation().pieces();
         match change.pieces {
             Some(PiecesChange::Replaced) => mirror.set_pieces(Some(pieces))?,
-            Some(PiecesChange::Retired(retired)) => mirror.retire(pieces, &retired)?,
+            Some(PiecesChange::Within(touched)) => mirror.change_pieces(pieces, &touched)?,
             None => {}
         }
         if self.behind { Ok(mirror.advance_upload(mesh, BYTES_PER_FRAME)) } else { Ok(Progress::Done) }

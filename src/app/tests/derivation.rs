@@ -14,7 +14,7 @@ use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::{NodeId, TriangleId};
+use meshbrush_mesh::mesh::{Cleaning, NodeId, TriangleId};
 
 type Corners = [[u32; 2]; 3];
 
@@ -50,12 +50,24 @@ fn from_scratch(document: &Document) -> Vec<Corners> {
     sorted(cells.map(corners).collect())
 }
 
+/// Returns the derived mesh of the mesh as it is, from scratch and with all parts; `None` while the pieces
+/// are not kept in step with the mesh, or something is removed from them.
+fn whole_from_scratch(window: &Window) -> Option<Vec<Corners>> {
+    let session = window.state().session();
+    let follower = session.follower();
+    session.derivation().shows_whole_coast(follower).then_some(())?;
+    let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::NONE);
+    let extract = derived.extract(follower.mesh());
+    let cells = extract.cells().map(|cell| cell.corners.map(|n| extract.node(NodeId::from_index(n))));
+    Some(sorted(cells.map(corners).collect()))
+}
+
+fn ring(radius: f64) -> Vec<DVec2> {
+    (0..62).map(|k: u32| radius * DVec2::from_angle(f64::from(k) * 0.1)).collect()
+}
+
 /// Returns a lake with an island.
 fn lake() -> Settings {
-    let ring = |radius: f64| {
-        let corner = move |k: u32| radius * DVec2::from_angle(f64::from(k) * 0.1);
-        (0..62).map(corner).collect::<Vec<_>>()
-    };
     let island = ring(0.3).into_iter().map(|p| p + dvec2(0.2, 0.1)).collect();
     let mut lake =
         Settings::for_domain("lake".into(), Domain::of_polygons(&[vec![ring(1.0), island]]).unwrap());
@@ -88,7 +100,7 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
     let mut window = window();
     send(&mut window, show(lake()));
     let mut random = Rng::with_seed(5);
-    let mut some_retired = 0;
+    let (mut some_retired, mut compared) = (0, 0);
     for _ in 0..40 {
         let mut point = || 2.2 * dvec2(random.f64() - 0.5, random.f64() - 0.5);
         let (a, b) = (point(), point());
@@ -109,6 +121,10 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
                     window.step();
                     let pieces = window.state().session().derivation().pieces();
                     some_retired += usize::from(pieces.triangles().iter().any(|piece| piece.is_outside()));
+                    if let Some(from_scratch) = whole_from_scratch(&window) {
+                        assert!(drawn(&window) == from_scratch, "the coast is not in step in a stroke");
+                        compared += 1;
+                    }
                 }
                 window.state_mut().send(Command::Brush(BrushCommand::EndStroke));
             }
@@ -126,4 +142,40 @@ fn what_is_drawn_is_derived_from_scratch_whenever_the_mesh_is_up_to_date() {
         assert_eq!(derived.level_counts.iter().sum::<usize>(), drawn.len());
     }
     assert!(some_retired > 0, "no stroke changed a replaced triangle before the mesh was derived again");
+    assert!(compared > 30, "{compared} frames of strokes were compared");
+}
+
+#[test]
+fn what_cleaning_removed_stays_removed_in_a_stroke() {
+    let pond: Vec<DVec2> = ring(0.2).into_iter().map(|p| p + dvec2(1.5, 0.0)).collect();
+    let mut settings =
+        Settings::for_domain("lakes".into(), Domain::of_polygons(&[vec![ring(1.0)], vec![pond]]).unwrap());
+    settings.transfer = settings.transfer.with_smallest(2.0 * settings.transfer.h_min);
+    let mut window = window();
+    send(&mut window, show(settings));
+    let is_derived = |window: &Window| {
+        let session = window.state().session();
+        session.derived().is_some() && session.derivation().shows_coast(session.follower())
+    };
+    wait_until(&mut window, is_derived);
+    let lattice = *window.state().session().mesh().lattice();
+    let in_pond = |corners: &Corners| {
+        corners.iter().all(|&[x, y]| {
+            lattice.world_from_lattice(LatticePoint::new(x, y)).distance(dvec2(1.5, 0.0)) < 0.25
+        })
+    };
+    assert!(!drawn(&window).iter().any(in_pond), "the pond is removed");
+    let before = drawn(&window).len();
+    window.state_mut().send(Command::Brush(BrushCommand::BeginStroke(dvec2(0.0, -1.0))));
+    for step in 0..10 {
+        let to = dvec2(0.09 * f64::from(step), -1.0 + 0.02 * f64::from(step));
+        window.state_mut().send(Command::Brush(BrushCommand::DrawTo(to)));
+        window.step();
+        assert!(window.state().session().derivation().shows_coast(window.state().session().follower()));
+        assert!(!drawn(&window).iter().any(in_pond), "the pond is drawn in a stroke");
+    }
+    assert_ne!(drawn(&window).len(), before, "the stroke changes the mesh");
+    window.state_mut().send(Command::Brush(BrushCommand::EndStroke));
+    wait_until(&mut window, is_derived);
+    assert!(drawn(&window) == from_scratch(window.state().session().document()));
 }

@@ -29,6 +29,8 @@ pub(super) struct Band {
     pub(super) inside: Vec<bool>,
     /// For each node, whether the outline crosses an edge there, between nodes inside and outside.
     pub(super) active: Vec<bool>,
+    /// For each triangle, whether the outline touches it.
+    pub(super) is_touched: Vec<bool>,
     /// Triangles beside the band that the outline touches without coming between their nodes, each with the
     /// side of its nodes.
     pub(super) touched: Vec<(TriangleId, bool)>,
@@ -58,12 +60,17 @@ impl Band {
             region.side_of(mesh.corners(id), triangle.level()).is_none().then_some(id)
         };
         let touched: Vec<TriangleId> = all.filter_map(touches).collect();
-        Self::around::<Vec<u32>>(mesh, region, &touched)
+        Self::around::<Vec<u32>>(mesh, region, &touched).0
     }
 
-    /// Returns the band around those of the `touched` triangles that have nodes inside and outside.
-    pub(super) fn around<N: Numbers>(mesh: &Mesh, region: &RegionOnLattice, touched: &[TriangleId]) -> Self {
-        let active = nodes_at_outline::<N>(mesh, region, touched);
+    /// Returns the band around those of the `touched` triangles that have nodes inside and outside, with the
+    /// numbers of nodes and triangles of the mesh there.
+    pub(super) fn around<N: Numbers>(
+        mesh: &Mesh,
+        region: &RegionOnLattice,
+        touched: &[TriangleId],
+    ) -> (Self, [N; 2]) {
+        let AtOutline { active, signs } = AtOutline::<N>::new(mesh, region, touched);
         let mut near = Near::<N>::new(mesh);
         near.grow_from(mesh, &active, RINGS);
         let Near { nodes: mut node_ids, triangles: mut ids, is_triangle, .. } = near;
@@ -75,16 +82,19 @@ impl Band {
         active.iter().for_each(|&id| is_active[number(id) as usize] = true);
         let points: Vec<LatticePoint> = node_ids.iter().map(|&id| mesh.node(id)).collect();
         let beside = touched.iter().filter(|id| is_triangle.get(id.index()).is_none());
-        let with_side = |&id: &TriangleId| (id, region.contains(mesh.corners(id)[0]));
-        Self {
-            inside: points.par_iter().with_min_len(GRAIN).map(|&point| region.contains(point)).collect(),
-            points,
-            active: is_active,
-            touched: beside.map(with_side).collect(),
-            triangles: numbered::<N>(mesh, &mut ids, node_ids.len(), number),
-            ids,
-            node_ids,
-        }
+        let is_inside = |id: NodeId| match signs.get(id.index()) {
+            Some(sign) => sign == 1,
+            None => region.contains(mesh.node(id)),
+        };
+        let beside = beside.map(|&id| (id, is_inside(mesh.triangle(id).vertices[0]))).collect();
+        let inside = node_ids.par_iter().with_min_len(GRAIN).map(|&id| is_inside(id)).collect();
+        let (triangles, triangle_numbers) = numbered::<N>(mesh, &mut ids, node_ids.len(), number);
+        let mut is_touched = vec![false; ids.len()];
+        let touched = touched.iter().filter_map(|id| triangle_numbers.get(id.index()));
+        touched.for_each(|t| is_touched[t as usize] = true);
+        let band =
+            Self { inside, points, active: is_active, is_touched, touched: beside, triangles, ids, node_ids };
+        (band, [numbers, triangle_numbers])
     }
 
     /// Returns the triangles of the mesh that may differ in the derived mesh, in no order.
@@ -120,35 +130,34 @@ impl Band {
     }
 }
 
-/// Returns the corners of those triangles that have corners inside and outside, each once.
-fn nodes_at_outline<N: Numbers>(
-    mesh: &Mesh,
-    region: &RegionOnLattice,
-    touched: &[TriangleId],
-) -> Vec<NodeId> {
-    let mut numbers = N::for_entries(mesh.raw_nodes().len());
-    let mut nodes: Vec<NodeId> = touched.iter().flat_map(|&id| mesh.triangle(id).vertices).collect();
-    let mut count = 0;
-    nodes.retain(|id| {
-        let is_new = numbers.get(id.index()).is_none();
-        if is_new {
-            numbers.set(id.index(), count);
-            count += 1;
+/// The nodes of triangles that the outline touches.
+struct AtOutline<N> {
+    /// Those of triangles with nodes inside and outside.
+    active: Vec<NodeId>,
+    /// For each of them 1 if it lies in the closed region, otherwise 0.
+    signs: N,
+}
+
+impl<N: Numbers> AtOutline<N> {
+    fn new(mesh: &Mesh, region: &RegionOnLattice, touched: &[TriangleId]) -> Self {
+        let mut signs = N::for_entries(mesh.raw_nodes().len());
+        let mut nodes: Vec<NodeId> = touched.iter().flat_map(|&id| mesh.triangle(id).vertices).collect();
+        nodes.retain(|id| signs.set(id.index(), 0));
+        let is_inside = |&id: &NodeId| region.contains(mesh.node(id));
+        let is_inside: Vec<bool> = nodes.par_iter().with_min_len(GRAIN).map(is_inside).collect();
+        let inside = nodes.iter().zip(&is_inside).filter(|(_, is_inside)| **is_inside);
+        inside.for_each(|(id, _)| _ = signs.set(id.index(), 1));
+        let mut is_active = N::for_entries(mesh.raw_nodes().len());
+        let mut active = Vec::new();
+        for &id in touched {
+            let corners = mesh.triangle(id).vertices;
+            let [a, b, c] = corners.map(|v| signs.get(v.index()));
+            if a != b || b != c {
+                active.extend(corners.into_iter().filter(|v| is_active.set(v.index(), 0)));
+            }
         }
-        is_new
-    });
-    let is_inside = |&id: &NodeId| region.contains(mesh.node(id));
-    let is_inside: Vec<bool> = nodes.par_iter().with_min_len(GRAIN).map(is_inside).collect();
-    let mut is_active = vec![false; nodes.len()];
-    for &id in touched {
-        let corners = mesh.triangle(id).vertices;
-        let corners = corners.map(|v| numbers.get(v.index()).expect("all were numbered") as usize);
-        let [a, b, c] = corners.map(|n| is_inside[n]);
-        if a != b || b != c {
-            corners.into_iter().for_each(|n| is_active[n] = true);
-        }
+        Self { active, signs }
     }
-    nodes.into_iter().zip(is_active).filter(|(_, is_active)| *is_active).map(|(id, _)| id).collect()
 }
 
 /// Triangles and nodes near others, found ring by ring.
@@ -194,13 +203,13 @@ impl<N: Numbers> Near<N> {
     }
 }
 
-/// Sorts the triangles by their corners, and numbers corners and neighbours.
+/// Sorts the triangles by their corners, numbers corners and neighbours, and returns the numbers.
 fn numbered<N: Numbers>(
     mesh: &Mesh,
     ids: &mut [TriangleId],
     nodes: usize,
     number_of_node: impl Fn(NodeId) -> u32 + Sync,
-) -> Triangulation {
+) -> (Triangulation, N) {
     // The corners, from the one with the lowest number on, and its place.
     let turned = |&id: &TriangleId| {
         let corners = mesh.triangle(id).edge_nodes().map(|(from, _)| number_of_node(from));
@@ -224,5 +233,6 @@ fn numbered<N: Numbers>(
         [0, 1, 2].map(|i| across[(lowest as usize + i) % 3])
     });
     let across = across.collect();
-    Triangulation::new(nodes, entries.iter().map(|(corners, ..)| *corners).collect(), across)
+    let corners = entries.iter().map(|(corners, ..)| *corners).collect();
+    (Triangulation::new(nodes, corners, across), numbers)
 }

@@ -62,7 +62,7 @@ impl OutlineChanges {
     /// each stage.
     pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
         let outline = Outline::new(mesh.lattice(), region);
-        let fitted = FittedBand::new(mesh, Band::new(mesh, region), &outline, watch);
+        let fitted = FittedBand::whole(mesh, region, &outline, watch);
         Self {
             patch: patch(mesh, &fitted.band, &fitted.patchwork, &outline.angles),
             fit: fitted.fit(&outline),
@@ -106,8 +106,16 @@ pub(super) struct FittedBand {
 }
 
 impl FittedBand {
-    /// Puts the nodes of a band on the outline, and tells `watch` of each stage.
-    pub(super) fn new(mesh: &Mesh, band: Band, outline: &Outline, watch: Watch<'_>) -> Self {
+    /// Puts the nodes of the whole band on the outline, and tells `watch` of each stage.
+    pub(super) fn whole(mesh: &Mesh, region: &RegionOnLattice, outline: &Outline, watch: Watch<'_>) -> Self {
+        let band = Band::new(mesh, region);
+        let zone = vec![true; band.points.len()];
+        Self::new(mesh, band, zone, outline, watch)
+    }
+
+    /// Puts the nodes of a band on the outline, and tells `watch` of each stage. Beginning with the retreat,
+    /// only nodes of the `zone` are moved and only edges near them flipped.
+    pub(super) fn new(mesh: &Mesh, band: Band, zone: Vec<bool>, outline: &Outline, watch: Watch<'_>) -> Self {
         let &Outline { region, ref lattice, ref angles, ref corners } = outline;
         let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
         let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
@@ -121,9 +129,9 @@ impl FittedBand {
         corners.spread_actions(mesh, &band, &mut placement, angles);
         pins.iter().for_each(|pin| pin.apply(&mut placement));
         watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
-        let pins = retreat(&band, &mut placement, pins, angles);
+        let pins = retreat(&band, &zone, &mut placement, pins, angles);
         watch(DerivationAction::Retreat, &|| with_cuts(&placement));
-        let mut patchwork = Patchwork::new(&band, &placement, angles);
+        let mut patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
         let smoother = Smoother { region, angles, extent: lattice.extent() };
         for _ in 0..ROUNDS {
             patchwork.flip_edges(angles);
@@ -207,10 +215,16 @@ fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Ang
 
 /// Lets nodes retreat where angles are too small. Corners with their nodes, the `pins`, where retreats do not
 /// help are given up. Returns the others.
-fn retreat(band: &Band, placement: &mut Placement, mut pins: Vec<Pin>, angles: &Angles) -> Vec<Pin> {
+fn retreat(
+    band: &Band,
+    zone: &[bool],
+    placement: &mut Placement,
+    mut pins: Vec<Pin>,
+    angles: &Angles,
+) -> Vec<Pin> {
     loop {
         let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
-        let stuck = Guard { band, angles, limit: angles.limit(), pin_limits }.run(placement);
+        let stuck = Guard { band, zone, angles, limit: angles.limit(), pin_limits }.run(placement);
         if stuck.is_empty() {
             return pins;
         }
@@ -246,7 +260,7 @@ fn patch(mesh: &Mesh, band: &Band, patchwork: &Patchwork, angles: &Angles) -> Me
     let in_band = |t: u32| pieces.replacement(mesh, band, patchwork, angles, t);
     let found = places.into_par_iter().with_min_len(GRAIN).filter_map(|(id, place)| match place {
         Place::InBand(t) => {
-            let corners = |corners: [u32; 3]| corners.map(|v| node_id(mesh, band, v));
+            let corners = |(_, corners): (u32, [u32; 3])| corners.map(|v| node_id(mesh, band, v));
             Some((id, in_band(t)?.into_iter().map(corners).collect()))
         }
         Place::Beside { inside } => Some((id, beside(mesh, id, inside)?)),
@@ -292,7 +306,7 @@ impl PiecesByTriangle {
         Self { ends, pieces }
     }
 
-    /// Returns the pieces that replace a triangle of the band, by their nodes; `None` if it stays as it is.
+    /// Returns the pieces that replace a triangle of the band, with their nodes; `None` if it stays as it is.
     pub(super) fn replacement(
         &self,
         mesh: &Mesh,
@@ -300,9 +314,9 @@ impl PiecesByTriangle {
         patchwork: &Patchwork,
         angles: &Angles,
         triangle: u32,
-    ) -> Option<Vec<[u32; 3]>> {
+    ) -> Option<Vec<(u32, [u32; 3])>> {
         let (pieces, in_domain) = (self.of(triangle), mesh.is_in_domain(band.ids[triangle as usize]));
-        let corners = |&piece: &u32| longest_edge_first(patchwork, angles, piece);
+        let corners = |&piece: &u32| (piece, longest_edge_first(patchwork, angles, piece));
         (!is_unchanged(band, patchwork, in_domain, pieces)).then(|| pieces.iter().map(corners).collect())
     }
 

@@ -64,8 +64,12 @@ struct Candidate {
 #[derive(Clone, Debug)]
 pub(super) struct TurningCorners {
     rings: Vec<Vec<LatticePoint>>,
-    /// Sorted by their points, each with the number of its ring and its place there.
+    /// Sorted by their rows, and in a row by their points, each with the number of its ring and its place
+    /// there.
     turning: Vec<(LatticePoint, [u32; 2])>,
+    /// Points whose y is the same without this many last bits are in one row. There are about as many rows as
+    /// corners in a row.
+    row_bits: u32,
     /// The upper right corner of the lattice.
     extent: LatticePoint,
 }
@@ -84,8 +88,9 @@ impl TurningCorners {
         };
         let all = all.filter(is_free).map(|(n, corner)| (corner.at(), [n as u32, corner.place as u32]));
         let mut turning: Vec<_> = all.collect();
-        turning.par_sort_unstable();
-        Self { rings, turning, extent }
+        let row_bits = (extent.y / turning.len().isqrt().max(1) as u32).max(1).ilog2();
+        turning.par_sort_unstable_by_key(|&(point, place)| (point.y >> row_bits, point, place));
+        Self { rings, turning, row_bits, extent }
     }
 
     /// Marks the nodes at a sharp corner near which a node acted: what acted decides which of them goes to
@@ -146,12 +151,20 @@ impl TurningCorners {
 
     /// Returns the corners at most so far from a point, in world units.
     fn within(&self, at: LatticePoint, reach: f64, angles: &Angles) -> impl Iterator<Item = [u32; 2]> {
-        let (angles, steps) = (*angles, (reach / angles.step().x).ceil());
-        let first = (f64::from(at.x) - steps).max(0.0) as u32;
-        let start = self.turning.partition_point(|(point, _)| point.x < first);
-        let end = f64::from(at.x) + steps;
-        let strip = self.turning[start..].iter().take_while(move |(point, _)| f64::from(point.x) <= end);
-        let near = strip.filter(move |(point, _)| angles.vector(*point, at).length() <= reach);
+        let angles = *angles;
+        let steps = (reach / angles.step()).ceil();
+        let [first, last] = [at.as_dvec2() - steps, at.as_dvec2() + steps];
+        // Conversions saturate.
+        let rows = (first.y as u32) >> self.row_bits..=(last.y as u32) >> self.row_bits;
+        let rows = rows.flat_map(move |row| {
+            let key = (row, first.x as u32);
+            let start = self.turning.partition_point(|(point, _)| (point.y >> self.row_bits, point.x) < key);
+            let is_in_strip = move |(point, _): &&(LatticePoint, [u32; 2])| {
+                point.y >> self.row_bits == row && f64::from(point.x) <= last.x
+            };
+            self.turning[start..].iter().take_while(is_in_strip)
+        });
+        let near = rows.filter(move |(point, _)| angles.vector(*point, at).length() <= reach);
         near.map(|(_, place)| *place)
     }
 

@@ -3,6 +3,7 @@ use super::angles::Angles;
 use super::changes::{OutlineChanges, OutlineFit};
 use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
+use crate::geometry::LatticePoint;
 use crate::mesh::{Cleaning, Extract, Mesh, MeshPatch, Removed};
 
 /// A mesh as it is exported: with its boundary nodes on the outline if the domain requires that, and without
@@ -15,6 +16,7 @@ pub struct DerivedMesh {
     patch: MeshPatch,
     fit: Option<OutlineFit>,
     removed: Removed,
+    removed_triangles: Vec<[LatticePoint; 3]>,
     allows_pinches: bool,
     corner_limit: f64,
 }
@@ -53,9 +55,12 @@ impl DerivedMesh {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
             None => (MeshPatch::default(), None, 0.0),
         };
-        let removed = patch.clean(mesh, cleaning);
+        let mut removed_triangles = Vec::new();
+        let removed = patch.clean_and_tell(mesh, cleaning, &mut |corners| removed_triangles.push(corners));
+        let removed_triangles =
+            removed_triangles.into_iter().map(|corners| corners.map(|node| patch.node(mesh, node))).collect();
         let allows_pinches = fit.is_none() && cleaning.keeps_pinches;
-        Self { patch, fit, removed, allows_pinches, corner_limit }
+        Self { patch, fit, removed, removed_triangles, allows_pinches, corner_limit }
     }
 
     /// Returns the mesh with the changes, for files and summaries.
@@ -80,6 +85,11 @@ impl DerivedMesh {
     /// Returns the numbers of removed parts and nodes.
     pub fn removed(&self) -> &Removed {
         &self.removed
+    }
+
+    /// Returns the corners of the triangles that were removed, anticlockwise.
+    pub fn removed_triangles(&self) -> &[[LatticePoint; 3]] {
+        &self.removed_triangles
     }
 
     pub(super) fn allows_pinches(&self) -> bool {

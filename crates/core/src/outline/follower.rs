@@ -23,52 +23,88 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::band::{Band, GRAIN, RINGS};
-use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit, PiecesByTriangle, beside};
+use super::band::{GRAIN, RINGS};
+use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit, beside};
 use super::corners::TurningCorners;
-use super::numbers::{NumberMap, Numbers};
-use super::triangulation::NONE;
-use super::window::{LOCAL_RINGS, Rings, WINDOW_RINGS, Window};
-use crate::domain::DomainOnLattice;
+use super::numbers::{NumberMap, Numbers, Pages};
+use super::window::{LOCAL_RINGS, Rings, SLACK, Window, expected};
+use super::writer::Writer;
+use crate::domain::{DomainOnLattice, RegionOnLattice};
 use crate::geometry::LatticePoint;
-use crate::mesh::{Changes, Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
+use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
 
 /// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle
 /// has the centroid of one that it is a part of.
-type Place = u64;
+pub(super) type Place = u64;
 
-fn node_place(point: LatticePoint) -> Place {
+pub(super) fn node_place(point: LatticePoint) -> Place {
     u64::from(point.x) << 32 | u64::from(point.y)
 }
 
-fn triangle_place(corners: [LatticePoint; 3]) -> Place {
+/// Returns the node of a place.
+fn node_at(place: Place) -> LatticePoint {
+    LatticePoint::new((place >> 32) as u32, place as u32)
+}
+
+pub(super) fn triangle_place(corners: [LatticePoint; 3]) -> Place {
     let sum = |c: fn(&LatticePoint) -> u32| corners.iter().map(|p| u64::from(c(p))).sum::<u64>();
     sum(|p| p.x) << 32 | sum(|p| p.y)
 }
 
+/// Returns whether the outline touches a triangle.
+fn touches(mesh: &Mesh, region: &RegionOnLattice, id: TriangleId) -> bool {
+    region.side_of(mesh.corners(id), mesh.triangle(id).level()).is_none()
+}
+
 /// A triangle that the derivation may change.
 #[derive(Clone, Debug)]
-struct KeptTriangle {
+pub(super) struct KeptTriangle {
     /// Its entry in the mesh; `None` while it is not known whether it is still there.
-    id: Option<TriangleId>,
-    corners: [Place; 3],
+    pub(super) id: Option<TriangleId>,
+    pub(super) corners: [Place; 3],
     /// The triangles that replace it; `None` if it stays as it is.
-    pieces: Option<Box<[[Place; 3]]>>,
+    pub(super) pieces: Option<Box<[KeptPiece]>>,
+    pub(super) seat: Seat,
+}
+
+impl KeptTriangle {
+    /// Returns its nodes and those of its pieces.
+    fn nodes(&self) -> impl Iterator<Item = Place> {
+        let of_pieces = self.pieces.iter().flatten().flat_map(|piece| piece.corners);
+        self.corners.into_iter().chain(of_pieces)
+    }
+}
+
+/// A triangle that replaces another one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KeptPiece {
+    pub(super) corners: [Place; 3],
+    /// Whether the edges from each corner to the next are on the boundary.
+    pub(super) on_boundary: [bool; 3],
+}
+
+/// What is known of an entry of the mesh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seat {
+    /// The place of the triangle.
+    pub(super) place: Place,
+    /// Whether the outline touches it.
+    pub(super) is_touched: bool,
     /// Whether the outline touches it beside the band.
-    is_beside: bool,
+    pub(super) is_beside: bool,
 }
 
 /// A node of the band, or in a cut edge.
 #[derive(Clone, Copy, Debug)]
-struct KeptNode {
-    home: LatticePoint,
-    at: LatticePoint,
+pub(super) struct KeptNode {
+    pub(super) home: LatticePoint,
+    pub(super) at: LatticePoint,
     /// Whether it is part of an island.
-    acts: bool,
-    fit: OutlineFit,
+    pub(super) acts: bool,
+    pub(super) fit: OutlineFit,
     /// The cotangent of the smallest angle that is accepted beside it; 0 if it is not at a corner of the
     /// outline.
-    corner_limit: f64,
+    pub(super) corner_limit: f64,
 }
 
 /// The nodes on the outline of a domain, for a mesh that changes where it is.
@@ -77,9 +113,9 @@ pub struct OutlineFollower {
     domain: DomainOnLattice,
     corners: Arc<TurningCorners>,
     triangles: NumberMap<Place, KeptTriangle>,
-    /// The places of the triangles of `triangles`, by their entries in the mesh.
-    places: NumberMap<u32, Place>,
-    nodes: NumberMap<Place, KeptNode>,
+    /// The triangles of `triangles`, by their entries in the mesh.
+    seats: NumberMap<u32, Seat>,
+    pub(super) nodes: NumberMap<Place, KeptNode>,
     /// Number of triangles of the mesh.
     count: usize,
 }
@@ -89,17 +125,17 @@ impl OutlineFollower {
     pub fn new(mesh: &Mesh, domain: &DomainOnLattice) -> Option<Self> {
         let region = domain.region_on_outline()?;
         let outline = Outline::new(mesh.lattice(), region);
-        let fitted = FittedBand::new(mesh, Band::new(mesh, region), &outline, &mut |_, _| {});
+        let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
         let mut follower = Self {
             domain: domain.clone(),
             corners: outline.corners.clone(),
             triangles: NumberMap::default(),
-            places: NumberMap::default(),
+            seats: NumberMap::default(),
             nodes: NumberMap::default(),
             count: mesh.raw_triangle_count(),
         };
         follower.triangles.reserve(fitted.band.ids.len());
-        follower.places.reserve(fitted.band.ids.len());
+        follower.seats.reserve(fitted.band.ids.len());
         follower.nodes.reserve(fitted.patchwork.points.len());
         let mut writer = Writer::new(mesh, &fitted, &outline);
         (0..fitted.band.ids.len() as u32).for_each(|t| writer.write(&mut follower, t));
@@ -110,22 +146,30 @@ impl OutlineFollower {
     /// Takes in what changed in the mesh, and returns the entries whose pieces may be others than before, in
     /// ascending order.
     pub fn update(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<TriangleId> {
+        self.update_few(mesh, changes, usize::MAX).expect("there is no limit")
+    }
+
+    /// [`Self::update`], unless more triangles than `most` came near the outline. Then it returns `None`, and
+    /// the nodes are in step with the mesh no more.
+    pub fn update_few(&mut self, mesh: &Mesh, changes: &Changes, most: usize) -> Option<Vec<TriangleId>> {
         let domain = self.domain.clone();
-        let Some(region) = domain.region_on_outline() else { return Vec::new() };
+        let Some(region) = domain.region_on_outline() else { return Some(Vec::new()) };
         let Entries { fresh, mut rewritten, mut stale } = self.follow_entries(mesh, changes);
         let known =
             |id: &TriangleId| mesh.corners(*id).iter().any(|&p| self.nodes.contains_key(&node_place(p)));
-        let touches =
-            |id: &TriangleId| region.side_of(mesh.corners(*id), mesh.triangle(*id).level()).is_none();
-        let relevant = fresh.into_par_iter().with_min_len(GRAIN).filter(|id| known(id) || touches(id));
+        let fresh = fresh.into_par_iter().with_min_len(GRAIN);
+        let relevant = fresh.filter(|id| known(id) || touches(mesh, region, *id));
         let relevant: Vec<TriangleId> = relevant.collect();
+        if relevant.len() > most {
+            return None;
+        }
         if !relevant.is_empty() {
             let outline = Outline::with_corners(mesh.lattice(), region, self.corners.clone());
             self.derive_around(mesh, &outline, &relevant, &mut rewritten, &mut stale);
         }
         rewritten.par_sort_unstable();
         rewritten.dedup();
-        rewritten
+        Some(rewritten)
     }
 
     /// Finds kept triangles at their new entries. Those that are gone are forgotten.
@@ -135,9 +179,9 @@ impl OutlineFollower {
         let changed = || changes.triangles.iter().flat_map(|ids| ids.start..ids.end.min(count));
         let mut lost = Vec::new();
         for index in changed().chain(gone) {
-            if let Some(place) = self.places.remove(&(index as u32)) {
-                self.triangles.get_mut(&place).expect("it was kept").id = None;
-                lost.push(place);
+            if let Some(seat) = self.seats.remove(&(index as u32)) {
+                self.triangles.get_mut(&seat.place).expect("it was kept").id = None;
+                lost.push(seat.place);
             }
         }
         let mut entries = Entries::default();
@@ -147,7 +191,7 @@ impl OutlineFollower {
             match self.triangles.get_mut(&place) {
                 Some(kept) => {
                     kept.id = Some(id);
-                    self.places.insert(index as u32, place);
+                    self.seats.insert(index as u32, kept.seat);
                     entries.rewritten.push(id);
                 }
                 None => entries.fresh.push(id),
@@ -175,33 +219,41 @@ impl OutlineFollower {
         let near = Rings::around(mesh, seeds.iter().copied(), RINGS as u32, |_| true);
         // Triangles that are in the band now were there before, or are near fresh ones.
         let may_be_in_band = |id: TriangleId| {
-            self.places.contains_key(&(id.index() as u32))
+            self.seats.contains_key(&(id.index() as u32))
                 || mesh.triangle(id).vertices.iter().all(|&v| near.ring_of(v).is_some())
         };
+        let mut is_fresh = Pages::for_entries(mesh.raw_triangle_count());
+        fresh.iter().for_each(|id| _ = is_fresh.set(id.index(), 0));
+        // What is not kept was touched without effect, and has an effect in the band only, if at all.
+        let touches = |id: TriangleId| match self.seats.get(&(id.index() as u32)) {
+            Some(seat) => seat.is_touched,
+            None => is_fresh.get(id.index()).is_some() && touches(mesh, outline.region, id),
+        };
+        let acted = |point: LatticePoint| self.nodes.get(&node_place(point)).is_some_and(|node| node.acts);
         let mut core = Rings::around(mesh, seeds, LOCAL_RINGS, may_be_in_band).nodes;
-        let mut reach = WINDOW_RINGS;
+        let mut slack = SLACK;
         let (window, reached) = loop {
-            let window = Window::new(mesh, outline, core, reach, may_be_in_band);
-            let acted =
-                |point: LatticePoint| self.nodes.get(&node_place(point)).is_some_and(|node| node.acts);
+            let sure = expected(mesh, &core, acted, may_be_in_band);
+            let window = Window::new(mesh, outline, core, (sure, slack), may_be_in_band, touches);
             let reached = window.reached(&self.strangers(mesh, &window), acted);
             if reached.is_sure {
                 break (window, reached.nodes);
             }
-            (core, reach) = (reached.nodes, reach + WINDOW_RINGS / 2);
+            (core, slack) = (reached.nodes, slack + SLACK);
         };
         self.take_over(mesh, outline, &window, &reached, rewritten, stale);
+        drop(window);
     }
 
     /// Returns the nodes of triangles that came to the band or left it, in the sure part of a window.
     fn strangers(&self, mesh: &Mesh, window: &Window) -> Vec<NodeId> {
+        let may_matter = |id: &TriangleId| mesh.triangle(*id).vertices.iter().any(|&v| window.is_sure(v));
         let is_stranger = |id: &TriangleId| {
-            let key = id.index() as u32;
-            let is_in_band = window.numbers_of_triangles.contains_key(&key);
-            let was_in_band = self.places.get(&key).is_some_and(|place| !self.triangles[place].is_beside);
-            is_in_band != was_in_band
+            let is_in_band = window.number_of_triangle(*id).is_some();
+            let seat = self.seats.get(&(id.index() as u32));
+            is_in_band != seat.is_some_and(|seat| !seat.is_beside)
         };
-        let strangers = window.triangles.iter().filter(|id| is_stranger(id));
+        let strangers = window.triangles.iter().filter(|id| may_matter(id) && is_stranger(id));
         let nodes = strangers.flat_map(|&id| mesh.triangle(id).vertices);
         nodes.filter(|&node| window.is_sure(node)).collect()
     }
@@ -218,7 +270,7 @@ impl OutlineFollower {
     ) {
         let fitted = &window.fitted;
         let mut writer = Writer::new(mesh, fitted, outline);
-        let mut is_written = NumberMap::<u32, u32>::default();
+        let mut is_written = Pages::for_entries(mesh.raw_triangle_count());
         for &node in reached {
             if window.number_of(node).is_none() {
                 stale.push(node_place(mesh.node(node)));
@@ -228,17 +280,16 @@ impl OutlineFollower {
                     continue;
                 }
                 rewritten.push(id);
-                if let Some(place) = self.places.remove(&(id.index() as u32)) {
-                    let kept = self.triangles.remove(&place).expect("it was kept");
-                    stale.extend(kept.corners.iter().chain(kept.pieces.iter().flatten().flatten()));
+                if let Some(seat) = self.seats.remove(&(id.index() as u32)) {
+                    let kept = self.triangles.remove(&seat.place).expect("it was kept");
+                    stale.extend(kept.nodes());
                 }
-                if let Some(t) = window.numbers_of_triangles.get(&(id.index() as u32)) {
-                    writer.write(self, *t);
+                if let Some(t) = window.number_of_triangle(id) {
+                    writer.write(self, t);
                 }
             }
         }
-        for &(id, inside) in
-            fitted.band.touched.iter().filter(|(id, _)| Numbers::get(&is_written, id.index()).is_some())
+        for &(id, inside) in fitted.band.touched.iter().filter(|(id, _)| is_written.get(id.index()).is_some())
         {
             self.write_beside(mesh, id, inside);
         }
@@ -252,14 +303,18 @@ impl OutlineFollower {
     fn write_beside(&mut self, mesh: &Mesh, id: TriangleId, inside: bool) {
         let Some(pieces) = beside(mesh, id, inside) else { return };
         let corners = mesh.corners(id).map(node_place);
-        let pieces = pieces.into_iter().map(|piece| piece.map(|node| node_place(mesh.node(node)))).collect();
-        let kept = KeptTriangle { id: Some(id), corners, pieces: Some(pieces), is_beside: true };
-        self.keep(id, triangle_place(mesh.corners(id)), kept);
+        // The nodes of the triangles across its edges lie inside, too.
+        let on_boundary = mesh.triangle(id).raw_neighbours.map(|across| across.triangle().is_none());
+        let corners_of = |piece: [NodeId; 3]| piece.map(|node| node_place(mesh.node(node)));
+        let kept_piece = |piece| KeptPiece { corners: corners_of(piece), on_boundary };
+        let pieces = pieces.into_iter().map(kept_piece).collect();
+        let seat = Seat { place: triangle_place(mesh.corners(id)), is_touched: true, is_beside: true };
+        self.keep(id, KeptTriangle { id: Some(id), corners, pieces: Some(pieces), seat });
     }
 
-    fn keep(&mut self, id: TriangleId, place: Place, triangle: KeptTriangle) {
-        self.places.insert(id.index() as u32, place);
-        self.triangles.insert(place, triangle);
+    pub(super) fn keep(&mut self, id: TriangleId, triangle: KeptTriangle) {
+        self.seats.insert(id.index() as u32, triangle.seat);
+        self.triangles.insert(triangle.seat.place, triangle);
     }
 
     /// Returns the changes of the mesh, which must be the one of the last update.
@@ -273,7 +328,7 @@ impl OutlineFollower {
     }
 
     fn patch(&self, mesh: &Mesh) -> MeshPatch {
-        let mut changed: Vec<(TriangleId, &[[Place; 3]])> =
+        let mut changed: Vec<(TriangleId, &[KeptPiece])> =
             self.triangles.values().filter_map(|kept| Some((kept.id?, kept.pieces.as_deref()?))).collect();
         changed.par_sort_unstable_by_key(|(id, _)| *id);
         // A moved node, and each corner of a piece, is the corner of a triangle that is replaced.
@@ -288,7 +343,7 @@ impl OutlineFollower {
         for (id, pieces) in changed {
             let (first, level) = (patch.pieces.len(), mesh.triangle(id).level());
             for piece in pieces {
-                let corners = piece.map(|place| {
+                let corners = piece.corners.map(|place| {
                     *ids.entry(place).or_insert_with(|| {
                         patch.added.push(self.nodes[&place].at);
                         NodeId::from_index(mesh.raw_nodes().len() + patch.added.len() - 1)
@@ -299,6 +354,24 @@ impl OutlineFollower {
             patch.changed.push((id, first..patch.pieces.len()));
         }
         patch
+    }
+
+    /// Returns what is drawn in place of a triangle of the mesh, which must be the one of the last update.
+    pub fn replacement(&self, mesh: &Mesh, id: TriangleId) -> Replacement {
+        let kept = self.seats.get(&(id.index() as u32)).map(|seat| &self.triangles[&seat.place]);
+        let drawn = |piece: &KeptPiece| DrawnPiece {
+            // Beside the band, nodes are not kept: they stay where they are.
+            corners: piece.corners.map(|place| self.nodes.get(&place).map_or(node_at(place), |node| node.at)),
+            on_boundary: piece.on_boundary,
+        };
+        let shown = |home| self.nodes.get(&node_place(home)).map_or(home, |node| node.at);
+        Replacement {
+            id,
+            nodes: mesh.corners(id).map(shown),
+            pieces: kept
+                .and_then(|kept| kept.pieces.as_ref())
+                .map(|pieces| pieces.iter().map(drawn).collect()),
+        }
     }
 
     /// Returns the domain whose outline it follows.
@@ -320,68 +393,6 @@ struct Entries {
 
 impl Entries {
     fn forget(&mut self, kept: &KeptTriangle) {
-        self.stale.extend(kept.corners.iter().chain(kept.pieces.iter().flatten().flatten()));
-    }
-}
-
-/// Writes triangles of a band, with their nodes.
-struct Writer<'a> {
-    mesh: &'a Mesh,
-    fitted: &'a FittedBand,
-    outline: &'a Outline<'a>,
-    pieces: PiecesByTriangle,
-    acted: Vec<bool>,
-    is_node_written: Vec<bool>,
-    star: Vec<(u32, usize)>,
-}
-
-impl<'a> Writer<'a> {
-    fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
-        Self {
-            pieces: PiecesByTriangle::new(&fitted.band, &fitted.patchwork),
-            acted: fitted.acted(),
-            is_node_written: vec![false; fitted.patchwork.points.len()],
-            star: Vec::new(),
-            mesh,
-            fitted,
-            outline,
-        }
-    }
-
-    /// Writes a triangle of the band, and its nodes.
-    fn write(&mut self, follower: &mut OutlineFollower, triangle: u32) {
-        let FittedBand { band, patchwork, placement, .. } = self.fitted;
-        let home = |v: u32| node_place(placement.homes[v as usize]);
-        let pieces = self.pieces.replacement(self.mesh, band, patchwork, &self.outline.angles, triangle);
-        let pieces = pieces.map(|pieces| pieces.into_iter().map(|piece| piece.map(home)).collect());
-        let id = band.ids[triangle as usize];
-        let corners = band.triangles.corners[triangle as usize];
-        let place = triangle_place(self.mesh.corners(id));
-        follower.keep(
-            id,
-            place,
-            KeptTriangle { id: Some(id), corners: corners.map(home), pieces, is_beside: false },
-        );
-        let cuts = placement.cuts[triangle as usize];
-        for v in corners.into_iter().chain(cuts).filter(|&v| v != NONE) {
-            self.write_node(follower, v);
-        }
-    }
-
-    fn write_node(&mut self, follower: &mut OutlineFollower, node: u32) {
-        let v = node as usize;
-        if std::mem::replace(&mut self.is_node_written[v], true) {
-            return;
-        }
-        let FittedBand { patchwork, placement, pins, .. } = self.fitted;
-        let pin = pins.binary_search_by_key(&node, |pin| pin.node);
-        let kept = KeptNode {
-            home: placement.homes[v],
-            at: patchwork.points[v],
-            acts: self.acted.get(v).is_some_and(|&acts| acts),
-            fit: self.fitted.fit_of(self.outline, node, &mut self.star),
-            corner_limit: pin.map_or(0.0, |n| pins[n].limit),
-        };
-        follower.nodes.insert(node_place(kept.home), kept);
+        self.stale.extend(kept.nodes());
     }
 }

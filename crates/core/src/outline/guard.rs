@@ -11,6 +11,8 @@ use super::stencil::{Piece, Placement};
 /// Lets nodes retreat until no angle is too small.
 pub(super) struct Guard<'a> {
     pub(super) band: &'a Band,
+    /// For each node of the band, whether the triangles at it count.
+    pub(super) zone: &'a [bool],
     pub(super) angles: &'a Angles,
     /// The cotangent of the smallest angle that is allowed inside.
     pub(super) limit: f64,
@@ -24,8 +26,10 @@ impl Guard<'_> {
     /// triangles take one step back at once. Returns the pinned nodes at which an angle stays too small.
     pub(super) fn run(&self, placement: &mut Placement) -> Vec<u32> {
         let all = (0..self.band.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
-        let gaps: Vec<Gap> = all.clone().map(|t| gap(self.band, placement, t)).collect();
-        let mut suspects: Vec<u32> = all.filter(|&t| self.can_change(placement, t)).collect();
+        let gap = |t| if self.is_in_zone(t) { gap(self.band, placement, t) } else { Gap::Full };
+        let gaps: Vec<Gap> = all.clone().map(gap).collect();
+        let mut suspects: Vec<u32> =
+            all.filter(|&t| self.is_in_zone(t) && self.can_change(placement, t)).collect();
         let mut stuck = Vec::new();
         while !suspects.is_empty() {
             let mut back = Vec::new();
@@ -49,6 +53,10 @@ impl Guard<'_> {
         stuck
     }
 
+    fn is_in_zone(&self, triangle: u32) -> bool {
+        self.band.starting_at(triangle, 0, self.zone).contains(&true)
+    }
+
     fn can_change(&self, placement: &Placement, triangle: u32) -> bool {
         let corners = self.band.starting_at(triangle, 0, &placement.sides);
         corners.contains(&Side::On) || (corners.contains(&Side::Inside) && corners.contains(&Side::Outside))
@@ -60,6 +68,7 @@ impl Guard<'_> {
         moved.iter().for_each(|&v| placement.push_triangles_at(self.band, v, &mut around));
         around.sort_unstable();
         around.dedup();
+        around.retain(|&t| self.is_in_zone(t));
         around
     }
 

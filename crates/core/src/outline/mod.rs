@@ -41,6 +41,7 @@ mod stages;
 mod changes;
 mod window;
 mod follower;
+mod writer;
 mod derived;
 mod check;
 

@@ -1,4 +1,4 @@
-//! Numbers for nodes and triangles of a mesh: for all of them, or for few.
+//! Numbers for nodes and triangles of a mesh: for all of them, or for few, and maps by numbers.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -30,24 +30,41 @@ impl Numbers for Vec<u32> {
     }
 }
 
-/// A map by numbers that are spread by a multiplication: no one chooses them to collide.
-pub(super) type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
+/// Entries of a page of [`Pages`].
+const PAGE: usize = 128;
 
-impl Numbers for NumberMap<u32, u32> {
-    fn for_entries(_: usize) -> Self {
-        Self::default()
+/// Numbers of few entries of a long array: only the pages that have some are kept. Entries near each other on
+/// the plane are mostly near each other in the arrays of a mesh.
+pub(super) struct Pages {
+    /// For each page of the array, its place among those that are kept; 0 if it has no numbers.
+    places: Vec<u32>,
+    /// The pages, with numbers plus one. The first one stays empty.
+    numbers: Vec<[u32; PAGE]>,
+}
+
+impl Numbers for Pages {
+    fn for_entries(count: usize) -> Self {
+        Self { places: vec![0; count.div_ceil(PAGE)], numbers: vec![[0; PAGE]] }
     }
 
     #[inline]
     fn get(&self, index: usize) -> Option<u32> {
-        HashMap::get(self, &(index as u32)).copied()
+        self.numbers[self.places[index / PAGE] as usize][index % PAGE].checked_sub(1)
     }
 
     #[inline]
     fn set(&mut self, index: usize, number: u32) -> bool {
-        self.insert(index as u32, number).is_none()
+        let place = &mut self.places[index / PAGE];
+        if *place == 0 {
+            *place = self.numbers.len() as u32;
+            self.numbers.push([0; PAGE]);
+        }
+        std::mem::replace(&mut self.numbers[*place as usize][index % PAGE], number + 1) == 0
     }
 }
+
+/// A map by numbers that are spread by a multiplication: no one chooses them to collide.
+pub(super) type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
 
 /// Hashes numbers of 32 and 64 bits.
 #[derive(Clone, Copy, Default)]

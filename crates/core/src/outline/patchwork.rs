@@ -70,6 +70,8 @@ pub(super) struct Patchwork {
     pub(super) pinned: Vec<bool>,
     /// For each node, what [`Placement::acted`] says, with the steps since.
     pub(super) acted: Vec<bool>,
+    /// For each node, whether steps that move nodes and flip edges do so at it.
+    pub(super) zone: Vec<bool>,
     /// For each node, whether anything around it changed since the last search for a better position failed.
     pub(super) may_move: Vec<bool>,
     /// For each piece, whether anything changed since the last search for a flip of its edges failed.
@@ -145,6 +147,16 @@ impl Pieces {
 
 impl Patchwork {
     pub(super) fn new(band: &Band, placement: &Placement, angles: &Angles) -> Self {
+        Self::in_zone(band, placement, angles, vec![true; band.points.len()])
+    }
+
+    /// [`Self::new`], for steps that change only what lies at the nodes of the band in `zone`.
+    pub(super) fn in_zone(band: &Band, placement: &Placement, angles: &Angles, mut zone: Vec<bool>) -> Self {
+        let cuts = band.points.len() as u32..placement.homes.len() as u32;
+        for cut in cuts {
+            let ends = placement.band_nodes_at(band, cut);
+            zone.push(ends.iter().any(|&v| zone[v as usize]));
+        }
         let nodes = 0..placement.homes.len() as u32;
         let pieces = Pieces::new(band, placement, angles);
         let (across, count) = (pieces.across(band), pieces.owners.len());
@@ -157,6 +169,7 @@ impl Patchwork {
             on_outline: nodes.map(|v| placement.is_on_outline(v)).collect(),
             pinned: placement.pinned.clone(),
             acted: placement.acted.clone(),
+            zone,
             may_move: vec![true; placement.homes.len()],
             may_flip: vec![true; count],
             poor: Vec::new(),
@@ -188,13 +201,14 @@ impl Patchwork {
         self.gaps[triangle as usize].is_open(angles, self.triangles.corners[triangle as usize], points)
     }
 
-    /// Returns the pieces inside that have an angle below 30°, in ascending order.
+    /// Returns the pieces inside and in the zone that have an angle below 30°, in ascending order.
     pub(super) fn poor(&mut self, angles: &Angles) -> &[u32] {
         let mut poor = std::mem::take(&mut self.poor);
         poor.append(&mut self.changed);
         poor.sort_unstable();
         poor.dedup();
-        let is_poor = |&t: &u32| self.inside[t as usize] && self.worst(angles, t) > COT_30;
+        let is_in_zone = |t: u32| self.triangles.corners[t as usize].iter().any(|&v| self.zone[v as usize]);
+        let is_poor = |&t: &u32| self.inside[t as usize] && is_in_zone(t) && self.worst(angles, t) > COT_30;
         self.poor = poor.into_par_iter().with_min_len(GRAIN).filter(is_poor).collect();
         &self.poor
     }

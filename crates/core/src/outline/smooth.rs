@@ -64,7 +64,7 @@ impl Smoother<'_> {
             poor.iter().flat_map(|&t| patchwork.triangles.corners[t as usize]).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        nodes.retain(|&node| patchwork.may_move[node as usize]);
+        nodes.retain(|&node| patchwork.zone[node as usize] && patchwork.may_move[node as usize]);
         let searches = nodes.par_iter().with_min_len(FEWEST_SEARCHES);
         let found =
             searches.map_init(Scratch::default, |scratch, &node| self.best_move(patchwork, node, scratch));
@@ -80,7 +80,8 @@ impl Smoother<'_> {
     /// round.
     pub(super) fn pull(&self, patchwork: &mut Patchwork) {
         let all = (0..patchwork.points.len() as u32).into_par_iter().with_min_len(GRAIN);
-        let mut off: Vec<u32> = all.filter(|&v| !patchwork.on_outline[v as usize]).collect();
+        let mut off: Vec<u32> =
+            all.filter(|&v| patchwork.zone[v as usize] && !patchwork.on_outline[v as usize]).collect();
         // What is on the boundary stays there.
         let on_boundary = |star: &mut Vec<(u32, usize)>, v: u32| {
             patchwork.triangles.star(v, star);

@@ -4,21 +4,29 @@ use rayon::prelude::*;
 
 use super::band::{Band, GRAIN, RINGS};
 use super::changes::{FittedBand, Outline};
-use super::numbers::{NumberMap, Numbers};
+use super::numbers::{Numbers, Pages};
 use crate::geometry::LatticePoint;
 use crate::mesh::{Mesh, NodeId, TriangleId};
 
 /// Rings within which steps look at others before any node acts.
 pub(super) const LOCAL_RINGS: u32 = 4;
+/// Rings at the edge of a window where the first steps do not see all that they look at.
+const SURE_RINGS: u32 = LOCAL_RINGS + RINGS as u32;
+/// Rings of triangles between two nodes of one island, at most.
+const ISLAND_RINGS: u32 = 2;
 /// Rings around islands whose nodes look at them, or at the same nodes.
-const BESIDE_RINGS: usize = 4;
-/// Rings of a window around its core, at first.
-pub(super) const WINDOW_RINGS: u32 = 20;
+const BESIDE_RINGS: u32 = 4;
+/// Rings at the edge of a window where steps after the first ones are left out: what they do there is not
+/// right, and the nodes within, where the first steps see enough, do not look so far.
+const ZONE_RINGS: u32 = SURE_RINGS - 2;
+/// Rings around the nodes where a window must be right, in which it is right, too: first, and how many more
+/// in each wider window.
+pub(super) const SLACK: u32 = 2;
 
 /// Nodes with the number of rings of triangles between them and some of them.
 pub(super) struct Rings {
     pub(super) nodes: Vec<NodeId>,
-    rings: NumberMap<u32, u32>,
+    rings: Pages,
 }
 
 impl Rings {
@@ -29,84 +37,150 @@ impl Rings {
         rings: u32,
         pass: impl Fn(TriangleId) -> bool,
     ) -> Self {
-        let mut found = Self { nodes: Vec::new(), rings: NumberMap::default() };
+        Self::with_triangles(mesh, first, rings, pass).0
+    }
+
+    /// [`Self::around`], with the triangles that were seen: those at all nodes but the ones of the last ring.
+    fn with_triangles(
+        mesh: &Mesh,
+        first: impl IntoIterator<Item = NodeId>,
+        rings: u32,
+        pass: impl Fn(TriangleId) -> bool,
+    ) -> (Self, Triangles) {
+        let mut found = Self { nodes: Vec::new(), rings: Pages::for_entries(mesh.raw_nodes().len()) };
+        let mut triangles = Triangles::new(mesh);
         first.into_iter().for_each(|node| found.add(node, 0));
         let mut start = 0;
         for ring in 1..=rings {
             let end = found.nodes.len();
             for n in start..end {
-                for id in mesh.all_triangles_around(found.nodes[n]).filter(|&id| pass(id)) {
-                    mesh.triangle(id).vertices.into_iter().for_each(|node| found.add(node, ring));
+                for id in mesh.all_triangles_around(found.nodes[n]) {
+                    if triangles.add(id) && pass(id) {
+                        mesh.triangle(id).vertices.into_iter().for_each(|node| found.add(node, ring));
+                    }
                 }
             }
             start = end;
         }
-        found
+        (found, triangles)
     }
 
     fn add(&mut self, node: NodeId, ring: u32) {
         if self.ring_of(node).is_none() {
-            self.rings.insert(node.index() as u32, ring);
+            self.rings.set(node.index(), ring);
             self.nodes.push(node);
         }
     }
 
     pub(super) fn ring_of(&self, node: NodeId) -> Option<u32> {
-        Numbers::get(&self.rings, node.index())
+        self.rings.get(node.index())
+    }
+}
+
+/// Returns the nodes where a window must be right, if nodes act where they `acted` before: those around the
+/// islands that touch the core, and around islands beside these. All are found through triangles that `pass`.
+pub(super) fn expected(
+    mesh: &Mesh,
+    core: &[NodeId],
+    acted: impl Fn(LatticePoint) -> bool,
+    pass: impl Fn(TriangleId) -> bool + Copy,
+) -> Vec<NodeId> {
+    let near = |nodes: &[NodeId], rings| Rings::around(mesh, nodes.iter().copied(), rings, pass).nodes;
+    let with_islands = |nodes: &[NodeId]| {
+        let mut all = Rings::around(mesh, nodes.iter().copied(), 0, pass);
+        let mut last = nodes.to_vec();
+        while !last.is_empty() {
+            let beside = near(&last, ISLAND_RINGS).into_iter();
+            last = beside.filter(|&v| all.ring_of(v).is_none() && acted(mesh.node(v))).collect();
+            last.iter().for_each(|&v| all.add(v, 0));
+        }
+        all
+    };
+    let islands = with_islands(core);
+    let mut sure = near(&islands.nodes, BESIDE_RINGS);
+    let others = sure.iter().copied().filter(|&v| islands.ring_of(v).is_none() && acted(mesh.node(v)));
+    let others = with_islands(&others.collect::<Vec<_>>()).nodes;
+    sure.extend(near(&others, ISLAND_RINGS));
+    sure
+}
+
+/// Triangles, each once.
+struct Triangles {
+    ids: Vec<TriangleId>,
+    is_known: Pages,
+}
+
+impl Triangles {
+    fn new(mesh: &Mesh) -> Self {
+        Self { ids: Vec::new(), is_known: Pages::for_entries(mesh.raw_triangle_count()) }
+    }
+
+    /// Adds a triangle, and returns whether it is new.
+    fn add(&mut self, id: TriangleId) -> bool {
+        let is_new = self.is_known.set(id.index(), 0);
+        if is_new {
+            self.ids.push(id);
+        }
+        is_new
     }
 }
 
 /// A part of the band that is derived from scratch.
 pub(super) struct Window {
     core: Vec<NodeId>,
-    /// Number of rings around the core.
+    /// Number of rings around the nodes where it must be right.
     reach: u32,
-    /// The rings around the core, and all triangles at their nodes.
+    /// These rings, and all triangles at their nodes.
     rings: Rings,
     pub(super) triangles: Vec<TriangleId>,
     pub(super) fitted: FittedBand,
     /// For the nodes and triangles of the band, their numbers there.
-    numbers: NumberMap<u32, u32>,
-    pub(super) numbers_of_triangles: NumberMap<u32, u32>,
+    numbers: [Pages; 2],
 }
 
 impl Window {
-    /// Derives the window around a core, through triangles that `pass`: all that may be in the band.
+    /// Derives the window in which so many rings around some nodes are right, through triangles that `pass`:
+    /// all that may be in the band. `touches` says of a triangle whether the outline touches it.
     pub(super) fn new(
         mesh: &Mesh,
         outline: &Outline,
         core: Vec<NodeId>,
-        reach: u32,
+        (sure, slack): (Vec<NodeId>, u32),
         pass: impl Fn(TriangleId) -> bool,
+        touches: impl Fn(TriangleId) -> bool + Sync,
     ) -> Self {
-        let rings = Rings::around(mesh, core.iter().copied(), reach, pass);
-        let mut all = NumberMap::<u32, u32>::default();
-        let around = rings.nodes.iter().flat_map(|&node| mesh.all_triangles_around(node));
-        let around: Vec<TriangleId> = around.filter(|id| all.set(id.index(), 0)).collect();
-        let touches =
-            |id: &TriangleId| outline.region.side_of(mesh.corners(*id), mesh.triangle(*id).level()).is_none();
+        let reach = SURE_RINGS + slack;
+        let (rings, mut all) = Rings::with_triangles(mesh, sure, reach, pass);
+        for &node in &rings.nodes {
+            mesh.all_triangles_around(node).for_each(|id| _ = all.add(id));
+        }
+        let around = all.ids;
         let touched: Vec<TriangleId> =
-            around.par_iter().with_min_len(GRAIN).copied().filter(touches).collect();
-        let band = Band::around::<NumberMap<u32, u32>>(mesh, outline.region, &touched);
-        let numbered = |ids: &mut dyn Iterator<Item = usize>| ids.map(|id| id as u32).zip(0..).collect();
+            around.par_iter().with_min_len(GRAIN).copied().filter(|&id| touches(id)).collect();
+        let (band, numbers) = Band::around::<Pages>(mesh, outline.region, &touched);
+        let is_in_zone = |&node: &NodeId| rings.ring_of(node).is_some_and(|ring| ring + ZONE_RINGS <= reach);
+        let zone = band.node_ids.iter().map(is_in_zone).collect();
         Self {
-            numbers: numbered(&mut band.node_ids.iter().map(|id| id.index())),
-            numbers_of_triangles: numbered(&mut band.ids.iter().map(|id| id.index())),
+            numbers,
             core,
             reach,
             rings,
             triangles: around,
-            fitted: FittedBand::new(mesh, band, outline, &mut |_, _| {}),
+            fitted: FittedBand::new(mesh, band, zone, outline, &mut |_, _| {}),
         }
     }
 
     pub(super) fn number_of(&self, node: NodeId) -> Option<u32> {
-        Numbers::get(&self.numbers, node.index())
+        self.numbers[0].get(node.index())
+    }
+
+    pub(super) fn number_of_triangle(&self, id: TriangleId) -> Option<u32> {
+        self.numbers[1].get(id.index())
     }
 
     /// Returns whether the first steps see all that they look at around a node.
     pub(super) fn is_sure(&self, node: NodeId) -> bool {
-        self.rings.ring_of(node).is_some_and(|ring| ring + LOCAL_RINGS + RINGS as u32 <= self.reach)
+        self.rings.ring_of(node).is_some_and(|ring| ring + SURE_RINGS <= self.reach)
     }
 
     /// Returns the nodes of the core and others, and of the islands that touch them. `acted` says of a node
@@ -114,7 +188,9 @@ impl Window {
     pub(super) fn reached(&self, others: &[NodeId], acted: impl Fn(LatticePoint) -> bool) -> Reached {
         let band = &self.fitted.band;
         let acts_now = self.fitted.acted();
-        let acted: Vec<bool> = band.points.iter().map(|&point| acted(point)).collect();
+        // Nodes where the window is not right do not matter: where one is near, a wider window is derived.
+        let acted = |(&id, &point): (&NodeId, &LatticePoint)| self.is_sure(id) && acted(point);
+        let acted: Vec<bool> = band.node_ids.iter().zip(&band.points).map(acted).collect();
         let acts = |v: u32| acts_now[v as usize] || acted[v as usize];
         let first = || self.core.iter().chain(others).copied();
         let mut is_reached = vec![false; band.points.len()];
@@ -165,14 +241,14 @@ impl Window {
     ) -> bool {
         let band = &self.fitted.band;
         let is_sure = |&v: &u32| self.is_sure(band.node_ids[v as usize]);
-        let beside = band.near(reached, BESIDE_RINGS);
+        let beside = band.near(reached, BESIDE_RINGS as usize);
         if !beside.iter().all(is_sure) {
             return false;
         }
         let mut others: Vec<u32> = beside.into_iter().filter(|&v| acts(v) && !is_known[v as usize]).collect();
         others.iter().for_each(|&v| is_known[v as usize] = true);
         self.add_islands(&mut others, &mut is_known, acts);
-        others.iter().all(|&v| acted(v)) && band.near(&others, 2).iter().all(is_sure)
+        others.iter().all(|&v| acted(v)) && band.near(&others, ISLAND_RINGS as usize).iter().all(is_sure)
     }
 }
 

@@ -8,7 +8,7 @@ use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::{Cleaning, Mesh};
+use meshbrush_mesh::mesh::{Changes, Cleaning, Mesh, PatchPieces, Triangle};
 
 use crate::random_coast::{place, random_coast};
 use crate::runs::runs;
@@ -26,11 +26,49 @@ fn triangles(mesh: &Mesh, derived: &DerivedMesh) -> Vec<[LatticePoint; 3]> {
     triangles
 }
 
+/// What is drawn in place of the triangles of a mesh.
+struct Drawn {
+    /// The corners of each triangle from the lowest one on, with its level, and whether the edges from each
+    /// corner to the next are on the boundary.
+    pieces: Vec<([LatticePoint; 3], u32, [bool; 3])>,
+    /// The corners of the triangles of the mesh that are drawn themselves.
+    others: Vec<[LatticePoint; 3]>,
+}
+
+impl Drawn {
+    fn of(mesh: &Mesh, pieces: &PatchPieces) -> Self {
+        let of_piece = |piece: &Triangle| {
+            let corners = piece.edge_nodes().map(|(from, _)| pieces.nodes()[from.index()]);
+            let on_boundary = piece.raw_neighbours.map(|across| across.triangle().is_none());
+            let lowest = (0..3).min_by_key(|&i| corners[i]).unwrap();
+            let turned = [0, 1, 2].map(|i| (lowest + i) % 3);
+            (turned.map(|i| corners[i]), piece.level(), turned.map(|i| on_boundary[i]))
+        };
+        let ranges: Vec<_> = pieces.replacements().map(|(_, range)| range).collect();
+        let shown = ranges.into_iter().flat_map(|range| &pieces.triangles()[range]);
+        let mut all: Vec<_> = shown.map(of_piece).collect();
+        all.sort_unstable();
+        let is_shown = |piece: &&Triangle| !piece.is_outside();
+        assert_eq!(all.len(), pieces.triangles().iter().filter(is_shown).count(), "retired ones are outside");
+        let others = mesh.triangles().filter(|(id, _)| pieces.replacement(*id).is_none());
+        let mut others: Vec<_> = others.map(|(id, _)| mesh.corners(id)).collect();
+        others.sort_unstable();
+        Self { pieces: all, others }
+    }
+}
+
+/// Returns the pieces of a mesh that is derived from scratch.
+fn pieces_of(mesh: &Mesh, derived: &DerivedMesh) -> PatchPieces {
+    PatchPieces::new(mesh, derived.patch(), &derived.extract(mesh))
+}
+
 /// A document with nodes on its outline.
 struct Scene {
     document: Document,
     follower: Follower,
     outline: OutlineFollower,
+    /// The pieces that are drawn, each in the place of a former one.
+    pieces: PatchPieces,
     finest: f64,
     name: String,
 }
@@ -54,7 +92,9 @@ impl Scene {
         let mut follower = Follower::new(&mut document).unwrap();
         follower.take_change();
         let outline = OutlineFollower::new(follower.mesh(), follower.domain()).unwrap();
-        Self { document, follower, outline, finest, name: format!("seed {seed}") }
+        let scratch = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::NONE);
+        let pieces = pieces_of(follower.mesh(), &scratch);
+        Self { document, follower, outline, pieces, finest, name: format!("seed {seed}") }
     }
 
     /// Paints or erases a dab, mostly at the coast, or changes the layers or takes something back.
@@ -98,14 +138,26 @@ impl Scene {
         match self.follower.take_change() {
             None => false,
             Some(MeshChange::Within(changes)) => {
-                self.outline.update(self.follower.mesh(), &changes);
+                self.replace(&changes);
                 true
             }
             Some(MeshChange::Replaced) => {
-                self.outline = OutlineFollower::new(self.follower.mesh(), self.follower.domain()).unwrap();
+                let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
+                self.outline = OutlineFollower::new(mesh, domain).unwrap();
+                self.pieces = pieces_of(mesh, &DerivedMesh::new(mesh, domain, &Cleaning::NONE));
                 true
             }
         }
+    }
+
+    fn replace(&mut self, changes: &Changes) {
+        let mesh = self.follower.mesh();
+        let ids = self.outline.update(mesh, changes);
+        let replacements = ids.iter().map(|&id| self.outline.replacement(mesh, id));
+        let touched = self.pieces.replace(mesh, changes, replacements);
+        let is_touched = |id| touched.iter().any(|(touched, _)| *touched == id);
+        let replaced = ids.iter().filter(|id| self.pieces.replacement(**id).is_some());
+        assert!(replaced.copied().all(is_touched), "{}: pieces are drawn only if they are noted", self.name);
     }
 
     fn check(&self, edit: usize) {
@@ -116,6 +168,10 @@ impl Scene {
         assert!(triangles(mesh, &kept) == triangles(mesh, &scratch), "{name}: other triangles");
         assert_eq!(kept.fit(), scratch.fit(), "{name}");
         assert_eq!(kept.violations(&kept.extract(mesh)), [], "{name}");
+        let drawn = Drawn::of(mesh, &self.pieces);
+        let from_scratch = Drawn::of(mesh, &pieces_of(mesh, &scratch));
+        assert!(drawn.pieces == from_scratch.pieces, "{name}: other pieces are drawn");
+        assert!(drawn.others == from_scratch.others, "{name}: others are drawn without pieces");
     }
 }
 
@@ -133,6 +189,32 @@ fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
         }
     }
     assert!(changed > 60, "{changed} edits changed the mesh");
+}
+
+#[test]
+fn a_change_near_the_outline_that_is_too_large_is_told() {
+    let (mut scene, mut random) = (Scene::new(2), Rng::with_seed(2));
+    let (mut some, mut none) = (0, 0);
+    for _ in 0..30 {
+        scene.edit(&mut random);
+        while scene.follower.advance(&mut scene.document, 2000).unwrap() != Stage::InStep {}
+        let Some(MeshChange::Within(changes)) = scene.follower.take_change() else { continue };
+        let mut limited = scene.outline.clone();
+        let most = random.usize(1..200);
+        let few = limited.update_few(scene.follower.mesh(), &changes, most);
+        let all = scene.outline.update(scene.follower.mesh(), &changes);
+        match few {
+            Some(few) => {
+                assert_eq!(few, all);
+                some += 1;
+            }
+            None => {
+                assert!(all.len() > most, "{} changed, and {most} may", all.len());
+                none += 1;
+            }
+        }
+    }
+    assert!(some > 0 && none > 0, "{some} small changes, {none} large ones");
 }
 
 #[test]

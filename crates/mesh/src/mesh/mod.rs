@@ -26,7 +26,8 @@ mod extract;
 mod query;
 
 pub use extract::{
-    BoundaryEdge, Cell, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces, PatchTriangle,
+    BoundaryEdge, Cell, DrawnPiece, Extract, MeshEdge, MeshPatch, MeshStatistics, MeshView, PatchPieces,
+    PatchTriangle, Replacement,
 };
 pub use kernel::{
     Answer, BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin,

@@ -604,7 +604,7 @@ fn pieces_follow_the_edits_of_their_mesh() {
         gpu.renderer().mirror_mut().apply_changes(&mesh, step, &changes).unwrap();
         let retired = pieces.retire(&mesh, &changes);
         assert!(!retired.is_empty(), "step {step}");
-        gpu.renderer().mirror_mut().retire(&pieces, &retired).unwrap();
+        gpu.renderer().mirror_mut().change_pieces(&pieces, &retired).unwrap();
         assert_coasts_agree(&format!("retired-{step}"), &mut gpu, &mesh, Some(&pieces));
     }
     assert_eq!(mesh.fingerprint(), built.mesh.fingerprint());
@@ -633,7 +633,7 @@ fn pieces_wait_for_the_mesh_that_is_being_uploaded() {
         let mirror = gpu.renderer().mirror_mut();
         mirror.apply_changes(&mesh, revision, &changes).unwrap();
         let retired = pieces.retire(&mesh, &changes);
-        mirror.retire(&pieces, &retired).unwrap();
+        mirror.change_pieces(&pieces, &retired).unwrap();
         assert_eq!(mirror.advance_upload(&mesh, slice / 2), Progress::More);
         assert_coasts_agree(&format!("waiting-{revision}"), &mut gpu, &built.mesh, Some(&former));
     }
@@ -647,7 +647,7 @@ fn pieces_wait_for_the_mesh_that_is_being_uploaded() {
         triangles: std::iter::once(0..built.mesh.raw_triangle_count()).collect(),
     };
     let retired = former.retire(&built.mesh, &all);
-    gpu.renderer().mirror_mut().retire(&former, &retired).unwrap();
+    gpu.renderer().mirror_mut().change_pieces(&former, &retired).unwrap();
     assert_coasts_agree("unaffected", &mut gpu, &mesh, Some(&pieces));
 }
 
@@ -666,8 +666,8 @@ fn a_picture_is_drawn_again_when_its_pieces_change() {
     let first = pieces.replaced().next().unwrap().index();
     let retired = pieces
         .retire(mesh, &Changes { nodes: Vec::new(), triangles: std::iter::once(first..first + 1).collect() });
-    gpu.renderer().mirror_mut().retire(&pieces, &retired).unwrap();
-    gpu.renderer().mirror_mut().retire(&pieces, &[]).unwrap();
+    gpu.renderer().mirror_mut().change_pieces(&pieces, &retired).unwrap();
+    gpu.renderer().mirror_mut().change_pieces(&pieces, &[]).unwrap();
     gpu.frame(&camera, &style).unwrap();
     gpu.frame(&camera, &style).unwrap();
     assert_eq!(gpu.renderer().redraws(), 3, "one piece fewer");

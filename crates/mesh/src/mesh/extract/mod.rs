@@ -10,6 +10,6 @@ mod view;
 
 pub use extract::{BoundaryEdge, Cell, Extract, MeshEdge};
 pub use patch::{MeshPatch, PatchTriangle};
-pub use pieces::PatchPieces;
+pub use pieces::{DrawnPiece, PatchPieces, Replacement};
 pub use statistics::MeshStatistics;
 pub use view::MeshView;

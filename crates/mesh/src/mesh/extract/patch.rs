@@ -41,6 +41,15 @@ impl MeshPatch {
         self.moved.is_empty() && self.added.is_empty() && self.changed.is_empty()
     }
 
+    /// Returns the position of a node of the mesh with the patch.
+    pub fn node(&self, mesh: &Mesh, node: NodeId) -> LatticePoint {
+        if let Some(added) = node.index().checked_sub(mesh.raw_nodes().len()) {
+            return self.added[added];
+        }
+        let moved = self.moved.binary_search_by_key(&node, |(moved, _)| *moved);
+        moved.map_or_else(|_| mesh.node(node), |n| self.moved[n].1)
+    }
+
     /// Returns whether no triangle is left of a mesh with the patch.
     pub fn leaves_nothing_of(&self, mesh: &Mesh) -> bool {
         let replaced = self.changed.iter().filter(|(id, _)| mesh.is_in_domain(*id)).count();
@@ -50,7 +59,7 @@ impl MeshPatch {
 
 impl PatchTriangle {
     /// Returns the triangle without neighbours.
-    fn triangle(&self) -> Triangle {
+    pub(super) fn triangle(&self) -> Triangle {
         let [a, b, c] = self.corners;
         // So that the first edge joins a to b.
         let vertices = if self.level.is_multiple_of(2) { [b, c, a] } else { [a, b, c] };

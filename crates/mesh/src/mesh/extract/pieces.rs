@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::{Extract, MeshPatch};
+use super::{Extract, MeshPatch, PatchTriangle};
 use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
@@ -15,10 +15,11 @@ use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId
 ///               o---o---o
 /// ```
 ///
-/// The mesh may change before the patch is derived again. The pieces in place of changed entries are then
-/// *retired* ([`Self::retire`]), and the entries themselves are drawn. Where such an entry has a node that
-/// the patch moved, a *provisional* piece is drawn instead, with the node where the patch has it: the mesh
-/// has no gaps beside the other pieces.
+/// The mesh may change before the patch is derived again. The pieces of those who keep a patch in step with
+/// the mesh take the place of the former ones ([`Self::replace`]). Without them, the pieces in place of
+/// changed entries are *retired* ([`Self::retire`]), and the entries themselves are drawn. Where such an
+/// entry has a node that the patch moved, a *provisional* piece is drawn instead, with the node where the
+/// patch has it: the mesh has no gaps beside the other pieces.
 #[derive(Clone, Debug, Default)]
 pub struct PatchPieces {
     nodes: Vec<LatticePoint>,
@@ -27,9 +28,32 @@ pub struct PatchPieces {
     /// The replaced triangles in ascending order, with their ranges in `triangles`.
     replaced: Vec<(TriangleId, Range<usize>)>,
     is_retired: Vec<bool>,
-    provisional: HashMap<TriangleId, Range<usize>>,
+    /// Triangles that were replaced later, and provisional pieces.
+    later: HashMap<TriangleId, Range<usize>>,
     /// Nodes that the patch moved, in ascending order: where the mesh has them, and the patch.
     moved: Vec<(NodeId, [LatticePoint; 2])>,
+    /// The same for the corners of triangles that were replaced later.
+    moved_later: HashMap<NodeId, [LatticePoint; 2]>,
+}
+
+/// What is drawn in place of one triangle of a mesh, for [`PatchPieces::replace`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replacement {
+    /// The triangle of the mesh.
+    pub id: TriangleId,
+    /// Where its three nodes are drawn, in the order of [`Triangle::vertices`].
+    pub nodes: [LatticePoint; 3],
+    /// The triangles in its place; `None` if it is drawn itself.
+    pub pieces: Option<Vec<DrawnPiece>>,
+}
+
+/// A triangle that is drawn in place of one of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawnPiece {
+    /// Anticlockwise, the first two the ends of the longest edge.
+    pub corners: [LatticePoint; 3],
+    /// Whether the edges from each corner to the next are on the boundary of the domain.
+    pub on_boundary: [bool; 3],
 }
 
 impl PatchPieces {
@@ -88,13 +112,13 @@ impl PatchPieces {
     pub fn replacements(&self) -> impl Iterator<Item = (TriangleId, Range<usize>)> {
         let active = self.replaced.iter().zip(&self.is_retired).filter(|(_, is_retired)| !**is_retired);
         let active = active.map(|((id, pieces), _)| (*id, pieces.clone()));
-        active.chain(self.provisional.iter().map(|(id, pieces)| (*id, pieces.clone())))
+        active.chain(self.later.iter().map(|(id, pieces)| (*id, pieces.clone())))
     }
 
     /// Returns the part of [`Self::triangles`] that is drawn in place of a triangle of the mesh; `None` where
     /// the triangle itself is drawn.
     pub fn replacement(&self, id: TriangleId) -> Option<Range<usize>> {
-        if let Some(pieces) = self.provisional.get(&id) {
+        if let Some(pieces) = self.later.get(&id) {
             return Some(pieces.clone());
         }
         let index = self.replaced.binary_search_by_key(&id, |(replaced, _)| *replaced).ok()?;
@@ -105,13 +129,9 @@ impl PatchPieces {
     /// pieces. Returns the entries whose [`Self::replacement`] changed, each with a part of
     /// [`Self::triangles`] that changed.
     pub fn retire(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<(TriangleId, Range<usize>)> {
-        let mut touched = Vec::new();
-        let count = mesh.raw_triangle_count();
-        for ids in changes.triangles.iter().chain(std::iter::once(&(count..usize::MAX))) {
-            self.retire_replaced(ids, &mut touched);
-            self.retire_provisional(ids, &mut touched);
-        }
-        if !self.moved.is_empty() {
+        let mut touched = self.retire_changed(mesh, changes);
+        if !(self.moved.is_empty() && self.moved_later.is_empty()) {
+            let count = mesh.raw_triangle_count();
             for id in changes.triangles.iter().flat_map(|ids| ids.start..ids.end.min(count)) {
                 self.push_provisional(mesh, TriangleId::from_index(id), &mut touched);
             }
@@ -119,27 +139,67 @@ impl PatchPieces {
         touched
     }
 
-    fn retire_replaced(&mut self, ids: &Range<usize>, touched: &mut Vec<(TriangleId, Range<usize>)>) {
-        let first = self.replaced.partition_point(|(id, _)| id.index() < ids.start);
-        let in_range = self.replaced[first..].iter().take_while(|(id, _)| id.index() < ids.end);
-        for (index, (id, pieces)) in (first..).zip(in_range) {
-            if !std::mem::replace(&mut self.is_retired[index], true) {
-                self.triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
-                touched.push((*id, pieces.clone()));
+    /// Draws other pieces in place of some triangles, after `changes` of the mesh; pieces in place of other
+    /// changed entries are retired. The result is that of [`Self::retire`].
+    pub fn replace(
+        &mut self,
+        mesh: &Mesh,
+        changes: &Changes,
+        replacements: impl IntoIterator<Item = Replacement>,
+    ) -> Vec<(TriangleId, Range<usize>)> {
+        let mut touched = self.retire_changed(mesh, changes);
+        for Replacement { id, nodes, pieces } in replacements {
+            self.retire_entry(id, &mut touched);
+            for (&node, shown) in mesh.triangle(id).vertices.iter().zip(nodes) {
+                if self.shown_at(mesh, node) != shown {
+                    self.moved_later.insert(node, [mesh.node(node), shown]);
+                }
             }
+            let Some(pieces) = pieces else { continue };
+            let (first, level) = (self.triangles.len(), mesh.triangle(id).level());
+            pieces.iter().for_each(|piece| self.push_drawn(piece, level));
+            self.later.insert(id, first..self.triangles.len());
+            touched.push((id, first..self.triangles.len()));
+        }
+        touched
+    }
+
+    /// Retires the pieces in place of entries that changed or no longer exist.
+    fn retire_changed(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<(TriangleId, Range<usize>)> {
+        let mut touched = Vec::new();
+        let count = mesh.raw_triangle_count();
+        let changed = changes.triangles.iter().flat_map(|ids| ids.start..ids.end.min(count));
+        let gone = self.replaced.partition_point(|(id, _)| id.index() < count);
+        let gone = self.replaced[gone..].iter().map(|(id, _)| *id);
+        let gone = gone.chain(self.later.keys().copied().filter(|id| id.index() >= count));
+        let gone: Vec<TriangleId> = gone.collect();
+        for id in changed.map(TriangleId::from_index).chain(gone) {
+            self.retire_entry(id, &mut touched);
+        }
+        touched
+    }
+
+    /// Retires the pieces in place of an entry.
+    fn retire_entry(&mut self, id: TriangleId, touched: &mut Vec<(TriangleId, Range<usize>)>) {
+        let earlier = self.replaced.binary_search_by_key(&id, |(replaced, _)| *replaced).ok();
+        let earlier = earlier.filter(|&n| !std::mem::replace(&mut self.is_retired[n], true));
+        let earlier = earlier.map(|n| self.replaced[n].1.clone());
+        for pieces in self.later.remove(&id).into_iter().chain(earlier) {
+            self.triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
+            touched.push((id, pieces));
         }
     }
 
-    fn retire_provisional(&mut self, ids: &Range<usize>, touched: &mut Vec<(TriangleId, Range<usize>)>) {
-        let triangles = &mut self.triangles;
-        self.provisional.retain(|id, pieces| {
-            let stays = !ids.contains(&id.index());
-            if !stays {
-                triangles[pieces.clone()].iter_mut().for_each(|piece| piece.set_outside(true));
-                touched.push((*id, pieces.clone()));
-            }
-            stays
+    fn push_drawn(&mut self, piece: &DrawnPiece, level: u32) {
+        let own = Neighbour::from(TriangleId::from_index(self.triangles.len()));
+        let corners = piece.corners.map(|point| {
+            self.nodes.push(point);
+            NodeId::from_index(self.nodes.len() - 1)
         });
+        let mut triangle = PatchTriangle { corners, level }.triangle();
+        triangle.raw_neighbours =
+            piece.on_boundary.map(|is_on_boundary| if is_on_boundary { Neighbour::BOUNDARY } else { own });
+        self.triangles.push(triangle);
     }
 
     /// Appends a piece for a triangle of the mesh that has a moved node.
@@ -163,7 +223,7 @@ impl PatchPieces {
             NodeId::from_index(self.nodes.len() - 1)
         });
         self.triangles.push(piece);
-        self.provisional.insert(id, index..index + 1);
+        self.later.insert(id, index..index + 1);
         touched.push((id, index..index + 1));
     }
 
@@ -171,6 +231,9 @@ impl PatchPieces {
     /// moved.
     fn shown_at(&self, mesh: &Mesh, node: NodeId) -> LatticePoint {
         let home = mesh.node(node);
+        if let Some([_, at]) = self.moved_later.get(&node).filter(|[former, _]| *former == home) {
+            return *at;
+        }
         match self.moved.binary_search_by_key(&node, |(id, _)| *id) {
             Ok(index) if self.moved[index].1[0] == home => self.moved[index].1[1],
             _ => home,

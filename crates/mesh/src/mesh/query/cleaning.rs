@@ -91,6 +91,19 @@ impl MeshPatch {
     /// # Panics
     /// Panics when the patch is of another mesh.
     pub fn clean(&mut self, mesh: &Mesh, cleaning: &Cleaning) -> Removed {
+        self.clean_and_tell(mesh, cleaning, &mut |_| {})
+    }
+
+    /// [`Self::clean`], which tells `on_removed` the corners of each removed triangle, anticlockwise.
+    ///
+    /// # Panics
+    /// Panics when the patch is of another mesh.
+    pub fn clean_and_tell(
+        &mut self,
+        mesh: &Mesh,
+        cleaning: &Cleaning,
+        on_removed: &mut dyn FnMut([NodeId; 3]),
+    ) -> Removed {
         if *cleaning == Cleaning::NONE {
             return Removed::default();
         }
@@ -100,24 +113,30 @@ impl MeshPatch {
         let Cleaner { is_removed, removed, .. } = cleaner;
         drop(extract);
         if removed.triangles > 0 {
-            self.remove(mesh, &is_removed);
+            self.remove(mesh, &is_removed, on_removed);
         }
         removed
     }
 
     /// Removes triangles by their place in the extract.
-    fn remove(&mut self, mesh: &Mesh, is_removed: &[bool]) {
+    fn remove(&mut self, mesh: &Mesh, is_removed: &[bool], on_removed: &mut dyn FnMut([NodeId; 3])) {
         let old_pieces = mem::take(&mut self.pieces);
         let mut old_changed = mem::take(&mut self.changed).into_iter().peekable();
         let mut is_removed = is_removed.iter().copied();
-        let mut next_is_removed = || is_removed.next().expect("one for each triangle of the extract");
+        let mut next_is_removed = |corners: [NodeId; 3]| {
+            let is_removed = is_removed.next().expect("one for each triangle of the extract");
+            if is_removed {
+                on_removed(corners);
+            }
+            is_removed
+        };
         for (index, triangle) in mesh.raw_triangles().iter().enumerate() {
             let id = TriangleId::from_index(index);
             if let Some((_, pieces)) = old_changed.next_if(|(changed, _)| *changed == id) {
                 let first = self.pieces.len();
-                self.pieces.extend(old_pieces[pieces].iter().filter(|_| !next_is_removed()));
+                self.pieces.extend(old_pieces[pieces].iter().filter(|piece| !next_is_removed(piece.corners)));
                 self.changed.push((id, first..self.pieces.len()));
-            } else if !triangle.is_outside() && next_is_removed() {
+            } else if !triangle.is_outside() && next_is_removed(triangle.edge_nodes().map(|(from, _)| from)) {
                 self.changed.push((id, self.pieces.len()..self.pieces.len()));
             }
         }

@@ -117,6 +117,8 @@ pub(super) struct MeshCopy {
     pieces: Arrays,
     /// The triangles that the pieces replace, retired ones included.
     replaced: Vec<TriangleId>,
+    /// Whether pieces are shown, or would be if any triangle were replaced.
+    has_pieces: bool,
     pub(super) lattice: Option<Lattice>,
 }
 
@@ -131,6 +133,7 @@ impl MeshCopy {
             arrangement: Arrangement::new(limits.triangles),
             pieces: Arrays::new(limits),
             replaced: Vec::new(),
+            has_pieces: false,
             lattice: None,
         }
     }
@@ -144,6 +147,7 @@ impl MeshCopy {
     pub(super) fn begin(&mut self, gpu: &Gpu, mesh: &Mesh) -> Result<(), GpuError> {
         self.pieces.triangle_count = 0;
         self.replaced.clear();
+        self.has_pieces = false;
         self.flags.flags.clear();
         self.arrangement.clear();
         self.mesh.bind_groups.clear();
@@ -227,6 +231,7 @@ impl MeshCopy {
             }
         }
         self.flags.send_ids(&gpu.queue, former.into_iter());
+        self.has_pieces = fitted.is_ok() && pieces.is_some();
         self.flags.send_ids(&gpu.queue, self.replaced.iter().copied());
         fitted
     }
@@ -241,15 +246,15 @@ impl MeshCopy {
         Ok(())
     }
 
-    /// Draws triangles of the mesh again in place of their pieces, or draws provisional pieces. Returns false
-    /// when other pieces are shown.
-    pub(super) fn retire(
+    /// Draws triangles of the mesh again in place of their pieces, or draws pieces that were appended.
+    /// Returns false when other pieces are shown.
+    pub(super) fn change_pieces(
         &mut self,
         gpu: &Gpu,
         pieces: &PatchPieces,
         touched: &[(TriangleId, Range<usize>)],
     ) -> Result<bool, GpuError> {
-        if self.replaced.is_empty() || self.pieces.triangle_count > pieces.triangles().len() {
+        if !self.has_pieces || self.pieces.triangle_count > pieces.triangles().len() {
             return Ok(false);
         }
         self.append_pieces(gpu, pieces)?;

@@ -157,14 +157,14 @@ impl MeshMirror {
         self.front.set_pieces(&self.gpu, pieces)
     }
 
-    /// Draws triangles of the mesh again in place of their pieces, or draws provisional pieces. `pieces` are
-    /// the pieces that [`Self::set_pieces`] got, and `touched` is the result of [`PatchPieces::retire`]. The
-    /// time is proportional to `touched`. After a mesh lost its pieces because another one is uploaded,
-    /// nothing is done.
+    /// Draws triangles of the mesh again in place of their pieces, or draws pieces that were appended.
+    /// `pieces` are those that [`Self::set_pieces`] got, and `touched` is the result of [`PatchPieces::retire`] or
+    /// [`PatchPieces::replace`]. The time is proportional to `touched`. After a mesh lost its pieces because
+    /// another one is uploaded, nothing is done.
     ///
     /// # Errors
-    /// Fails when the device cannot hold the provisional pieces.
-    pub fn retire(
+    /// Fails when the device cannot hold the appended pieces.
+    pub fn change_pieces(
         &mut self,
         pieces: &PatchPieces,
         touched: &[(TriangleId, Range<usize>)],
@@ -173,8 +173,8 @@ impl MeshMirror {
             return Ok(());
         }
         if self.upload.is_some() {
-            self.back.retire(&self.gpu, pieces, touched)?;
-        } else if self.front.retire(&self.gpu, pieces, touched)? {
+            self.back.change_pieces(&self.gpu, pieces, touched)?;
+        } else if self.front.change_pieces(&self.gpu, pieces, touched)? {
             self.generation += 1;
         }
         Ok(())

@@ -3,25 +3,30 @@
 //! ```text
 //!  follower's mesh ──▶ derived mesh      shown, queried, counted while the two belong together
 //!        │                  │
-//!        │ updated          │ pieces in place of changed triangles are retired: there the mesh itself is
-//!        ▼                  ▼ drawn, until the next mesh is derived
+//!        │ updated          │ pieces in place of changed triangles: those of the coast, which is kept in step
+//!        ▼                  ▼ (coast.rs); without it they are retired, and the mesh itself is drawn there
 //!  follower's mesh ──▶ derived mesh
 //! ```
 //!
 //! While a stroke is drawn, only small meshes are derived: deriving holds the mesh, and the follower would
 //! have to copy a large one before it continues.
 
+mod coast;
+
 use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use coast::{Coast, RemovedTriangles};
+
 use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
 use meshbrush_core::domain::{DomainOnLattice, FitQuality, Region};
-use meshbrush_core::outline::{DerivedMesh, OutlineFit};
+use meshbrush_core::outline::{DerivedMesh, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
-    Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology, TriangleId,
+    Changes, Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology,
+    TriangleId,
 };
 
 /// Most triangles of a mesh that is derived while a gesture goes on.
@@ -104,8 +109,9 @@ impl Derived {
 pub enum PiecesChange {
     /// They are others.
     Replaced,
-    /// Those in place of these triangles were retired; the ranges are of [`PatchPieces::triangles`].
-    Retired(Vec<(TriangleId, Range<usize>)>),
+    /// Those in place of these triangles were retired or replaced; the ranges are of
+    /// [`PatchPieces::triangles`].
+    Within(Vec<(TriangleId, Range<usize>)>),
 }
 
 /// Derives meshes, and keeps the last one.
@@ -115,6 +121,7 @@ pub struct Derivation {
     pieces: PatchPieces,
     pieces_revision: u64,
     pieces_change: Option<PiecesChange>,
+    coast: Coast,
     running: Option<Running>,
     succession: Succession<Key>,
     /// The data for which no mesh could be derived: it is not tried again.
@@ -127,11 +134,14 @@ struct Running {
     job: Job<Outcome>,
     /// The change of the follower's mesh since then.
     since: Option<MeshChange>,
+    /// The triangles whose pieces the coast replaced since then.
+    replaced: Vec<TriangleId>,
 }
 
 /// The values that the other thread sends, in this order.
 enum Outcome {
-    Derived(Box<Derived>, PatchPieces),
+    Derived(Box<Derived>, PatchPieces, RemovedTriangles),
+    Coast(Box<OutlineFollower>),
     Quality(FitQuality),
 }
 
@@ -157,13 +167,24 @@ impl Derivation {
     }
 
     /// Notes what became of the follower's mesh.
-    pub fn note_change(&mut self, change: &MeshChange, mesh: &Mesh) {
+    pub fn note_change(&mut self, change: &MeshChange, follower: &Follower) {
+        let mesh = follower.mesh();
         match change {
             // Whoever draws begins another mesh without pieces.
-            MeshChange::Replaced => self.replace_pieces(PatchPieces::default()),
+            MeshChange::Replaced => {
+                self.coast.forget();
+                self.replace_pieces(PatchPieces::default());
+            }
             MeshChange::Within(changes) => {
-                let retired = self.pieces.retire(mesh, changes);
-                self.note_retired(retired);
+                let replaced = self.coast.follow(follower, changes);
+                let touched = match &replaced {
+                    Some(ids) => self.pieces.replace(mesh, changes, self.coast.replacements(mesh, ids)),
+                    None => self.pieces.retire(mesh, changes),
+                };
+                self.note_touched(touched);
+                if let Some(running) = &mut self.running {
+                    running.replaced.extend(replaced.into_iter().flatten());
+                }
             }
         }
         if let Some(running) = &mut self.running {
@@ -171,15 +192,15 @@ impl Derivation {
         }
     }
 
-    fn note_retired(&mut self, retired: Vec<(TriangleId, Range<usize>)>) {
-        if retired.is_empty() {
+    fn note_touched(&mut self, touched: Vec<(TriangleId, Range<usize>)>) {
+        if touched.is_empty() {
             return;
         }
         self.pieces_revision += 1;
         match &mut self.pieces_change {
             Some(PiecesChange::Replaced) => {}
-            Some(PiecesChange::Retired(earlier)) => earlier.extend(retired),
-            None => self.pieces_change = Some(PiecesChange::Retired(retired)),
+            Some(PiecesChange::Within(earlier)) => earlier.extend(touched),
+            None => self.pieces_change = Some(PiecesChange::Within(touched)),
         }
     }
 
@@ -187,6 +208,18 @@ impl Derivation {
         self.pieces = pieces;
         self.pieces_revision += 1;
         self.pieces_change = Some(PiecesChange::Replaced);
+    }
+
+    /// Returns whether the pieces are kept in step with the mesh.
+    #[cfg(test)]
+    pub fn shows_coast(&self, follower: &Follower) -> bool {
+        self.coast.is_of(follower)
+    }
+
+    /// [`Self::shows_coast`], and nothing was removed.
+    #[cfg(test)]
+    pub fn shows_whole_coast(&self, follower: &Follower) -> bool {
+        self.shows_coast(follower) && self.coast.is_whole()
     }
 
     /// Takes finished meshes, waiting for them as long as the frame may, and starts to derive the next one
@@ -232,23 +265,21 @@ impl Derivation {
     }
 
     fn forget(&mut self) {
+        self.coast.forget();
         if self.latest.take().is_some() {
             self.replace_pieces(PatchPieces::default());
         }
     }
 
     fn take(&mut self, outcome: Outcome, follower: &Follower) {
-        let Some(running) = &mut self.running else { return };
         match outcome {
-            Outcome::Derived(derived, mut pieces) => {
-                match running.since.take() {
-                    None => {}
-                    Some(MeshChange::Replaced) => pieces = PatchPieces::default(),
-                    Some(MeshChange::Within(changes)) => drop(pieces.retire(follower.mesh(), &changes)),
-                }
+            Outcome::Derived(derived, pieces, removed) => {
+                self.coast.remove(removed, follower);
+                let pieces = self.followed(pieces, follower);
                 self.latest = Some(*derived);
                 self.replace_pieces(pieces);
             }
+            Outcome::Coast(outline) => self.begin_coast(*outline, follower),
             Outcome::Quality(quality) => {
                 if let Some(derived) = &mut self.latest {
                     derived.quality = Some(quality);
@@ -257,39 +288,99 @@ impl Derivation {
         }
     }
 
+    /// Returns derived pieces for the mesh as it is now.
+    fn followed(&mut self, mut pieces: PatchPieces, follower: &Follower) -> PatchPieces {
+        let Some(running) = &mut self.running else { return pieces };
+        let mesh = follower.mesh();
+        match &running.since {
+            None => {}
+            Some(MeshChange::Replaced) => pieces = PatchPieces::default(),
+            Some(MeshChange::Within(changes)) if self.coast.is_of(follower) => {
+                // It was in step all the time, so this is all that differs.
+                let mut ids = std::mem::take(&mut running.replaced);
+                ids.sort_unstable();
+                ids.dedup();
+                ids.retain(|id| id.index() < mesh.raw_triangle_count());
+                pieces.replace(mesh, changes, self.coast.replacements(mesh, &ids));
+            }
+            Some(MeshChange::Within(changes)) => drop(pieces.retire(mesh, changes)),
+        }
+        pieces
+    }
+
+    /// Lets the coast of the mesh that was derived catch up with the mesh, and shows it.
+    fn begin_coast(&mut self, outline: OutlineFollower, follower: &Follower) {
+        let since = self.running.as_ref().and_then(|running| running.since.as_ref());
+        if let Some(ids) = self.coast.begin(outline, follower, since) {
+            let mesh = follower.mesh();
+            let replacements = self.coast.replacements(mesh, &ids);
+            let touched = self.pieces.replace(mesh, &Changes::default(), replacements);
+            self.note_touched(touched);
+        }
+    }
+
     fn start(&mut self, key: Key, follower: &Follower, jobs: &Jobs) {
-        let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
-        let key_there = key.clone();
-        let job = jobs.start(Kind::Compute, move |output| derive(key_there, mesh, &domain, output));
-        self.running = Some(Running { key, job, since: None });
+        let work = Work {
+            key: key.clone(),
+            mesh: follower.shared_mesh(),
+            domain: follower.domain().clone(),
+            has_coast: self.coast.is_of(follower),
+        };
+        // Dropping a large one takes longer than a frame.
+        let useless = self.coast.take_useless();
+        let job = jobs.start(Kind::Compute, move |output| {
+            drop(useless);
+            work.derive(output);
+        });
+        self.running = Some(Running { key, job, since: None, replaced: Vec::new() });
     }
 }
 
-/// Derives a mesh and compares it with the outline.
-fn derive(key: Key, mesh: Arc<Mesh>, domain: &DomainOnLattice, output: &Output<Outcome>) {
-    let derived_mesh = DerivedMesh::new(&mesh, domain, &key.cleaning);
-    if !output.is_wanted() {
-        return;
-    }
-    let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
-    if !output.is_wanted() {
-        return;
-    }
-    let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
-    let region = key.region.clone();
-    let derived = Derived {
-        key,
-        locator: PatchedLocator::new(&mesh, derived_mesh.patch(), &extract),
-        level_counts: extract.level_counts(),
-        topology: extract.topology(),
-        removed: derived_mesh.removed().clone(),
-        outline_fit: derived_mesh.fit(),
-        quality: None,
-        extract: extract.clone(),
-    };
-    if output.send(Outcome::Derived(Box::new(derived), pieces)) {
-        let quality = FitQuality::of(&extract, &region);
-        output.send(Outcome::Quality(quality));
+/// A mesh to be derived.
+struct Work {
+    key: Key,
+    mesh: Arc<Mesh>,
+    domain: DomainOnLattice,
+    /// Whether the coast is kept in step already.
+    has_coast: bool,
+}
+
+impl Work {
+    /// Derives the mesh, begins to keep its coast in step, and compares it with the outline.
+    fn derive(self, output: &Output<Outcome>) {
+        let Self { key, mesh, domain, has_coast } = self;
+        let derived_mesh = DerivedMesh::new(&mesh, &domain, &key.cleaning);
+        if !output.is_wanted() {
+            return;
+        }
+        let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
+        if !output.is_wanted() {
+            return;
+        }
+        let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
+        let region = key.region.clone();
+        let derived = Derived {
+            key,
+            locator: PatchedLocator::new(&mesh, derived_mesh.patch(), &extract),
+            level_counts: extract.level_counts(),
+            topology: extract.topology(),
+            removed: derived_mesh.removed().clone(),
+            outline_fit: derived_mesh.fit(),
+            quality: None,
+            extract: extract.clone(),
+        };
+        let removed = RemovedTriangles::of(&derived_mesh);
+        drop(derived_mesh);
+        if !output.send(Outcome::Derived(Box::new(derived), pieces, removed)) {
+            return;
+        }
+        if !has_coast && let Some(outline) = OutlineFollower::new(&mesh, &domain) {
+            drop(mesh);
+            if !output.send(Outcome::Coast(Box::new(outline))) {
+                return;
+            }
+        }
+        output.send(Outcome::Quality(FitQuality::of(&extract, &region)));
     }
 }
 

@@ -1,0 +1,89 @@
+//! Writes what is derived into what is kept of it.
+
+use super::changes::{FittedBand, Outline, PiecesByTriangle};
+use super::follower::{KeptNode, KeptPiece, KeptTriangle, OutlineFollower, Seat, node_place, triangle_place};
+use super::triangulation::NONE;
+use crate::mesh::Mesh;
+
+/// Writes triangles of a band, with their nodes.
+pub(super) struct Writer<'a> {
+    mesh: &'a Mesh,
+    fitted: &'a FittedBand,
+    outline: &'a Outline<'a>,
+    pieces: PiecesByTriangle,
+    acted: Vec<bool>,
+    is_node_written: Vec<bool>,
+    star: Vec<(u32, usize)>,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
+        Self {
+            pieces: PiecesByTriangle::new(&fitted.band, &fitted.patchwork),
+            acted: fitted.acted(),
+            is_node_written: vec![false; fitted.patchwork.points.len()],
+            star: Vec::new(),
+            mesh,
+            fitted,
+            outline,
+        }
+    }
+
+    /// Writes a triangle of the band, and its nodes.
+    pub(super) fn write(&mut self, follower: &mut OutlineFollower, triangle: u32) {
+        let FittedBand { band, patchwork, placement, .. } = self.fitted;
+        let home = |v: u32| node_place(placement.homes[v as usize]);
+        let pieces = self.pieces.replacement(self.mesh, band, patchwork, &self.outline.angles, triangle);
+        let kept_piece = |(piece, corners): (u32, [u32; 3])| KeptPiece {
+            corners: corners.map(home),
+            on_boundary: self.on_boundary(piece, corners),
+        };
+        let pieces = pieces.map(|pieces| pieces.into_iter().map(kept_piece).collect());
+        let id = band.ids[triangle as usize];
+        let corners = band.triangles.corners[triangle as usize];
+        let seat = Seat {
+            place: triangle_place(self.mesh.corners(id)),
+            is_touched: band.is_touched[triangle as usize],
+            is_beside: false,
+        };
+        follower.keep(id, KeptTriangle { id: Some(id), corners: corners.map(home), pieces, seat });
+        let cuts = placement.cuts[triangle as usize];
+        for v in corners.into_iter().chain(cuts).filter(|&v| v != NONE) {
+            self.write_node(follower, v);
+        }
+    }
+
+    /// Returns whether the edges of a piece from each of these corners to the next are on the boundary.
+    fn on_boundary(&self, piece: u32, corners: [u32; 3]) -> [bool; 3] {
+        let FittedBand { band, patchwork, .. } = self.fitted;
+        [0, 1, 2].map(|i| {
+            let opposite = patchwork.triangles.place(piece, corners[(i + 2) % 3]);
+            let across = patchwork.triangles.across[piece as usize][opposite];
+            if across != NONE {
+                return !patchwork.inside[across as usize];
+            }
+            // The frame is there, or the band ends: beside it, triangles lie on the side of their nodes.
+            let ends = [corners[i], corners[(i + 1) % 3]].map(|v| band.node_ids.get(v as usize));
+            let [Some(&from), Some(&to)] = ends else { return true };
+            let is_across = |id| self.mesh.triangle(id).edge_nodes().contains(&(to, from));
+            !self.mesh.all_triangles_around(from).any(is_across)
+        })
+    }
+
+    fn write_node(&mut self, follower: &mut OutlineFollower, node: u32) {
+        let v = node as usize;
+        if std::mem::replace(&mut self.is_node_written[v], true) {
+            return;
+        }
+        let FittedBand { patchwork, placement, pins, .. } = self.fitted;
+        let pin = pins.binary_search_by_key(&node, |pin| pin.node);
+        let kept = KeptNode {
+            home: placement.homes[v],
+            at: patchwork.points[v],
+            acts: self.acted.get(v).is_some_and(|&acts| acts),
+            fit: self.fitted.fit_of(self.outline, node, &mut self.star),
+            corner_limit: pin.map_or(0.0, |n| pins[n].limit),
+        };
+        follower.nodes.insert(node_place(kept.home), kept);
+    }
+}
