@@ -1,4 +1,4 @@
-//! The coast on the screen: nodes on the outline that are kept in step with the follower's mesh, frame by frame.
+//! The coast on the screen: nodes on the outline that are kept in step with the follower's mesh.
 //!
 //! A job derives them once. From then on they follow each change of the mesh, before it is drawn, so that the
 //! screen shows the mesh on the outline also while a stroke is drawn.

@@ -158,9 +158,10 @@ impl MeshMirror {
     }
 
     /// Draws triangles of the mesh again in place of their pieces, or draws pieces that were appended.
-    /// `pieces` are those that [`Self::set_pieces`] got, and `touched` is the result of [`PatchPieces::retire`] or
-    /// [`PatchPieces::replace`]. The time is proportional to `touched`. After a mesh lost its pieces because
-    /// another one is uploaded, nothing is done.
+    ///
+    /// `pieces` are those that [`Self::set_pieces`] got, and `touched` is the result of
+    /// [`PatchPieces::retire`] or [`PatchPieces::replace`]. The time is proportional to `touched`. After a
+    /// mesh lost its pieces because another one is uploaded, nothing is done.
     ///
     /// # Errors
     /// Fails when the device cannot hold the appended pieces.
