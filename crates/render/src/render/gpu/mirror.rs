@@ -28,7 +28,7 @@ use meshbrush_mesh::mesh::{Changes, Mesh, PatchPieces, Progress, TriangleId};
 ///
 /// [`Self::apply_changes`] writes edits into the back during an upload, since they are edits of the mesh that
 /// is being uploaded. At other times it writes into the front. Pieces are with the copy of the mesh that they
-/// belong to: [`Self::set_pieces`] and [`Self::retire`] choose the copy in the same way.
+/// belong to: [`Self::set_pieces`] and [`Self::change_pieces`] choose the copy in the same way.
 pub struct MeshMirror {
     gpu: Gpu,
     front: MeshCopy,
