@@ -3,7 +3,7 @@
 //! *lake*: 1.8 million triangles, an outline of 200,000 corners, most of them closer to each other than the
 //! triangles. *coast*: half a million triangles, all of them at a rough outline of 197,000 corners. Documents
 //! and followers are those of the window. For one thread and for all: the shortest of a few runs from
-//! scratch, without and with the removal of parts and pinches, and the median of dabs on the outline, painted
+//! scratch, without and with the removal of parts and pinches, and with what follows edits, and the median of dabs on the outline, painted
 //! and taken back.
 
 use std::time::{Duration, Instant};
@@ -78,6 +78,15 @@ impl Scene {
                 .map(|_| measured(|| _ = DerivedMesh::new(follower.mesh(), follower.domain(), &cleaning)));
             report(name, runs.min().expect("some runs"));
         }
+        let both = || {
+            _ = DerivedMesh::derive_and_follow(
+                follower.mesh(),
+                follower.domain(),
+                &Cleaning::FOR_SOLVERS,
+                |_| true,
+            )
+        };
+        report("and followed", (0..RUNS).map(|_| measured(both)).min().expect("some runs"));
         let mut outline = OutlineFollower::new(follower.mesh(), follower.domain()).expect("on the outline");
         let (mut times, mut changed) = (Vec::new(), 0);
         for n in 0..DABS {

@@ -58,7 +58,7 @@ impl Coast {
     }
 
     /// Takes in a change of the mesh, and returns the triangles whose pieces may be others than before;
-    /// `None` if it is not in step any more.
+    /// `None` if it is no longer in step.
     pub(super) fn follow(&mut self, follower: &Follower, changes: &Changes) -> Option<Vec<TriangleId>> {
         let outline = self.outline.as_mut()?;
         let is_of_domain = has_domain_of(outline, follower);
@@ -99,7 +99,7 @@ impl Coast {
         }
     }
 
-    /// Ends to keep the outline in step.
+    /// Stops keeping the outline in step.
     pub(super) fn forget(&mut self) {
         self.useless = self.outline.take().or(self.useless.take());
     }

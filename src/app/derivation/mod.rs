@@ -349,39 +349,45 @@ impl Work {
     /// Derives the mesh, begins to keep its coast in step, and compares it with the outline.
     fn derive(self, output: &Output<Outcome>) {
         let Self { key, mesh, domain, has_coast } = self;
-        let derived_mesh = DerivedMesh::new(&mesh, &domain, &key.cleaning);
-        if !output.is_wanted() {
-            return;
-        }
-        let extract = Arc::new(derived_mesh.extract(&mesh).into_owned());
-        if !output.is_wanted() {
-            return;
-        }
-        let pieces = PatchPieces::new(&mesh, derived_mesh.patch(), &extract);
-        let region = key.region.clone();
-        let derived = Derived {
-            key,
-            locator: PatchedLocator::new(&mesh, derived_mesh.patch(), &extract),
-            level_counts: extract.level_counts(),
-            topology: extract.topology(),
-            removed: derived_mesh.removed().clone(),
-            outline_fit: derived_mesh.fit(),
-            quality: None,
-            extract: extract.clone(),
+        let (cleaning, region) = (key.cleaning, key.region.clone());
+        let mut extract = None;
+        let send = |derived: DerivedMesh| {
+            extract = send_derived(key, &mesh, derived, output);
+            extract.is_some()
         };
-        let removed = RemovedTriangles::of(&derived_mesh);
-        drop(derived_mesh);
-        if !output.send(Outcome::Derived(Box::new(derived), pieces, removed)) {
-            return;
+        if has_coast || domain.region_on_outline().is_none() {
+            send(DerivedMesh::new(&mesh, &domain, &cleaning));
+        } else if let Some(outline) = DerivedMesh::derive_and_follow(&mesh, &domain, &cleaning, send) {
+            output.send(Outcome::Coast(Box::new(outline)));
         }
-        if !has_coast && let Some(outline) = OutlineFollower::new(&mesh, &domain) {
-            drop(mesh);
-            if !output.send(Outcome::Coast(Box::new(outline))) {
-                return;
-            }
+        drop(mesh);
+        if let Some(extract) = extract.filter(|_| output.is_wanted()) {
+            output.send(Outcome::Quality(FitQuality::of(&extract, &region)));
         }
-        output.send(Outcome::Quality(FitQuality::of(&extract, &region)));
     }
+}
+
+/// Sends a derived mesh with its pieces, and returns its nodes and triangles; `None` if it is not wanted.
+fn send_derived(
+    key: Key,
+    mesh: &Mesh,
+    derived_mesh: DerivedMesh,
+    output: &Output<Outcome>,
+) -> Option<Arc<Extract<'static>>> {
+    let extract = output.is_wanted().then(|| Arc::new(derived_mesh.extract(mesh).into_owned()))?;
+    let pieces = output.is_wanted().then(|| PatchPieces::new(mesh, derived_mesh.patch(), &extract))?;
+    let derived = Derived {
+        key,
+        locator: PatchedLocator::new(mesh, derived_mesh.patch(), &extract),
+        level_counts: extract.level_counts(),
+        topology: extract.topology(),
+        removed: derived_mesh.removed().clone(),
+        outline_fit: derived_mesh.fit(),
+        quality: None,
+        extract: extract.clone(),
+    };
+    let removed = RemovedTriangles::of(&derived_mesh);
+    output.send(Outcome::Derived(Box::new(derived), pieces, removed)).then_some(extract)
 }
 
 /// Which mesh was measured.

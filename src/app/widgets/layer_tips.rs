@@ -20,7 +20,7 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ("Size by/Wavelength", "A number of triangles in the length of a wave, which grows with the depth."),
     (
         "Size by/Slope of the ground",
-        "A number of triangles in the length in which the depth changes by itself.",
+        "A number of triangles in the topographic length, 2π times the depth by the slope.",
     ),
     ("Size by/Time step", "The diameter at which a wave has a Courant number in a time step of a solver."),
     ("Only between two depths", "Shallower and deeper water asks for nothing."),

@@ -18,10 +18,19 @@ pub struct MeshDetails {
     pub parts: Vec<u32>,
     /// The origin of the mesh.
     pub provenance: Provenance,
-    /// The depths at the nodes, if a layer has them.
+    /// The depths at the nodes, if a layer has them and they are wanted.
     pub depths: Option<NodeDepths>,
-    /// The triangles across straits, if a layer asks for them.
+    /// The triangles across straits, if a layer asks for them and they are wanted.
     pub straits: Option<StraitSummary>,
+}
+
+/// What the details are wanted for.
+#[derive(Clone, Copy, Debug)]
+pub struct DetailUses {
+    /// The summary in JSON.
+    pub json: bool,
+    /// Files with values at the nodes.
+    pub node_data: bool,
 }
 
 impl MeshDetails {
@@ -35,10 +44,15 @@ impl MeshDetails {
         line: &str,
         input: &Input,
         coordinates: OutputCoordinates,
+        uses: DetailUses,
     ) -> Result<Self, NoDepth> {
         let provenance = provenance(finished, line, input, coordinates);
-        let depths = NodeDepths::of(finished.layers(), extract.view()).transpose()?;
-        let straits = StraitSummary::of(finished.layers(), extract);
+        let layers = finished.layers();
+        let depths = match uses.json || uses.node_data {
+            true => NodeDepths::of(layers, extract.view()).transpose()?,
+            false => None,
+        };
+        let straits = uses.json.then(|| StraitSummary::of(layers, extract)).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         Ok(Self { boundary, parts, provenance, depths, straits })
     }

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
-use super::details::MeshDetails;
+use super::details::{DetailUses, MeshDetails};
 use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
@@ -45,9 +45,11 @@ pub fn run(
     };
     let writes = files.iter().any(|files| !files.outputs.is_empty());
     let wants_details = typed.json || writes;
+    let node_data = files.iter().any(RequestedFiles::wants_node_data);
+    let uses = DetailUses { json: typed.json, node_data };
     let (details, summary) = terminal.while_working("measuring the mesh", || {
         let details =
-            wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, typed.out_crs));
+            wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, typed.out_crs, uses));
         let details = details.transpose().map_err(|error| Failure::Work(error.to_string()))?;
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
         Ok::<_, Failure>((details, summary))

@@ -75,7 +75,8 @@ impl RequestedFiles {
         Ok(Self { outputs: vec![file], look, quantities })
     }
 
-    fn wants_node_data(&self) -> bool {
+    /// Returns whether a file has values at the nodes.
+    pub fn wants_node_data(&self) -> bool {
         self.outputs.iter().any(Output::wants_node_data)
     }
 }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
 
-/// The period of the tide that the moon raises twice a day, in seconds.
+/// The period of the semidiurnal lunar tide (M2), in seconds.
 const TIDE: f64 = 44_712.0;
 
 /// Depths of water and straits, and the sizes that they ask for.
@@ -30,11 +30,11 @@ pub struct WaterArguments {
     #[arg(long, value_name = "N", requires = "depth", allow_hyphen_values = true)]
     pub per_wavelength: Option<f64>,
 
-    /// Period of the wave of --per-wavelength, in seconds [default: 44712, the tide]
+    /// Period of the wave of --per-wavelength, in seconds [default: 44712, the lunar tide M2]
     #[arg(long, value_name = "SECONDS", requires = "per_wavelength", allow_hyphen_values = true)]
     pub period: Option<f64>,
 
-    /// At least this many triangles in the length in which the depth changes by itself, 2π H / slope
+    /// At least this many triangles in the topographic length, 2π H / slope
     #[arg(long, value_name = "N", requires = "depth", allow_hyphen_values = true)]
     pub per_slope: Option<f64>,
 

@@ -8,7 +8,7 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{DistanceTo, Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
+use crate::layers::{DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
@@ -90,6 +90,18 @@ pub enum SettingsError {
     /// A constant layer asks for a diameter that no mesh can meet.
     #[error("A target diameter of {} cannot be met: it must be positive; write inf to ask for nothing.", Number(*.0))]
     Constant(f64),
+    /// Sizes from depths, which are in metres, in a document that is not.
+    #[error(
+        "The layer “{}”: sizes from depths are in metres, and lengths of the domain are in {}. Mesh longitudes and \
+         latitudes in metres with a projection, such as auto.",
+        short_name(layer), unit.name()
+    )]
+    DepthUnit {
+        /// The name of the layer.
+        layer: String,
+        /// The unit of the document.
+        unit: LengthUnit,
+    },
     /// A paint layer has pixels of the other quantity.
     #[error(
         "The pixels of the layer “{}” are {is}, and cannot be read as {read_as}. Add another paint layer.",
@@ -188,8 +200,26 @@ impl Settings {
                 return Err(SettingsError::Constant(value));
             }
         }
+        self.check_depth_unit()?;
         let pixels = self.raster_pixels();
         if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
+    }
+
+    /// Checks that lengths are in metres where sizes from depths are asked for.
+    ///
+    /// # Errors
+    /// Fails with the first visible layer that asks for them in another unit.
+    pub fn check_depth_unit(&self) -> Result<(), SettingsError> {
+        let asks = |layer: &&Layer| match &layer.kind {
+            LayerKind::Depth(depths) => layer.visible && depths.sizes().rule != DepthRule::Nothing,
+            _ => false,
+        };
+        match self.layers.iter().find(asks) {
+            Some(layer) if !self.unit.may_be_metres() => {
+                Err(SettingsError::DepthUnit { layer: layer.name.clone(), unit: self.unit })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Returns the pixels of the rasters of all layers. A raster that two layers read counts once.

@@ -39,7 +39,7 @@ pub enum DepthRule {
         /// Triangles in the length of a wave.
         triangles: f64,
     },
-    /// A number of triangles in the length in which the depth changes by itself: 2π H / |∇z|.
+    /// A number of triangles in the topographic length 2π H / |∇z|.
     Slope {
         /// Triangles in that length.
         triangles: f64,
@@ -72,7 +72,7 @@ pub struct DepthSizes {
 pub struct Depths {
     source: RasterSource,
     sizes: DepthSizes,
-    /// The length in which the depth changes by itself, by 2π, for [`DepthRule::Slope`].
+    /// The topographic length by 2π, for [`DepthRule::Slope`].
     lengths: Option<Arc<RasterPyramid>>,
 }
 
@@ -95,7 +95,7 @@ pub struct DepthError {
 }
 
 impl DepthRule {
-    /// Thirty triangles in the length of the tide that the moon raises twice a day.
+    /// Thirty triangles in the length of the semidiurnal lunar tide (M2).
     pub const USUAL_WAVELENGTH: Self = Self::Wavelength { period: 44_712.0, triangles: 30.0 };
 }
 
@@ -275,7 +275,7 @@ impl Depths {
     }
 }
 
-/// Returns the length in which the depth changes by itself, by 2π: max(H, 1) / |∇z|. It has no value where
+/// Returns the topographic length by 2π: max(H, 1) / |∇z|. It has no value where
 /// nothing is asked for, or heights are unknown.
 fn lengths_of_change(heights: &Raster, sizes: &DepthSizes, smoothing: f64) -> Raster {
     let smoothed = smoothed(heights, smoothing);

@@ -64,12 +64,11 @@ pub struct NoDepth {
 /// The visible layers of depths, from the top to the bottom.
 struct Surface<'a>(Vec<(&'a Layer, &'a Depths)>);
 
-/// Where the depth of a node comes from.
-enum Found {
-    Surface(f64),
-    /// The depth of the nearest pixel, and its distance.
-    Nearest(f64, f64),
-    Nowhere,
+/// The depth of a node.
+struct Found {
+    depth: f64,
+    /// The distance of the nearest pixel, if the depth is its.
+    distance: Option<f64>,
 }
 
 impl NodeDepths {
@@ -79,13 +78,11 @@ impl NodeDepths {
     /// # Errors
     /// Fails when nodes are far from every pixel with a value.
     pub fn of(layers: &[Layer], mesh: MeshView) -> Option<Result<Self, NoDepth>> {
-        let depths = |layer: &'_ Layer| matches!(layer.kind, LayerKind::Depth(_)) && layer.visible;
-        let of_depths = layers.iter().rev().filter(|layer| depths(layer));
-        let surface = of_depths.filter_map(|layer| match &layer.kind {
-            LayerKind::Depth(depths) => Some((layer, depths)),
+        let depths = layers.iter().rev().filter_map(|layer| match &layer.kind {
+            LayerKind::Depth(depths) if layer.visible => Some((layer, depths)),
             _ => None,
         });
-        let surface = Surface(surface.collect());
+        let surface = Surface(depths.collect());
         (!surface.0.is_empty()).then(|| surface.at_nodes(mesh))
     }
 }
@@ -96,44 +93,34 @@ impl Surface<'_> {
         let nodes: Vec<DVec2> =
             mesh.nodes().par_iter().map(|&node| lattice.world_from_lattice(node)).collect();
         let sides = mean_sides(mesh, &nodes);
-        let found: Vec<Found> = nodes
+        let found: Vec<Option<Found>> = nodes
             .par_iter()
             .zip(&sides)
             .with_min_len(GRAIN)
             .map(|(&node, &side)| self.around(node, side))
             .collect();
-        let lost = || found.iter().zip(&nodes).filter(|(found, _)| matches!(found, Found::Nowhere));
+        let lost = || found.iter().zip(&nodes).filter(|(found, _)| found.is_none());
         if let Some((_, &at)) = lost().next() {
             return Err(NoDepth { nodes: lost().count(), at });
         }
-        let mut depths =
-            NodeDepths { depths: Vec::new(), filled: 0, farthest: 0.0, fit: DepthFit::default() };
-        for found in found {
-            depths.depths.push(match found {
-                Found::Surface(depth) => depth,
-                Found::Nearest(depth, distance) => {
-                    depths.filled += 1;
-                    depths.farthest = depths.farthest.max(distance);
-                    depth
-                }
-                Found::Nowhere => 0.0,
-            });
-        }
-        depths.fit = self.fit(mesh, &nodes, &depths.depths);
-        Ok(depths)
+        let found: Vec<Found> = found.into_iter().flatten().collect();
+        let distances = || found.iter().filter_map(|found| found.distance);
+        let depths: Vec<f64> = found.iter().map(|found| found.depth).collect();
+        let fit = self.fit(mesh, &nodes, &depths);
+        Ok(NodeDepths { depths, filled: distances().count(), farthest: distances().fold(0.0, f64::max), fit })
     }
 
-    /// Returns the depth for a node whose triangles have sides of about `side`, in world units.
-    fn around(&self, node: DVec2, side: f64) -> Found {
+    /// Returns the depth for a node whose triangles have sides of about `side`, in world units; `None` far
+    /// from every pixel with a value.
+    fn around(&self, node: DVec2, side: f64) -> Option<Found> {
         let covering = |(layer, _): &&(&Layer, &Depths)| covers(layer, node);
         if let Some(depth) = self.0.iter().filter(covering).find_map(|(_, depths)| around(depths, node, side))
         {
-            return Found::Surface(depth);
+            return Some(Found { depth, distance: None });
         }
         let nearest = self.0.iter().filter_map(|(_, depths)| nearest(depths, node));
-        nearest
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map_or(Found::Nowhere, |(depth, distance)| Found::Nearest(depth, distance))
+        let nearest = nearest.min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(depth, distance)| Found { depth, distance: Some(distance) })
     }
 
     /// Compares the mesh with the pixels: each counts where its layer is the first with a value.
@@ -244,7 +231,6 @@ fn pixels_within(raster: &Raster, area: &Rect) -> PixelRect {
 /// Returns the depth of the nearest pixel with a value, and the distance of its centre.
 fn nearest(depths: &Depths, at: DVec2) -> Option<(f64, f64)> {
     let raster = depths.source().raster.raster();
-    let [columns, rows] = raster.size().map(i64::from);
     let [x, y] = raster.pixel_from_world(at).floor().to_array().map(|at| at as i64);
     let mut best: Option<(f64, f64)> = None;
     let pixel = raster.pixel_size();
@@ -260,12 +246,9 @@ fn nearest(depths: &Depths, at: DVec2) -> Option<(f64, f64)> {
         });
         for (dx, dy) in on_ring {
             let (x, y) = (x + dx, y + dy);
-            if !((0..columns).contains(&x) && (0..rows).contains(&y)) {
-                continue;
-            }
-            let value = raster.get(x as u32, y as u32);
+            let Some(value) = raster.known(x, y) else { continue };
             let distance = raster.pixel_center(x as u32, y as u32).distance(at);
-            if !value.is_nan() && best.is_none_or(|(_, least)| distance < least) {
+            if best.is_none_or(|(_, least)| distance < least) {
                 best = Some((depths.sizes().depth_of(f64::from(value)), distance));
             }
         }

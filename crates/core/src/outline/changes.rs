@@ -63,9 +63,14 @@ impl OutlineChanges {
     pub fn new(mesh: &Mesh, region: &RegionOnLattice, watch: Watch<'_>) -> Self {
         let outline = Outline::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, watch);
+        Self::of_fitted(mesh, &outline, &fitted)
+    }
+
+    /// Returns the changes of a whole band that was put on an outline.
+    pub(super) fn of_fitted(mesh: &Mesh, outline: &Outline, fitted: &FittedBand) -> Self {
         Self {
             patch: patch(mesh, &fitted.band, &fitted.patchwork, &outline.angles),
-            fit: fitted.fit(&outline),
+            fit: fitted.fit(outline),
             corner_limit: fitted.pins.iter().map(|pin| pin.limit).fold(0.0, f64::max),
         }
     }

@@ -126,6 +126,16 @@ impl OutlineFollower {
         let region = domain.region_on_outline()?;
         let outline = Outline::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
+        Some(Self::of_fitted(mesh, domain, &outline, &fitted))
+    }
+
+    /// [`Self::new`], from a whole band that was put on an outline.
+    pub(super) fn of_fitted(
+        mesh: &Mesh,
+        domain: &DomainOnLattice,
+        outline: &Outline,
+        fitted: &FittedBand,
+    ) -> Self {
         let mut follower = Self {
             domain: domain.clone(),
             corners: outline.corners.clone(),
@@ -137,10 +147,10 @@ impl OutlineFollower {
         follower.triangles.reserve(fitted.band.ids.len());
         follower.seats.reserve(fitted.band.ids.len());
         follower.nodes.reserve(fitted.patchwork.points.len());
-        let mut writer = Writer::new(mesh, &fitted, &outline);
+        let mut writer = Writer::new(mesh, fitted, outline);
         (0..fitted.band.ids.len() as u32).for_each(|t| writer.write(&mut follower, t));
         fitted.band.touched.iter().for_each(|&(id, inside)| follower.write_beside(mesh, id, inside));
-        Some(follower)
+        follower
     }
 
     /// Takes in what changed in the mesh, and returns the entries whose pieces may be others than before, in
@@ -150,7 +160,7 @@ impl OutlineFollower {
     }
 
     /// [`Self::update`], unless more triangles than `most` came near the outline. Then it returns `None`, and
-    /// the nodes are in step with the mesh no more.
+    /// the nodes are no longer in step with the mesh.
     pub fn update_few(&mut self, mesh: &Mesh, changes: &Changes, most: usize) -> Option<Vec<TriangleId>> {
         let domain = self.domain.clone();
         let Some(region) = domain.region_on_outline() else { return Some(Vec::new()) };

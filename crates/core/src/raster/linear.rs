@@ -26,19 +26,22 @@ pub(super) fn linear(at: DVec2, pixel: impl Fn(i64, i64) -> Option<f32>) -> Opti
 }
 
 impl Raster {
+    /// Returns the value of the pixel in column `x` and row `y`; `None` outside the raster and where there is
+    /// none.
+    pub fn known(&self, x: i64, y: i64) -> Option<f32> {
+        let [columns, rows] = self.size().map(i64::from);
+        let is_within = (0..columns).contains(&x) && (0..rows).contains(&y);
+        is_within.then(|| self.get(x as u32, y as u32)).filter(|value| !value.is_nan())
+    }
+
     /// Returns the value at a point in world units, linear between the centres of pixels that have a value;
     /// `None` outside the bounds and where the pixel at the point has none.
     pub fn linear_at(&self, point: DVec2) -> Option<f64> {
-        let [columns, rows] = self.size().map(i64::from);
-        let pixel = |x: i64, y: i64| {
-            let is_within = (0..columns).contains(&x) && (0..rows).contains(&y);
-            is_within.then(|| self.get(x as u32, y as u32)).filter(|value| !value.is_nan())
-        };
         // The upper and right sides belong to the last pixels.
         let at = self.pixel_from_world(point);
-        let last = DVec2::new(columns as f64, rows as f64);
+        let last = DVec2::from(self.size().map(f64::from));
         let is_within = at.cmpge(DVec2::ZERO).all() && at.cmple(last).all();
-        is_within.then(|| linear(at.min(last.map(f64::next_down)), pixel)).flatten()
+        is_within.then(|| linear(at.min(last.map(f64::next_down)), |x, y| self.known(x, y))).flatten()
     }
 }
 

@@ -145,15 +145,14 @@ impl Source<'_> {
 
     /// Returns the value at a place in pixels, linear between the centres of pixels that have a value.
     fn value(&self, at: DVec2) -> f32 {
-        let [columns, rows] = self.raster.size().map(i64::from);
-        let is_round = self.is_round();
-        let at = if is_round { at } else { self.within_a_pixel(at) };
-        let pixel = |x: i64, y: i64| {
-            let x = if is_round { x.rem_euclid(columns) } else { x };
-            let is_within = (0..columns).contains(&x) && (0..rows).contains(&y);
-            is_within.then(|| self.raster.get(x as u32, y as u32)).filter(|value| !value.is_nan())
+        let value = match self.is_round() {
+            true => {
+                let columns = i64::from(self.raster.size()[0]);
+                linear(at, |x, y| self.raster.known(x.rem_euclid(columns), y))
+            }
+            false => linear(self.within_a_pixel(at), |x, y| self.raster.known(x, y)),
         };
-        linear(at, pixel).map_or(f32::NAN, |value| value as f32)
+        value.map_or(f32::NAN, |value| value as f32)
     }
 
     /// Returns a place, moved into the source if it is at most a pixel away: pixels of the plane can cover a

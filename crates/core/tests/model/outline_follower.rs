@@ -192,7 +192,7 @@ fn nodes_kept_on_the_outline_are_those_derived_from_scratch() {
 }
 
 #[test]
-fn a_change_near_the_outline_that_is_too_large_is_told() {
+fn a_change_near_the_outline_that_is_too_large_is_reported() {
     let (mut scene, mut random) = (Scene::new(2), Rng::with_seed(2));
     let (mut some, mut none) = (0, 0);
     for _ in 0..30 {

@@ -126,15 +126,18 @@ pub(super) fn stretches<'a>(rings: impl Iterator<Item = &'a Ring>, cutting: Opti
 /// Returns the coasts of a domain as polylines: its boundary without the open parts. None for a domain that
 /// is given by a formula.
 pub fn coasts(domain: &Domain) -> Vec<Vec<DVec2>> {
-    let Some(region) = domain.region() else { return Vec::new() };
-    let rings: Vec<&Ring> = region.rings().collect();
-    let frame = is_cut(&rings, &domain.bounds).then_some(&domain.bounds);
     let mut coasts = Vec::new();
-    for ring in rings {
-        push_stretches(ring, frame, &mut coasts);
-    }
+    let (rings, frame) = rings_and_frame(domain);
+    rings.into_iter().for_each(|ring| push_stretches(ring, frame, &mut coasts));
     coasts.retain(|stretch| stretch.kind != BoundaryKind::Open);
     coasts.into_iter().map(|stretch| stretch.points).collect()
+}
+
+/// Returns the rings of a domain, none where a formula gives it, and the frame if it cuts them.
+fn rings_and_frame(domain: &Domain) -> (Vec<&Ring>, Option<&Rect>) {
+    let rings: Vec<&Ring> = domain.region().into_iter().flat_map(|region| region.rings()).collect();
+    let frame = is_cut(&rings, &domain.bounds).then_some(&domain.bounds);
+    (rings, frame)
 }
 
 /// An edge of a coast, with the water on its left.
@@ -163,12 +166,8 @@ impl Coasts {
     /// Returns the coasts of a domain; none of a domain that is given by a formula.
     pub fn of(domain: &Domain) -> Self {
         let mut coasts = Self::default();
-        let Some(region) = domain.region() else { return coasts };
-        let rings: Vec<&Ring> = region.rings().collect();
-        let frame = is_cut(&rings, &domain.bounds).then_some(&domain.bounds);
-        for ring in rings {
-            coasts.push(ring, frame);
-        }
+        let (rings, frame) = rings_and_frame(domain);
+        rings.into_iter().for_each(|ring| coasts.push(ring, frame));
         coasts
     }
 

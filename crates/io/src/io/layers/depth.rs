@@ -41,8 +41,8 @@ impl SavedLayer {
     /// Returns what is asked of depths: nothing without `size`, and values are heights without `positive`.
     pub(super) fn depth_sizes(&self) -> Result<DepthSizes, KeyFault> {
         let size = self.size.unwrap_or(SavedDepthSize::Nothing);
-        let of_rules = ["period", "triangles", "smoothing", "time_step", "courant"];
-        let foreign = |key: &&str| of_rules.contains(key) && !size.keys().contains(key);
+        let is_of_rule = |key: &&str| SavedDepthSize::ALL.iter().any(|size| size.keys().contains(key));
+        let foreign = |key: &&str| is_of_rule(key) && !size.keys().contains(key);
         if let Some(key) = self.given().find(foreign) {
             let sentence = format!("depths with size = \"{}\" have no `{key}`.", size.word());
             return Err(KeyFault::key(key, sentence));

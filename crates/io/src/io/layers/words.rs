@@ -79,13 +79,16 @@ pub enum SavedDepthSize {
     Nothing,
     /// Triangles in the length of a wave.
     Wavelength,
-    /// Triangles in the length in which the depth changes by itself.
+    /// Triangles in the topographic length.
     Slope,
     /// The distance that a wave travels in a time step.
     Courant,
 }
 
 impl SavedDepthSize {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Nothing, Self::Wavelength, Self::Slope, Self::Courant];
+
     /// Returns the keys of this rule alone.
     pub fn keys(self) -> &'static [&'static str] {
         match self {

@@ -16,7 +16,7 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
 use meshbrush_core::earth::{Projection, ProjectionChoice};
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{DepthRule, Layer, LayerId, LayerKind, PaintLayers, ShapeList, Shapes, Threat};
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
@@ -94,7 +94,7 @@ impl SavedSettings {
         };
         let settings = self.load(name, &loading.usual, &mut files)?;
         check_outline(&settings)?;
-        check_unit(&settings)?;
+        settings.check_depth_unit().map_err(|error| LoadError::Unsuited(error.to_string()))?;
         // Without a domain of its own, the mesh covers all rasters.
         let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
         let notes = files.note.into_iter().chain(notes(&settings, has_frame));
@@ -243,23 +243,6 @@ fn domain_of(
     let domain = Domain::of_stored_polygons(plain, bounds)?;
     let marks = BoundaryMarks::of_polygons(polygons, &domain);
     Ok((domain, marks))
-}
-
-/// Refuses sizes from depths, which are in metres, where lengths are not.
-fn check_unit(Settings { layers, unit, .. }: &Settings) -> Result<(), LoadError> {
-    let asks = |layer: &&Layer| match &layer.kind {
-        LayerKind::Depth(depths) => layer.visible && depths.sizes().rule != DepthRule::Nothing,
-        _ => false,
-    };
-    match layers.iter().find(asks) {
-        Some(layer) if !unit.may_be_metres() => Err(LoadError::Unsuited(format!(
-            "The layer “{}”: sizes from depths are in metres, and lengths of the domain are in {}. Mesh longitudes and \
-             latitudes in metres with a projection, such as auto.",
-            layer.name,
-            unit.name()
-        ))),
-        _ => Ok(()),
-    }
 }
 
 /// Refuses a distance to the outline or to the coasts of a domain that has none.

@@ -167,16 +167,27 @@ impl PatchPieces {
     /// Retires the pieces in place of entries that changed or no longer exist.
     fn retire_changed(&mut self, mesh: &Mesh, changes: &Changes) -> Vec<(TriangleId, Range<usize>)> {
         let mut touched = Vec::new();
-        let count = mesh.raw_triangle_count();
-        let changed = changes.triangles.iter().flat_map(|ids| ids.start..ids.end.min(count));
-        let gone = self.replaced.partition_point(|(id, _)| id.index() < count);
-        let gone = self.replaced[gone..].iter().map(|(id, _)| *id);
-        let gone = gone.chain(self.later.keys().copied().filter(|id| id.index() >= count));
-        let gone: Vec<TriangleId> = gone.collect();
-        for id in changed.map(TriangleId::from_index).chain(gone) {
-            self.retire_entry(id, &mut touched);
+        let gone = mesh.raw_triangle_count()..usize::MAX;
+        for ids in changes.triangles.iter().chain(std::iter::once(&gone)) {
+            for id in self.replaced_within(ids) {
+                self.retire_entry(id, &mut touched);
+            }
         }
         touched
+    }
+
+    /// Returns the triangles of a range that may be replaced. The time is that of the fewer: of the range, or
+    /// of those that are.
+    fn replaced_within(&self, ids: &Range<usize>) -> Vec<TriangleId> {
+        let first = self.replaced.partition_point(|(id, _)| id.index() < ids.start);
+        let earlier = self.replaced[first..].iter().map(|(id, _)| *id);
+        let mut found: Vec<TriangleId> = earlier.take_while(|id| id.index() < ids.end).collect();
+        if ids.len() < self.later.len() {
+            found.extend(ids.clone().map(TriangleId::from_index).filter(|id| self.later.contains_key(id)));
+        } else {
+            found.extend(self.later.keys().filter(|id| ids.contains(&id.index())));
+        }
+        found
     }
 
     /// Retires the pieces in place of an entry.

@@ -91,14 +91,14 @@ impl MeshPatch {
     /// # Panics
     /// Panics when the patch is of another mesh.
     pub fn clean(&mut self, mesh: &Mesh, cleaning: &Cleaning) -> Removed {
-        self.clean_and_tell(mesh, cleaning, &mut |_| {})
+        self.clean_and_report(mesh, cleaning, &mut |_| {})
     }
 
-    /// [`Self::clean`], which tells `on_removed` the corners of each removed triangle, anticlockwise.
+    /// [`Self::clean`], which passes to `on_removed` the corners of each removed triangle, anticlockwise.
     ///
     /// # Panics
     /// Panics when the patch is of another mesh.
-    pub fn clean_and_tell(
+    pub fn clean_and_report(
         &mut self,
         mesh: &Mesh,
         cleaning: &Cleaning,

@@ -95,7 +95,7 @@ fn rule_rows(ui: &mut Ui, rule: &mut DepthRule) {
         DepthRule::Nothing => {}
         DepthRule::Wavelength { period, triangles } => {
             let row = NumberRow::new("Period", period).range(POSITIVE).unit("s");
-            row.help("Period of the wave; 44,712 s is the tide that the moon raises twice a day.").show(ui);
+            row.help("Period of the wave; 44,712 s is that of the semidiurnal lunar tide (M2).").show(ui);
             let row = NumberRow::new("Triangles", triangles).range(POSITIVE);
             row.help("Least number of triangles in the length of the wave.").show(ui);
             let lengths = [10.0, 1000.0].map(|depth| format::significant(wavelength(*period, depth), 3));
@@ -105,8 +105,7 @@ fn rule_rows(ui: &mut Ui, rule: &mut DepthRule) {
         }
         DepthRule::Slope { triangles, smoothing } => {
             let row = NumberRow::new("Triangles", triangles).range(POSITIVE);
-            let help =
-                "Least number of triangles in the length in which the depth changes by itself, 2π H / slope.";
+            let help = "Least number of triangles in the topographic length, 2π H / slope.";
             row.help(help).show(ui);
             let row = NumberRow::new("Average over", smoothing).range(0.0..=f64::MAX).unit("m");
             row.help("Side of the square over which heights are averaged first; 0 for none.").show(ui);
