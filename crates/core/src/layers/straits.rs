@@ -28,7 +28,7 @@ use rayon::prelude::*;
 
 use crate::domain::{CoastEdge, Coasts, Domain, Region};
 use crate::field::Bounds;
-use crate::geometry::{BoxGroup, BoxTree, Rect, nearest_on_segment};
+use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
 /// The way along a ring from one side of a crossing to the other, at least, as a multiple of its length.
 /// Corners wider than 53°, and coves wider than deep, have none.
@@ -124,17 +124,7 @@ impl StraitDiscs {
         let boxes: Vec<Rect> =
             discs.iter().map(|disc| Rect::around(disc.center, reach(disc, between))).collect();
         let tree = BoxTree::new(&boxes);
-        let mut least: Vec<Vec<f64>> = Vec::new();
-        for level in 0..tree.level_count() {
-            let width = |member: usize| match level {
-                0 => discs[tree.item_at(member) as usize].width,
-                _ => least[level - 1][member],
-            };
-            let of_group =
-                |index| tree.members(BoxGroup { level, index }).map(width).fold(f64::INFINITY, f64::min);
-            let widths = (0..tree.group_count(level)).map(of_group).collect();
-            least.push(widths);
-        }
+        let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
         Self(Arc::new(Indexed { region, between, discs, tree, least }))
     }
 
@@ -274,12 +264,13 @@ impl<'a> Finder<'a> {
         }
         if let Some(next) = next {
             let [start, end] = self.coasts.edges[next as usize].ends;
-            let turn = direction.angle_to(end - start);
+            let next_direction = end - start;
+            let turn = libm::atan2(direction.perp_dot(next_direction), direction.dot(next_direction));
             // The water is on the left: at a right turn, the land is a corner that points into it.
             let steps = (-turn / CENTERS).ceil().max(0.0) as u32;
             let shore = Shore { at: to, ring, along: along + length };
-            let normals =
-                (1..steps).map(|n| DVec2::from_angle(turn * f64::from(n) / f64::from(steps)).rotate(normal));
+            let angles = (1..steps).map(|n| turn * f64::from(n) / f64::from(steps));
+            let normals = angles.map(|angle| DVec2::new(libm::cos(angle), libm::sin(angle)).rotate(normal));
             found.extend(normals.filter_map(|normal| self.disc(shore, normal)));
         }
         found

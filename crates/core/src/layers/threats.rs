@@ -185,13 +185,8 @@ impl Threats {
         }
         let reaches: Vec<Rect> = threats.iter().map(Threat::reach).collect();
         let tree = BoxTree::new(&reaches);
-        let mut indexed = Indexed { threats, tree, survival: Vec::new() };
-        for level in 0..indexed.tree.level_count() {
-            let groups = 0..indexed.tree.group_count(level);
-            let survival = groups.map(|index| indexed.survival_of(BoxGroup { level, index })).collect();
-            indexed.survival.push(survival);
-        }
-        Ok(Self(Arc::new(indexed)))
+        let survival = tree.all_joined(|number| 1.0 - threats[number as usize].peak, PRODUCT);
+        Ok(Self(Arc::new(Indexed { threats, tree, survival })))
     }
 
     /// Returns the threats in the order in which they were given.
@@ -307,13 +302,13 @@ impl Threats {
 impl Indexed {
     /// Returns the product of 1 − peak over a group, from that of its members.
     fn survival_of(&self, group: BoxGroup) -> f64 {
-        let members = self.tree.members(group);
-        match group.level {
-            0 => members.map(|place| 1.0 - self.threats[self.tree.item_at(place) as usize].peak).product(),
-            level => self.survival[level - 1][members].iter().product(),
-        }
+        let survival = |number: u32| 1.0 - self.threats[number as usize].peak;
+        self.tree.joined(group, &self.survival, survival, PRODUCT)
     }
 }
+
+/// Survival is multiplied.
+const PRODUCT: (f64, fn(f64, f64) -> f64) = (1.0, |a, b| a * b);
 
 #[cfg(test)]
 mod tests {

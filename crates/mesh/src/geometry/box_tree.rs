@@ -108,6 +108,38 @@ impl BoxTree {
         group.index * FANOUT..count.min((group.index + 1) * FANOUT)
     }
 
+    /// Returns the values of the members of a group, joined one after the other with `start`. `finer` has the
+    /// joined values of the groups on the levels below.
+    pub fn joined(
+        &self,
+        group: BoxGroup,
+        finer: &[Vec<f64>],
+        of_item: impl Fn(u32) -> f64,
+        (start, join): (f64, fn(f64, f64) -> f64),
+    ) -> f64 {
+        let members = self.members(group);
+        match group.level {
+            0 => members.map(|place| of_item(self.items[place])).fold(start, join),
+            level => finer[level - 1][members].iter().copied().fold(start, join),
+        }
+    }
+
+    /// Returns [`Self::joined`] of every group, by level.
+    pub fn all_joined(
+        &self,
+        of_item: impl Fn(u32) -> f64,
+        (start, join): (f64, fn(f64, f64) -> f64),
+    ) -> Vec<Vec<f64>> {
+        let mut values = Vec::new();
+        for level in 0..self.level_count() {
+            let groups = (0..self.group_count(level)).map(|index| BoxGroup { level, index });
+            let joined = groups.map(|group| self.joined(group, &values, &of_item, (start, join)));
+            let joined = joined.collect();
+            values.push(joined);
+        }
+        values
+    }
+
     /// Returns the item at a place along the curve.
     pub fn item_at(&self, place: usize) -> u32 {
         self.items[place]
