@@ -19,7 +19,7 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ("Size by/Nothing", "The layer asks for no diameter: exported files get its depths at the nodes."),
     ("Size by/Wavelength", "A number of triangles in the length of a wave, which grows with the depth."),
     (
-        "Size by/Slope of the ground",
+        "Size by/Bottom slope",
         "A number of triangles in the topographic length, 2π times the depth by the slope.",
     ),
     ("Size by/Time step", "The diameter at which a wave has a Courant number in a time step of a solver."),

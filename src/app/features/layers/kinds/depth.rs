@@ -35,7 +35,7 @@ impl Size {
     const CHOICES: [(Self, &str); 4] = [
         (Self::Nothing, "Nothing"),
         (Self::Wavelength, "Wavelength"),
-        (Self::Slope, "Slope of the ground"),
+        (Self::Slope, "Bottom slope"),
         (Self::Courant, "Time step"),
     ];
 

@@ -40,7 +40,7 @@ fn a_grid_of_heights_gives_sizes_and_the_depths_in_files() {
         (PositiveDepth::Up, DepthRule::USUAL_WAVELENGTH)
     );
     assert_eq!(settings(&window).domain.bounds.max.x, 20_000.0, "an empty document takes the extent");
-    click_on(&mut window, Role::RadioButton, "Slope of the ground");
+    click_on(&mut window, Role::RadioButton, "Bottom slope");
     wait_until(&mut window, |window| matches!(sizes(window).rule, DepthRule::Slope { .. }));
     let before = triangles(&window);
     type_into(&mut window, "Triangles", "60");
