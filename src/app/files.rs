@@ -14,6 +14,7 @@ use super::view::View;
 use super::widgets::format;
 use meshbrush_core::document::{Document, Example, Recording, Settings};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::NodeDepths;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
@@ -137,11 +138,14 @@ pub fn export(
             let (target_diameter, quantities) = (&target_diameter, depths.as_slice());
             let source = MeshSource::Document(&settings.name);
             let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
-            let provenance = &provenance.in_degrees(settings.domain.projection);
+            let plane = settings.domain.projection;
+            let provenance = &provenance.in_coordinates(&Coordinates::Geographic, plane);
             let (boundary, parts) = (&boundary, &parts);
             let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
-            let placed =
-                settings.domain.geographic_nodes(&extract).map(|nodes| extract.with_coordinates(nodes));
+            let placed = settings
+                .domain
+                .nodes_in(&Coordinates::Geographic, &extract)
+                .map(|nodes| extract.with_coordinates(nodes));
             let placed = placed.as_ref().unwrap_or(&extract);
             let files = format.write(&file, &mesh, placed, &data, &look, meter)?;
             Ok((files, extract.triangles().len()))

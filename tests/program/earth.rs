@@ -173,7 +173,8 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
     folder.file("far.geojson", frame([0.0, 0.0, 5.0, 84.0]));
     folder.file("depth.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n");
     folder.file("utm.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 50\ncellsize 1\n1 2\n");
-    folder.file("utm.prj", "PROJCS[\"UTM 31N\",GEOGCS[\"WGS 84\"],UNIT[\"metre\",1]]");
+    folder.file("utm.prj", "PROJCS[\"UTM 31N\",GEOGCS[\"ED50\"],UNIT[\"metre\",1]]");
+    folder.file("web.geojson", frame([1e5, 6e6, 2e5, 6.1e6]));
     folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
     for (arguments, sentence) in [
         ("--region globe.geojson --projection auto", "goes all around the Earth"),
@@ -181,7 +182,14 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
         ("--region far.geojson --projection merc", "times is the limit"),
         ("--region sea.geojson --projection mercator", "one of auto, merc, tmerc, stere and lcc"),
         ("--region sea.geojson --projection +proj=merc+lat_ts=89", "is not a projection of this program"),
-        ("--projection auto", "--projection auto: it is for the longitudes and latitudes of a region"),
+        ("--projection auto", "--projection auto: it is for the coordinates of a region"),
+        ("--crs EPSG:32631", "--crs EPSG:32631: it is for the coordinates of a region"),
+        ("--region sea.geojson --crs EPSG:27700", "--crs: “EPSG:27700” is not a coordinate system"),
+        ("--region sea.geojson --projection EPSG:3857", "it does not keep angles on the ellipsoid"),
+        ("--region sea.geojson --projection EPSG:27700", "its code is not known here"),
+        ("--region sea.geojson --projection EPSG:4326", "it does not keep angles on the ellipsoid"),
+        ("--region web.geojson --projection auto", "Say what they are (--crs EPSG:32633"),
+        ("--region sea.geojson --out-crs EPSG:32631 -o a.msh", "not in the plane of a projection"),
         ("--region sea.geojson --projection auto --target-raster depth.asc", "covers nothing of the domain"),
         (
             "--region sea.geojson --projection auto --target-raster utm.asc",
@@ -272,5 +280,64 @@ fn a_raster_in_degrees_lies_where_it_does_on_the_earth() {
         assert!(fine > 10_000 && coarse > 100, "{projection}: {fine} and {coarse}");
         let turned = folder.json("mesh", format!("{input} --target-raster turned.asc"));
         assert_eq!(turned["hash"], summary["hash"], "{projection}");
+    }
+}
+
+/// ArcGIS's text for EPSG:32633, without the code.
+const UTM_33: &str = r#"PROJCS["WGS_1984_UTM_Zone_33N",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",
+    SPHEROID["WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],
+    PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],
+    PARAMETER["Central_Meridian",15.0],PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],
+    UNIT["Meter",1.0]]"#;
+
+/// The same sea in degrees and in a zone of UTM, where the sizes are too. The coordinates are PROJ's.
+#[test]
+fn files_of_a_zone_of_utm_lie_where_they_do_on_the_earth() {
+    let folder = Folder::new("earth-utm");
+    let in_degrees = [[14.0, 58.0], [16.0, 58.0], [16.0, 59.0], [14.0, 59.0]];
+    let in_utm = [
+        [440_892.105, 6_429_147.611],
+        [559_107.895, 6_429_147.611],
+        [557_450.941, 6_540_481.779],
+        [442_549.059, 6_540_481.779],
+    ];
+    folder.file("degrees.geojson", polygon(&[in_degrees.to_vec()]));
+    folder.file("utm.geojson", polygon(&[in_utm.to_vec()]));
+    let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32633"}},"type":"#;
+    folder.file("named.geojson", polygon(&[in_utm.to_vec()]).replacen("\"type\":", crs, 1));
+    let row: Vec<&str> = (0..24).map(|column| if column < 12 { "2000" } else { "9000" }).collect();
+    let header = "ncols 24\nnrows 24\nxllcorner 435000\nyllcorner 6425000\ncellsize 5000\n";
+    folder.file("size.asc", header.to_owned() + &vec![row.join(" "); 24].join("\n"));
+    folder.file("size.prj", UTM_33);
+    for region in ["degrees.geojson", "utm.geojson --crs EPSG:32633", "named.geojson"] {
+        for projection in ["lcc", "EPSG:32633", "EPSG:3034"] {
+            let case = format!("--region {region} --projection {projection}");
+            let options = "--boundary fitted --spacing 20000 --target-raster size.asc -o m.node";
+            folder.json("mesh", format!("{case} {options}"));
+            let (nodes, _) = mesh_in(&folder, "m");
+            let ends = |axis: usize| {
+                let values = nodes.iter().map(|at| at[axis]);
+                values.fold([180.0_f64, -180.0], |[least, greatest], v| [least.min(v), greatest.max(v)])
+            };
+            for (axis, ends_of_frame) in [[14.0, 16.0], [58.0, 59.0]].into_iter().enumerate() {
+                let off =
+                    ends(axis).iter().zip(ends_of_frame).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                // A straight side in UTM bulges by 0.012° to the north.
+                assert!(off < 0.02, "{case}: {off}° along axis {axis}");
+            }
+            // Fine up to x = 492.5 km, which is 14.87° E here.
+            let [fine, coarse] = [[14.0, 14.8], [15.0, 15.8]]
+                .map(|[west, east]| nodes.iter().filter(|at| at[0] > west && at[0] < east).count());
+            assert!(fine > 8 * coarse && coarse > 50, "{case}: {fine} and {coarse}");
+        }
+    }
+    folder.json(
+        "mesh",
+        "--region degrees.geojson --projection lcc --spacing 20000 -o m.node --out-crs EPSG:32633",
+    );
+    let (nodes, _) = mesh_in(&folder, "m");
+    for corner in in_utm {
+        let distances = nodes.iter().map(|at| (at[0] - corner[0]).hypot(at[1] - corner[1]));
+        assert!(distances.fold(f64::MAX, f64::min) < 0.01, "{corner:?}");
     }
 }

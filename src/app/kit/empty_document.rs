@@ -51,7 +51,12 @@ impl EmptyDocument {
 pub fn raster_frame(session: &Session) -> RasterFrame {
     let Settings { domain, transfer, .. } = session.document().settings();
     let wanted = EmptyDocument::of(session).is_none().then_some(domain.bounds);
-    RasterFrame { domain: domain.bounds, wanted, plane: domain.projection, transfer: *transfer }
+    RasterFrame {
+        domain: domain.bounds,
+        wanted,
+        plane: domain.projection.map(Into::into),
+        transfer: *transfer,
+    }
 }
 
 /// Returns the commands that show settings over the extent of a file, with a layer of it on top, which is

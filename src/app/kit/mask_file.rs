@@ -16,6 +16,7 @@ pub fn with_mask(
     command: impl FnOnce(Mask) -> Command + Send + 'static,
 ) {
     let (file, plane) = (path.to_owned(), session.document().settings().domain.projection);
+    let plane = plane.map(io::DocumentPlane::from);
     background.start(Aim::Read, path, move |meter| {
         let named = match io::shape_format::read_polygons(&file, plane.as_ref(), meter) {
             Ok(named) => named,

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
+use super::earth_args::{EarthArguments, OutputCoordinates};
 use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
@@ -161,14 +162,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
-    /// Mesh longitudes and latitudes of the region in metres, in the plane of a conformal projection
-    ///
-    /// All lengths are then in metres, and no edge of the mesh is longer on the Earth than in the plane. auto
-    /// chooses what suits the region: merc (Mercator), tmerc (transverse Mercator), stere (polar
-    /// stereographic) or lcc (Lambert). A projection as PROJ writes it, with all its numbers, says that the
-    /// files are in its plane already. none takes degrees for lengths in a plane [default: none]
-    #[arg(long, value_name = "auto|none|merc|tmerc|stere|lcc|PROJ")]
-    pub projection: Option<String>,
+    #[command(flatten)]
+    pub earth: EarthArguments,
 
     /// How the mesh meets the outline of a region
     ///
@@ -344,8 +339,9 @@ pub struct MeshArguments {
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
 
-    /// Coordinates in files: longitude and latitude, or those of the plane of --projection
-    #[arg(long, value_enum, default_value_t, value_name = "SYSTEM", help_heading = "Output")]
+    /// Coordinates in files of a region on the Earth: longitude and latitude (lonlat), those of the plane of
+    /// --projection (plane), or those of a code or of a projection as PROJ writes it
+    #[arg(long, default_value = "lonlat", value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
     pub out_crs: OutputCoordinates,
 
     /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
@@ -367,16 +363,6 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub picture: PictureArguments,
-}
-
-/// Coordinates in files.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum OutputCoordinates {
-    /// Degrees, where the domain lies on the Earth.
-    #[default]
-    Lonlat,
-    /// World units.
-    Plane,
 }
 
 /// The usual width of a picture, in pixels.

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::args::OutputCoordinates;
 use super::build::FinishedMesh;
+use super::earth_args::OutputCoordinates;
 use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -85,8 +86,12 @@ pub fn provenance(
     let fingerprint = finished.mesh().fingerprint();
     let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &meaning);
     let provenance = provenance.with_unit(finished.unit);
-    let in_degrees = finished.domain().projection.filter(|_| coordinates == OutputCoordinates::Lonlat);
-    provenance.in_degrees(in_degrees)
+    let coordinates = match coordinates {
+        OutputCoordinates::Plane => return provenance,
+        OutputCoordinates::Lonlat => Coordinates::Geographic,
+        OutputCoordinates::Other(other) => other,
+    };
+    provenance.in_coordinates(&coordinates, finished.domain().projection)
 }
 
 /// How far depths that are linear over triangles are from the pixels of the layers of depths.

@@ -22,10 +22,12 @@ const USUAL_SLOPE: f64 = 0.2;
 /// # Errors
 /// Fails with a sentence that names the option, the value and the rule.
 pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
-    if let (Some(projection), None) = (&typed.projection, &typed.region) {
+    let of_region = [("--projection", &typed.earth.projection), ("--crs", &typed.earth.crs)];
+    if let (Some((option, Some(value))), None) =
+        (of_region.iter().find(|(_, value)| value.is_some()), &typed.region)
+    {
         return Err(Failure::Usage(format!(
-            "--projection {projection}: it is for the longitudes and latitudes of a region. Name the file with --region, \
-             or leave it out."
+            "{option} {value}: it is for the coordinates of a region. Name the file with --region, or leave it out."
         )));
     }
     let layers = layers(typed)?;
@@ -34,7 +36,8 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.clone(),
             region: typed.region.clone(),
-            projection: typed.projection.clone(),
+            crs: typed.earth.crs.clone(),
+            projection: typed.earth.projection.clone(),
             boundary: typed.boundary.map(Into::into),
             boundary_diameter: typed.boundary_diameter,
             parts: typed.parts.as_deref().map(parts).transpose()?,
@@ -137,6 +140,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
             "projection" => "--projection".to_owned(),
+            "crs" => "--crs".to_owned(),
             "boundary_diameter" => number("--boundary-diameter", typed.boundary_diameter),
             "spacing" => number("--spacing", typed.spacing),
             "h_min" => number("--h-min", typed.h_min),

@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use glam::DVec2;
 use serde::Serialize;
 
-use super::args::OutputCoordinates;
 use super::build::{FinishedMesh, build_from};
 use super::details::provenance;
+use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::mesh::note_capped;
@@ -20,14 +20,13 @@ use super::path_args::PathArguments;
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
-use meshbrush_core::earth::Projection;
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
     PathSample, Planner, Solution, Weights,
 };
-use meshbrush_io::io::{self as files, Interruption, Meter, Provenance};
+use meshbrush_io::io::{self as files, DocumentPlane, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
@@ -51,7 +50,8 @@ pub fn run(
     let inputs = [input.files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let ask = |saved: &PathPlan, plane: Option<&Projection>| Asked::new(typed, places, formula, saved, plane);
+    let ask =
+        |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, places, formula, saved, plane);
     let (read, asked) = read_and_ask(&input, terminal, ask)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
@@ -98,7 +98,7 @@ impl Asked {
         places: Option<Vec<DVec2>>,
         formula: Option<CostFormula>,
         saved: &PathPlan,
-        plane: Option<&Projection>,
+        plane: Option<&DocumentPlane>,
     ) -> Result<Self, Failure> {
         let keep_out = match typed.keep_out.is_empty() {
             true => saved.keep_out_masks(),
@@ -127,14 +127,15 @@ impl Asked {
 fn read_and_ask(
     input: &Input,
     terminal: &mut Terminal,
-    ask: impl FnOnce(&PathPlan, Option<&Projection>) -> Result<Asked, Failure>,
+    ask: impl FnOnce(&PathPlan, Option<&DocumentPlane>) -> Result<Asked, Failure>,
 ) -> Result<(ToMesh, Asked), Failure> {
     if input.project.is_none() && input.recipe.is_none() && input.settings.domain.projection.is_none() {
         let asked = ask(&PathPlan::default(), None)?;
         return Ok((input.read(terminal)?, asked));
     }
     let read = input.read(terminal)?;
-    let asked = ask(&read.paths, read.spec.domain.projection.as_ref())?;
+    let plane = read.spec.domain.projection.map(DocumentPlane::from);
+    let asked = ask(&read.paths, plane.as_ref())?;
     Ok((read, asked))
 }
 
@@ -201,7 +202,7 @@ fn cost_formula(text: &str) -> Result<CostFormula, Failure> {
     })
 }
 
-fn mask(path: &Path, plane: Option<&Projection>) -> Result<Mask, Failure> {
+fn mask(path: &Path, plane: Option<&DocumentPlane>) -> Result<Mask, Failure> {
     let named = files::shape_format::read_polygons(path, plane, &Meter::default())?;
     Mask::new(&files::geojson::without_names(named))
         .map_err(|error| Failure::Work(format!("{}: {error}", path.display())))

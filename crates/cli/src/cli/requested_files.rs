@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use super::args::{MeshArguments, OutputCoordinates};
+use super::args::MeshArguments;
 use super::build::FinishedMesh;
 use super::details::MeshDetails;
+use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
 use super::terminal::Terminal;
+use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, NodeValues};
@@ -104,6 +106,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
     }
 }
 
+/// Why coordinates in a file cannot be those of another plane.
+const NOT_ON_EARTH: &str = "--out-crs: the domain is not in the plane of a projection, so its coordinates are those of its \
+     files. Choose a plane with --projection, or leave this out.";
+
 /// Writes files, and says which.
 ///
 /// # Errors
@@ -117,11 +123,16 @@ pub fn write_files(
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
-    let geographic = match coordinates {
-        OutputCoordinates::Lonlat => finished.domain().geographic_nodes(extract),
+    let domain = finished.domain();
+    let nodes = match coordinates {
+        OutputCoordinates::Lonlat => domain.nodes_in(&Coordinates::Geographic, extract),
         OutputCoordinates::Plane => None,
+        OutputCoordinates::Other(coordinates) => {
+            let nodes = domain.nodes_in(&coordinates, extract);
+            Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
+        }
     };
-    let placed = geographic.map(|nodes| extract.with_coordinates(nodes));
+    let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
     let placed = placed.as_ref().unwrap_or(extract);
     let target_diameter = match requested.iter().any(RequestedFiles::wants_node_data) {
         true => finished.target_at_nodes(extract, terminal),

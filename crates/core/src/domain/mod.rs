@@ -21,7 +21,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::earth::Projection;
+use crate::earth::{Coordinates, Projection, Reprojection};
 use crate::field::Formula;
 use crate::geometry::{LatticePoint, Rect};
 use crate::mesh::Extract;
@@ -168,12 +168,11 @@ impl Domain {
         }
     }
 
-    /// Returns the longitude and latitude of each node of a mesh of the domain, in degrees; `None` where it
-    /// does not lie on the Earth.
-    pub fn geographic_nodes(&self, mesh: &Extract) -> Option<Vec<DVec2>> {
-        let projection = self.projection?;
-        let place =
-            |&node: &LatticePoint| projection.geographic_from_plane(mesh.lattice().world_from_lattice(node));
+    /// Returns the coordinates of each node of a mesh of the domain; `None` where it does not lie on the
+    /// Earth.
+    pub fn nodes_in(&self, coordinates: &Coordinates, mesh: &Extract) -> Option<Vec<DVec2>> {
+        let reprojection = Reprojection { from: *coordinates, to: self.projection? };
+        let place = |&node: &LatticePoint| reprojection.from_plane(mesh.lattice().world_from_lattice(node));
         Some(mesh.nodes().par_iter().map(place).collect())
     }
 

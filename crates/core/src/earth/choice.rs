@@ -2,7 +2,7 @@ use std::str::FromStr;
 
 use glam::dvec2;
 
-use super::{GeographicExtent, Parameters, Projection, ProjectionKind, ProjectionTextError};
+use super::{Coordinates, GeographicExtent, Parameters, Projection, ProjectionKind, ProjectionTextError};
 use crate::text::Number;
 
 /// How the projection of a domain is chosen.
@@ -57,6 +57,11 @@ pub enum ProjectionError {
         ratio: f64,
     },
 }
+
+/// Why a known system is no plane for a mesh.
+const NO_PLANE: &str = "it does not keep angles on the ellipsoid";
+/// Why a code is of no use.
+const NOT_KNOWN: &str = "its code is not known here";
 
 /// Largest ratio of two scales in an extent.
 const MOST_RATIO: f64 = 4.0;
@@ -162,11 +167,18 @@ impl Projection {
 impl FromStr for ProjectionChoice {
     type Err = ProjectionTextError;
 
-    /// Reads `auto`, the word of a family, or a projection as PROJ writes it.
+    /// Reads `auto`, the word of a family, `EPSG:32633`, or a projection as PROJ writes it.
     fn from_str(text: &str) -> Result<Self, ProjectionTextError> {
         let family = || ProjectionKind::ALL.into_iter().find(|kind| kind.word() == text);
         match text {
             "auto" => Ok(Self::Automatic),
+            _ if text.to_lowercase().starts_with("epsg:") => {
+                match text.parse().map(|known: Coordinates| known.projection()) {
+                    Ok(Some(projection)) => Ok(Self::Given(projection)),
+                    Ok(None) => Err(ProjectionTextError::new(text, NO_PLANE.into())),
+                    Err(_) => Err(ProjectionTextError::new(text, NOT_KNOWN.into())),
+                }
+            }
             _ => family().map_or_else(|| text.parse().map(Self::Given), |kind| Ok(Self::Family(kind))),
         }
     }

@@ -1,6 +1,6 @@
 use glam::DVec2;
 
-use super::{Projection, wrapped};
+use super::{Coordinates, Projection, wrapped};
 use crate::geometry::Rect;
 
 /// Points along each side of a rectangle whose extent is found.
@@ -49,13 +49,31 @@ impl GeographicExtent {
     /// Returns the extent of a rectangle in the plane of a projection; `None` where the projection has no
     /// longitude and latitude for its sides.
     pub fn of_plane(projection: &Projection, area: Rect) -> Option<Self> {
+        Self::of_rectangle(&Coordinates::Plane(*projection), area)
+    }
+
+    /// Returns the extent of rings in any coordinates; `None` without corners, and where the coordinates are
+    /// of no place on the Earth.
+    pub fn of_coordinates<'a>(
+        coordinates: &Coordinates,
+        rings: impl Iterator<Item = &'a [DVec2]> + Clone,
+    ) -> Option<Self> {
+        if *coordinates == Coordinates::Geographic {
+            return Self::of_rings(rings);
+        }
+        let corners = rings.flatten().map(|&at| Rect::new(at, at));
+        Self::of_rectangle(coordinates, corners.reduce(|a, b| a.union(&b))?)
+    }
+
+    /// Returns the extent of a rectangle of coordinates.
+    fn of_rectangle(coordinates: &Coordinates, area: Rect) -> Option<Self> {
         let Rect { min, max } = area;
         let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
         let side = |n: usize| {
             let (from, to) = (corners[n], corners[(n + 1) % 4]);
             (0..POINTS_OF_SIDE).map(move |m| from.lerp(to, f64::from(m) / f64::from(POINTS_OF_SIDE)))
         };
-        let places = (0..4).flat_map(side).map(|at| projection.geographic_from_plane(at));
+        let places = (0..4).flat_map(side).map(|at| coordinates.to_geographic(at));
         let ring: Vec<DVec2> = places.filter(|at| at.is_finite()).collect();
         let extent = Self::of_rings([ring.as_slice()].into_iter())?;
         // The sides bulge between their points.

@@ -6,9 +6,12 @@
 
 mod choice;
 mod cone;
+mod coordinates;
 mod ellipsoid;
 mod extent;
 mod outline;
+mod register;
+mod reprojection;
 mod text;
 mod transverse;
 
@@ -19,8 +22,10 @@ use ellipsoid::{A, Latitude, degrees_from_conformal};
 use transverse::Transverse;
 
 pub use choice::{ProjectionChoice, ProjectionError};
+pub use coordinates::{Coordinates, CoordinatesTextError};
 pub use extent::GeographicExtent;
 pub use outline::{projected_line, projected_polygons};
+pub use reprojection::Reprojection;
 pub use text::ProjectionTextError;
 
 /// A family of conformal projections.
@@ -92,6 +97,8 @@ enum Parameters {
 pub struct Projection {
     central_meridian: f64,
     parameters: Parameters,
+    /// What is added to the coordinates in the plane, in metres: false easting and false northing.
+    origin: DVec2,
     plane: Plane,
 }
 
@@ -114,7 +121,12 @@ impl Projection {
             Parameters::PolarStereographic { true_latitude } => Plane::Cone(Cone::polar(true_latitude)),
             Parameters::Lambert { origin, parallels } => Plane::Cone(Cone::lambert(origin, parallels)),
         };
-        Self { central_meridian, parameters, plane }
+        Self { central_meridian, parameters, origin: DVec2::ZERO, plane }
+    }
+
+    /// Returns the same projection with other coordinates in the plane.
+    fn with_origin(self, origin: DVec2) -> Self {
+        Self { origin, ..self }
     }
 
     /// Returns the family.
@@ -135,7 +147,7 @@ impl Projection {
     /// Returns the point in the plane, in metres, and the scale there.
     fn forward(&self, at: DVec2) -> (DVec2, f64) {
         let east = self.east(at.x);
-        match &self.plane {
+        let (plane, scale) = match &self.plane {
             Plane::Cylinder(radius) => {
                 let latitude = Latitude::from_degrees(at.y);
                 let up = libm::asinh(latitude.conformal);
@@ -143,7 +155,8 @@ impl Projection {
             }
             Plane::Transverse(transverse) => transverse.forward(east, at.y),
             Plane::Cone(cone) => cone.forward(east, at.y),
-        }
+        };
+        (plane + self.origin, scale)
     }
 
     /// Returns the point in the plane, in metres, of a longitude and latitude.
@@ -159,6 +172,7 @@ impl Projection {
 
     /// Returns longitude (−180 to 180) and latitude of a point in the plane.
     pub fn geographic_from_plane(&self, at: DVec2) -> DVec2 {
+        let at = at - self.origin;
         let from_center = match &self.plane {
             Plane::Cylinder(radius) => {
                 let [east, up] = (at / *radius).to_array();

@@ -3,19 +3,27 @@
 use std::fmt;
 use std::str::FromStr;
 
+use glam::{DVec2, dvec2};
+
 use super::{Parameters, Projection, ProjectionKind};
 use crate::text::excerpt;
 
 /// A text that is no projection of this program.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "“{text}” is not a projection of this program: {problem}. Write one of auto, merc, tmerc, stere and lcc, or all \
-     numbers as PROJ does: “+proj=lcc +lat_0=60 +lat_1=60 +lat_2=60 +lon_0=20 +ellps=WGS84 +units=m”."
+    "“{text}” is not a projection of this program: {problem}. Write one of auto, merc, tmerc, stere and lcc, the code of \
+     one such as EPSG:32633, or all numbers as PROJ does: “+proj=lcc +lat_0=60 +lat_1=60 +lat_2=60 +lon_0=20 +ellps=WGS84 +units=m”."
 )]
 pub struct ProjectionTextError {
     /// The beginning of the text.
     text: String,
     problem: String,
+}
+
+impl ProjectionTextError {
+    pub(super) fn new(text: &str, problem: String) -> Self {
+        Self { text: excerpt(80, text), problem }
+    }
 }
 
 impl fmt::Display for Projection {
@@ -31,9 +39,16 @@ impl fmt::Display for Projection {
                 write!(f, "+lat_0={origin} +lat_1={first} +lat_2={second} ")?;
             }
         }
-        write!(f, "+lon_0={} +ellps=WGS84 +units=m", self.central_meridian)
+        write!(f, "+lon_0={} ", self.central_meridian)?;
+        if self.origin != DVec2::ZERO {
+            write!(f, "+x_0={} +y_0={} ", self.origin.x, self.origin.y)?;
+        }
+        write!(f, "+ellps=WGS84 +units=m")
     }
 }
+
+/// Largest false easting and northing, in metres.
+const FARTHEST: f64 = 1e8;
 
 /// The numbers of a text.
 #[derive(Default)]
@@ -84,10 +99,7 @@ impl Words {
 
     fn projection(&self) -> Result<Projection, String> {
         let kind = self.kind.ok_or("it has no +proj")?;
-        if [("x_0", 0.0), ("y_0", 0.0)].into_iter().any(|(key, usual)| self.within(key, usual, 0.0).is_err())
-        {
-            return Err("x_0 and y_0 are 0".into());
-        }
+        let origin = dvec2(self.within("x_0", 0.0, FARTHEST)?, self.within("y_0", 0.0, FARTHEST)?);
         let parameters = match kind {
             ProjectionKind::Mercator => {
                 Parameters::Mercator { true_latitude: self.within("lat_ts", 0.0, 85.0)? }
@@ -118,7 +130,7 @@ impl Words {
                 Parameters::Lambert { origin, parallels }
             }
         };
-        Ok(Projection::new(self.within("lon_0", 0.0, 360.0)?, parameters))
+        Ok(Projection::new(self.within("lon_0", 0.0, 360.0)?, parameters).with_origin(origin))
     }
 }
 
@@ -127,6 +139,6 @@ impl FromStr for Projection {
 
     fn from_str(text: &str) -> Result<Self, ProjectionTextError> {
         let parsed = Words::parse(text).and_then(|words| words.projection());
-        parsed.map_err(|problem| ProjectionTextError { text: excerpt(80, text), problem })
+        parsed.map_err(|problem| ProjectionTextError::new(text, problem))
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::Mask;
 use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, coasts};
-use crate::earth::{Projection, projected_line, projected_polygons};
+use crate::earth::{Reprojection, projected_line, projected_polygons};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
@@ -22,12 +22,12 @@ pub struct ShapeList {
 }
 
 impl ShapeList {
-    /// Returns shapes of longitudes and latitudes in the plane of a projection.
-    pub fn projected(&self, projection: &Projection) -> Self {
+    /// Returns the shapes in the plane of a projection.
+    pub fn projected(&self, reprojection: &Reprojection) -> Self {
         Self {
-            points: self.points.iter().map(|&point| projection.plane_from_geographic(point)).collect(),
-            lines: self.lines.iter().map(|line| projected_line(line, projection)).collect(),
-            polygons: projected_polygons(&self.polygons, projection),
+            points: self.points.iter().map(|&point| reprojection.in_plane(point)).collect(),
+            lines: self.lines.iter().map(|line| projected_line(line, reprojection)).collect(),
+            polygons: projected_polygons(&self.polygons, reprojection),
         }
     }
 

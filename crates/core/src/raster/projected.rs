@@ -1,11 +1,11 @@
-//! Rasters of longitudes and latitudes, in the plane of a projection.
+//! Rasters of longitudes and latitudes, and of other planes, in the plane of a projection.
 
 use glam::{DVec2, dvec2};
 use rayon::prelude::*;
 
 use super::linear::linear;
 use super::{LONGEST_SIDE, MOST_PIXELS, Raster};
-use crate::earth::Projection;
+use crate::earth::{Coordinates, Reprojection};
 use crate::geometry::Rect;
 use crate::text::{Grouped, Number};
 
@@ -14,7 +14,7 @@ use crate::text::{Grouped, Number};
 pub enum ProjectedRasterError {
     /// It covers nothing of the area where it is wanted.
     #[error(
-        "it covers nothing of the domain: it lies from {} to {} in longitude and from {} to {} in latitude.",
+        "it covers nothing of the domain: its own coordinates are from {} to {} in x and from {} to {} in y.",
         Number(.0.min.x), Number(.0.max.x), Number(.0.min.y), Number(.0.max.y)
     )]
     Apart(Rect),
@@ -42,20 +42,21 @@ const SAMPLES: u32 = 33;
 /// Least width of a pixel that counts, as a share of its height: pixels at a pole have no width.
 const NARROWEST: f64 = 0.25;
 
-/// Returns a raster of longitudes and latitudes in the plane of a projection, where it covers a part of
-/// `area`. Its pixels are squares as small as the smallest of the source there, on the Earth; each has the
-/// value at its centre, linear between the centres of the source's pixels. It has no value where the pixel
-/// of the source around its centre has none; beyond the sides of the source, those of its last pixels go on
-/// for one pixel.
+/// Returns a raster in the plane of a projection, where it covers a part of `area`. Its pixels are squares
+/// as small as the smallest of the source there, on the Earth; each has the value at its centre, linear
+/// between the centres of the source's pixels. It has no value where the pixel of the source around its
+/// centre has none; beyond the sides of the source, those of its last pixels go on for one pixel.
 ///
 /// # Errors
 /// Fails when the raster covers nothing of the area, and when the pixels are too many.
 pub fn projected_raster(
     source: &Raster,
-    projection: &Projection,
+    reprojection: &Reprojection,
     area: Rect,
 ) -> Result<Raster, ProjectedRasterError> {
-    let source = Source { raster: source, bounds: eastward(source.bounds()), projection };
+    let is_geographic = reprojection.from == Coordinates::Geographic;
+    let bounds = if is_geographic { eastward(source.bounds()) } else { source.bounds() };
+    let source = Source { raster: source, bounds, is_geographic, reprojection };
     let (bounds, side) = source.place(area).ok_or(ProjectedRasterError::Apart(source.raster.bounds()))?;
     let size = (bounds.size() / side).ceil().max(DVec2::ONE).to_array().map(|count| count as u64);
     if size.iter().any(|&count| count > u64::from(LONGEST_SIDE)) || size[0] * size[1] > MOST_PIXELS {
@@ -82,12 +83,14 @@ pub fn projected_raster(
     Ok(projected)
 }
 
-/// A raster in degrees, and the plane where it is wanted.
+/// A raster, and the plane where it is wanted.
 struct Source<'a> {
     raster: &'a Raster,
-    /// Its longitudes and latitudes.
+    /// The rectangle that it covers, in its own coordinates.
     bounds: Rect,
-    projection: &'a Projection,
+    /// Whether these are longitudes and latitudes.
+    is_geographic: bool,
+    reprojection: &'a Reprojection,
 }
 
 /// Returns a rectangle of longitudes and latitudes whose western side is below 180°: rasters from 0° to 360°
@@ -120,9 +123,9 @@ impl Positions<'_> {
 impl Source<'_> {
     /// Returns the place of a point of the plane in the source, in pixels: its floor is (column, row).
     fn position(&self, point: DVec2) -> DVec2 {
-        let at = self.projection.geographic_from_plane(point);
-        let from = at - self.bounds.min;
-        dvec2(from.x.rem_euclid(360.0), from.y) / self.raster.pixel_size()
+        let from = self.reprojection.from_plane(point) - self.bounds.min;
+        let east = if self.is_geographic { from.x.rem_euclid(360.0) } else { from.x };
+        dvec2(east, from.y) / self.raster.pixel_size()
     }
 
     /// Returns the places of the centres of a block of `[columns, rows]` pixels.
@@ -161,7 +164,8 @@ impl Source<'_> {
         let size = DVec2::from(self.raster.size().map(f64::from));
         // Just west of the source, a place is almost once around the Earth to the east.
         let turn = 360.0 / self.raster.pixel_size().x;
-        let at = if at.x > turn - 1.0 { at - dvec2(turn, 0.0) } else { at };
+        let is_west = self.is_geographic && at.x > turn - 1.0;
+        let at = if is_west { at - dvec2(turn, 0.0) } else { at };
         let moved = at.clamp(DVec2::ZERO, size.map(f64::next_down));
         if (moved - at).abs().max_element() <= 1.0 { moved } else { at }
     }
@@ -169,7 +173,7 @@ impl Source<'_> {
     /// Returns whether the source goes once around the Earth.
     fn is_round(&self) -> bool {
         let width = self.bounds.size().x;
-        (width - 360.0).abs() < 0.5 * self.raster.pixel_size().x
+        self.is_geographic && (width - 360.0).abs() < 0.5 * self.raster.pixel_size().x
     }
 
     /// Returns the part of an area that the source covers, and the side of its smallest pixels there, in
@@ -178,8 +182,7 @@ impl Source<'_> {
         let share = |n: u32| f64::from(n) / f64::from(SAMPLES - 1);
         let samples = || (0..SAMPLES * SAMPLES).map(|n| dvec2(share(n % SAMPLES), share(n / SAMPLES)));
         let Rect { min, max } = self.bounds;
-        let plane = |at: DVec2| self.projection.plane_from_geographic(at);
-        let in_plane = samples().map(|share| plane(min + share * (max - min)));
+        let in_plane = samples().map(|share| self.reprojection.in_plane(min + share * (max - min)));
         let in_plane = in_plane.filter(|at| at.is_finite()).map(|at| Rect::new(at, at));
         // The samples of a curved side do not reach its bulge.
         let covered = in_plane.reduce(|a, b| a.union(&b))?;
@@ -201,7 +204,7 @@ impl Source<'_> {
         let pixel = self.raster.pixel_size();
         let geographic =
             (min + at * pixel).clamp(min + 0.5 * pixel, (max - 0.5 * pixel).max(min + 0.5 * pixel));
-        let plane = |at: DVec2| self.projection.plane_from_geographic(at);
+        let plane = |at: DVec2| self.reprojection.in_plane(at);
         // Half pixels away from the poles, where the projection has no other side.
         let [along_x, along_y] = [DVec2::X, DVec2::Y].map(|axis| {
             let half = 0.5 * pixel * axis;
@@ -214,7 +217,15 @@ impl Source<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::earth::{GeographicExtent, ProjectionChoice, ProjectionKind};
+    use crate::earth::{GeographicExtent, Projection, ProjectionChoice, ProjectionKind};
+
+    fn projected(
+        source: &Raster,
+        projection: &Projection,
+        area: Rect,
+    ) -> Result<Raster, ProjectedRasterError> {
+        projected_raster(source, &Reprojection { from: Coordinates::Geographic, to: *projection }, area)
+    }
 
     fn plane(kind: ProjectionKind, west: f64, width: f64, [south, north]: [f64; 2]) -> Projection {
         let extent = GeographicExtent { west, width, south, north, pole: None };
@@ -256,7 +267,7 @@ mod tests {
             let bounds = Rect::new(dvec2(west - 0.5, south - 0.5), dvec2(west + width + 0.5, north + 0.5));
             let source = raster(bounds, [340, 320], |at| linear(at) as f32);
             let wanted = area(&projection, west, width, [south, north]);
-            let projected = projected_raster(&source, &projection, wanted).unwrap();
+            let projected = projected(&source, &projection, wanted).unwrap();
             let mut compared = 0;
             for (x, y) in projected.all().pixels() {
                 let mut at = projection.geographic_from_plane(projected.pixel_center(x, y));
@@ -288,7 +299,7 @@ mod tests {
         let bounds = Rect::new(dvec2(0.0, 50.0), dvec2(4.0, 53.0));
         let is_hole = |at: DVec2| (at - dvec2(2.0, 51.5)).abs().max_element() < 0.5;
         let source = raster(bounds, [40, 30], |at| if is_hole(at) { f32::NAN } else { 7.0 });
-        let projected = projected_raster(&source, &projection, area(&projection, 0.0, 4.0, [50.0, 53.0]));
+        let projected = projected(&source, &projection, area(&projection, 0.0, 4.0, [50.0, 53.0]));
         let projected = projected.unwrap();
         let mut holes = 0;
         for (x, y) in projected.all().pixels() {
@@ -317,7 +328,7 @@ mod tests {
             for middle in [0.0, 180.0] {
                 let projection = plane(ProjectionKind::Lambert, middle - 5.0, 10.0, [50.0, 60.0]);
                 let wanted = area(&projection, middle - 5.0, 10.0, [50.0, 60.0]);
-                let projected = projected_raster(&source, &projection, wanted).unwrap();
+                let projected = projected(&source, &projection, wanted).unwrap();
                 for (x, y) in projected.all().pixels() {
                     let at = projection.geographic_from_plane(projected.pixel_center(x, y));
                     let off = f64::from(projected.get(x, y)) - turn(at);
@@ -328,15 +339,40 @@ mod tests {
     }
 
     #[test]
+    fn a_raster_in_another_plane_lies_where_it_does_on_the_earth() {
+        for code in [32633, 3857] {
+            let from = Coordinates::of_epsg(code).unwrap();
+            let projection = plane(ProjectionKind::Lambert, 12.0, 6.0, [58.0, 61.0]);
+            let low = from.from_geographic(dvec2(14.6, 59.0));
+            let bounds = Rect::new(low, low + dvec2(60_000.0, 40_000.0));
+            let value = |from: DVec2| from.x * 1e-3 + from.y * 2e-3;
+            let source = raster(bounds, [120, 80], |at| value(at - low) as f32);
+            let wanted = area(&projection, 12.0, 6.0, [58.0, 61.0]);
+            let reprojection = Reprojection { from, to: projection };
+            let projected = projected_raster(&source, &reprojection, wanted).unwrap();
+            let mut compared = 0;
+            for (x, y) in projected.all().pixels() {
+                let at = projection.geographic_from_plane(projected.pixel_center(x, y));
+                let at = from.from_geographic(at) - low;
+                if at.cmpge(DVec2::splat(500.0)).all() && at.cmple(dvec2(59_500.0, 39_500.0)).all() {
+                    assert!((f64::from(projected.get(x, y)) - value(at)).abs() < 0.02, "{code}: {at}");
+                    compared += 1;
+                }
+            }
+            assert!(compared > 5_000, "{code}: {compared}");
+        }
+    }
+
+    #[test]
     fn what_is_apart_or_too_fine_is_refused() {
         let projection = plane(ProjectionKind::Lambert, 0.0, 4.0, [50.0, 53.0]);
         let wanted = area(&projection, 0.0, 4.0, [50.0, 53.0]);
         let far = raster(Rect::new(dvec2(100.0, 10.0), dvec2(101.0, 11.0)), [4, 4], |_| 1.0);
-        let error = projected_raster(&far, &projection, wanted).unwrap_err();
-        assert!(error.to_string().contains("from 100 to 101 in longitude"), "{error}");
+        let error = projected(&far, &projection, wanted).unwrap_err();
+        assert!(error.to_string().contains("from 100 to 101 in x"), "{error}");
         let fine = raster(Rect::new(dvec2(1.0, 51.0), dvec2(1.001, 51.001)), [100, 100], |_| 1.0);
         let wide = Rect::new(wanted.min - 1e7, wanted.max + 1e7);
-        let projected = projected_raster(&fine, &projection, wide).unwrap();
+        let projected = projected(&fine, &projection, wide).unwrap();
         assert!(projected.values().len() < 1_000_000, "{:?}", projected.size());
     }
 }

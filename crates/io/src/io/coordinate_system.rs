@@ -7,7 +7,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::coordinates;
+use glam::DVec2;
+
+use super::coordinates::{self, FileCoordinates};
+use super::wkt_projection::projection;
+use meshbrush_core::earth::Coordinates;
 use meshbrush_mesh::text::LengthUnit;
 
 /// A coordinate reference system, as a file describes it.
@@ -19,6 +23,8 @@ pub struct CoordinateSystem {
     pub epsg: Option<u32>,
     /// The name, if the file has one.
     pub name: Option<String>,
+    /// What the coordinates are on the Earth, if that is known here.
+    pub on_earth: Option<Coordinates>,
     /// The unit of coordinates; `None` also for units that the program does not know, such as feet.
     pub unit: LengthUnit,
 }
@@ -63,13 +69,35 @@ impl CoordinateSystem {
 
     /// Returns the system of an EPSG code, as GeoTIFF keys state it.
     pub(super) fn of_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
-        let by_code = epsg.map(|code| coordinates::unit(Some(&format!("EPSG:{code}")), []));
+        let by_code = epsg.map(coordinates::of_epsg);
         let unit = match (kind, by_code) {
             (CoordinateKind::Geographic, _) => LengthUnit::Degree,
-            (_, Some(unit)) => unit,
+            (_, Some(known)) => known.unit(),
             (_, None) => LengthUnit::None,
         };
-        Self { kind, epsg, name: name.and_then(|name| kept_name(&name)), unit }
+        let on_earth = match kind {
+            CoordinateKind::Geographic => Some(Coordinates::Geographic),
+            CoordinateKind::Projected | CoordinateKind::Other => {
+                by_code.and_then(|known| known.on_earth(None))
+            }
+        };
+        Self { kind, epsg, name: name.and_then(|name| kept_name(&name)), on_earth, unit }
+    }
+
+    /// Returns what coordinates of these corners are, beside a text that describes their system.
+    pub(super) fn of_corners(
+        system: Option<&Self>,
+        corners: impl IntoIterator<Item = DVec2>,
+    ) -> FileCoordinates {
+        match system {
+            Some(Self { kind: CoordinateKind::Other, .. }) | None => FileCoordinates::unstated(corners),
+            Some(system) => system.stated(),
+        }
+    }
+
+    /// Returns what the system says about coordinates.
+    pub(super) fn stated(&self) -> FileCoordinates {
+        self.on_earth.map_or(FileCoordinates::Foreign(self.unit), FileCoordinates::Known)
     }
 
     /// Returns the system that well-known text describes, as in a `.prj` file. Of a system that is compound
@@ -82,19 +110,31 @@ impl CoordinateSystem {
         };
         let (at, kind) = elements.iter().enumerate().find_map(|(i, e)| Some((i, kind_of(e)?)))?;
         let system = &elements[at];
-        let parts = elements[at + 1..].iter().take_while(|part| part.depth > system.depth);
-        let direct: Vec<&Element> = parts.filter(|part| part.depth == system.depth + 1).collect();
+        let inner = elements[at + 1..].iter().take_while(|part| part.depth > system.depth);
+        let inner: Vec<&Element> = inner.collect();
+        let direct: Vec<&Element> =
+            inner.iter().filter(|part| part.depth == system.depth + 1).copied().collect();
         let is = |part: &Element, keywords: &[&str]| {
             keywords.iter().any(|keyword| part.keyword.eq_ignore_ascii_case(keyword))
         };
         let is_code =
             |part: &&&Element| is(part, &["AUTHORITY", "ID"]) && part.values.iter().any(|v| v == "EPSG");
         let code = direct.iter().rfind(is_code);
-        let unit = direct.iter().rfind(|part| is(part, &["UNIT", "LENGTHUNIT", "ANGLEUNIT"]));
+        let is_unit = |part: &&&Element| is(part, &["UNIT", "LENGTHUNIT", "ANGLEUNIT"]);
+        // Version 2 may have it in the last axis.
+        let unit = direct.iter().rfind(is_unit).or_else(|| inner.iter().rfind(is_unit));
         let epsg = code.and_then(|part| part.values.get(1)?.parse().ok());
         let factor = unit.and_then(|part| part.values.get(1)?.parse().ok());
         let name = system.values.first().and_then(|name| kept_name(name));
-        Some(Self { kind, epsg, name, unit: unit_of(kind, factor) })
+        let unit = unit_of(kind, factor);
+        let on_earth = match (kind, unit) {
+            (CoordinateKind::Geographic, LengthUnit::Degree) => Some(Coordinates::Geographic),
+            (CoordinateKind::Projected, LengthUnit::Metre) => {
+                epsg.and_then(Coordinates::of_epsg).or_else(|| projection(&inner).map(Coordinates::Plane))
+            }
+            _ => None,
+        };
+        Some(Self { kind, epsg, name, on_earth, unit })
     }
 }
 
@@ -115,11 +155,11 @@ fn kept_name(name: &str) -> Option<String> {
 }
 
 /// An element of well-known text, such as `UNIT["metre",1]`.
-struct Element {
-    keyword: String,
+pub(super) struct Element {
+    pub(super) keyword: String,
     depth: usize,
     /// Its texts and numbers, without those of the elements in it.
-    values: Vec<String>,
+    pub(super) values: Vec<String>,
 }
 
 /// Returns the elements of well-known text in the order in which they begin.
@@ -169,15 +209,18 @@ mod tests {
         let second = r#"PROJCRS["ETRS89-extended / LAEA Europe",BASEGEOGCRS["ETRS89"],CS[Cartesian,2],
             LENGTHUNIT["metre",1],ID["EPSG",3035]]"#;
         let compound = format!(r#"COMPD_CS["both",{UTM},VERT_CS["height",UNIT["metre",1]]]"#);
-        for (text, kind, epsg, name, unit) in [
-            (UTM, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre),
-            (esri, Geographic, None, "GCS_WGS_1984", LengthUnit::Degree),
-            (feet, Projected, None, "NAD83 / New York", LengthUnit::None),
-            (second, Projected, Some(3035), "ETRS89-extended / LAEA Europe", LengthUnit::Metre),
-            (&compound, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre),
+        let utm = Coordinates::of_epsg(32633);
+        let degrees = Some(Coordinates::Geographic);
+        for (text, kind, epsg, name, unit, on_earth) in [
+            (UTM, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre, utm),
+            (esri, Geographic, None, "GCS_WGS_1984", LengthUnit::Degree, degrees),
+            (feet, Projected, None, "NAD83 / New York", LengthUnit::None, None),
+            (second, Projected, Some(3035), "ETRS89-extended / LAEA Europe", LengthUnit::Metre, None),
+            (&compound, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre, utm),
         ] {
             let name = Some(name.to_owned());
-            assert_eq!(CoordinateSystem::from_wkt(text), Some(CoordinateSystem { kind, epsg, name, unit }));
+            let expected = CoordinateSystem { kind, epsg, name, on_earth, unit };
+            assert_eq!(CoordinateSystem::from_wkt(text), Some(expected));
         }
     }
 

@@ -1,34 +1,112 @@
-//! Finds the unit of the coordinates in a file from the file's own description.
+//! What the coordinates in a file are, from the file's own description.
 
 use glam::DVec2;
 
+use super::error::Flaw;
 use meshbrush_core::domain::Ring;
+use meshbrush_core::earth::{Coordinates, Projection, Reprojection};
 use meshbrush_mesh::text::LengthUnit;
 
-/// Codes of geographic coordinate systems: WGS 84, ETRS89, NAD83, NAD27, WGS 84 with heights.
-const GEOGRAPHIC: [u32; 5] = [4326, 4258, 4269, 4267, 4979];
-/// Codes of coordinate systems in metres: Web Mercator under two codes, and Europe's equal-area and conformal
-/// systems. The UTM zones are ranges, see [`is_in_metres`].
-const METRIC: [u32; 4] = [3857, 900_913, 3035, 3034];
+/// Codes of coordinate systems whose unit is known, and no more: NAD27, and Europe's equal-area system.
+const UNITS: [(u32, LengthUnit); 2] = [(4267, LengthUnit::Degree), (3035, LengthUnit::Metre)];
 
-/// Returns the unit of coordinates in a coordinate system `crs`, which is named as in
-/// `urn:ogc:def:crs:EPSG::4326`, `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`.
-///
-/// Without a name, coordinates are degrees if all are longitudes and latitudes, as in RFC 7946. A system that
-/// is not listed here may be in feet: there is no unit then.
-pub fn unit(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> LengthUnit {
+/// What the coordinates in a file are, as far as it says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FileCoordinates {
+    /// It names a system that is known here.
+    Known(Coordinates),
+    /// It names another one, with this unit.
+    Foreign(LengthUnit),
+    /// It says nothing.
+    Unstated {
+        /// Whether all coordinates can be longitudes and latitudes.
+        can_be_degrees: bool,
+    },
+}
+
+impl FileCoordinates {
+    /// Returns what a file of these corners is that says nothing. Longitudes are from −180 to 180 here, as in
+    /// RFC 7946.
+    pub(super) fn unstated(corners: impl IntoIterator<Item = DVec2>) -> Self {
+        let can_be = |corner: DVec2| corner.x.abs() <= 180.0 && corner.y.abs() <= 90.0;
+        Self::Unstated { can_be_degrees: corners.into_iter().all(can_be) }
+    }
+
+    /// Returns the unit of coordinates. Without a name, they are degrees if they can be.
+    pub fn unit(&self) -> LengthUnit {
+        match *self {
+            Self::Known(Coordinates::Geographic) | Self::Unstated { can_be_degrees: true } => {
+                LengthUnit::Degree
+            }
+            Self::Known(_) => LengthUnit::Metre,
+            Self::Foreign(unit) => unit,
+            Self::Unstated { can_be_degrees: false } => LengthUnit::None,
+        }
+    }
+
+    /// Returns what the coordinates are on the Earth. Those of a file that does not name a known system are
+    /// `assumed`, or else degrees if it says nothing and they can be.
+    pub fn on_earth(&self, assumed: Option<Coordinates>) -> Option<Coordinates> {
+        match *self {
+            Self::Known(coordinates) => Some(coordinates),
+            Self::Foreign(_) | Self::Unstated { can_be_degrees: false } => assumed,
+            Self::Unstated { can_be_degrees: true } => assumed.or(Some(Coordinates::Geographic)),
+        }
+    }
+}
+
+/// The plane of a document, for files that are read for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DocumentPlane {
+    /// The projection.
+    pub projection: Projection,
+    /// What the coordinates of files are that do not name a known system.
+    pub assumed: Option<Coordinates>,
+}
+
+impl From<Projection> for DocumentPlane {
+    fn from(projection: Projection) -> Self {
+        Self { projection, assumed: None }
+    }
+}
+
+impl DocumentPlane {
+    /// Returns the way from the coordinates of a file to the plane; `None` where nobody says what they are.
+    pub fn reprojection(&self, coordinates: &FileCoordinates) -> Option<Reprojection> {
+        let from = coordinates.on_earth(self.assumed)?;
+        Some(Reprojection { from, to: self.projection })
+    }
+}
+
+/// Returns what coordinates are in a system `crs`, which is named as in `urn:ogc:def:crs:EPSG::4326`,
+/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`. A system that is not listed here may be in feet: there is
+/// no unit then.
+pub fn named(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> FileCoordinates {
     let Some(crs) = crs else {
-        let fits = corners.into_iter().all(|corner| corner.x.abs() <= 180.0 && corner.y.abs() <= 90.0);
-        return if fits { LengthUnit::Degree } else { LengthUnit::None };
+        return FileCoordinates::unstated(corners);
     };
     let crs = crs.to_uppercase();
     let code = crs.rsplit(':').next().and_then(|code| code.parse().ok());
-    match code {
-        _ if crs.ends_with("CRS84") => LengthUnit::Degree,
-        Some(code) if crs.contains("EPSG") && GEOGRAPHIC.contains(&code) => LengthUnit::Degree,
-        Some(code) if crs.contains("EPSG") && is_in_metres(code) => LengthUnit::Metre,
-        _ => LengthUnit::None,
+    match code.filter(|_| crs.contains("EPSG")) {
+        _ if crs.ends_with("CRS84") => FileCoordinates::Known(Coordinates::Geographic),
+        Some(code) => of_epsg(code),
+        None => FileCoordinates::Foreign(LengthUnit::None),
     }
+}
+
+/// Returns what coordinates are in a system of the EPSG register.
+pub fn of_epsg(code: u32) -> FileCoordinates {
+    let unit = || UNITS.iter().find(|(known, _)| *known == code).map_or(LengthUnit::None, |&(_, unit)| unit);
+    Coordinates::of_epsg(code).map_or_else(|| FileCoordinates::Foreign(unit()), FileCoordinates::Known)
+}
+
+/// Why a file of another system is of no use for a document in the plane of a projection.
+pub(super) fn foreign() -> Flaw {
+    Flaw::Syntax(
+        "it names a coordinate system that is not known here, so its shapes cannot be placed in the plane of the \
+         document. Convert it to EPSG:4326 first."
+            .into(),
+    )
 }
 
 /// Returns whether rings have edges along the longitudes 180° and −180° whose latitudes overlap.
@@ -51,12 +129,6 @@ pub(super) fn meet_at_antimeridian<'a>(rings: impl Iterator<Item = &'a Ring> + C
     false
 }
 
-/// Returns whether an EPSG code belongs to a known system in metres.
-fn is_in_metres(code: u32) -> bool {
-    let utm = [32601..=32660, 32701..=32760, 25828..=25838, 26901..=26923];
-    METRIC.contains(&code) || utm.iter().any(|zones| zones.contains(&code))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,15 +145,16 @@ mod tests {
             ("EPSG:2263", LengthUnit::None),
             ("a local grid", LengthUnit::None),
         ] {
-            assert_eq!(unit(Some(crs), [far]), unit_of_crs, "{crs}");
+            assert_eq!(named(Some(crs), [far]).unit(), unit_of_crs, "{crs}");
         }
     }
 
     #[test]
     fn without_a_coordinate_system_longitudes_and_latitudes_are_degrees() {
-        assert_eq!(unit(None, [dvec2(-180.0, -90.0), dvec2(180.0, 90.0)]), LengthUnit::Degree);
-        assert_eq!(unit(None, [dvec2(23.0, 38.0), dvec2(23.0, 91.0)]), LengthUnit::None);
-        assert_eq!(unit(None, [dvec2(181.0, 0.0)]), LengthUnit::None);
+        let unit = |corners: &[DVec2]| named(None, corners.iter().copied()).unit();
+        assert_eq!(unit(&[dvec2(-180.0, -90.0), dvec2(180.0, 90.0)]), LengthUnit::Degree);
+        assert_eq!(unit(&[dvec2(23.0, 38.0), dvec2(23.0, 91.0)]), LengthUnit::None);
+        assert_eq!(unit(&[dvec2(181.0, 0.0)]), LengthUnit::None);
     }
 
     #[test]

@@ -4,14 +4,15 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Take, Write};
 use std::path::Path;
 
-use super::coordinates;
+use super::coordinates::{self, DocumentPlane, FileCoordinates};
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
 use super::shape_format::ShapeFormatSpec;
 use super::{Counted, Meter, shapes};
 use meshbrush_core::domain::{NamedPolygon, Polygon};
 use meshbrush_core::earth::{
-    GeographicExtent, Projection, ProjectionChoice, ProjectionError, projected_polygons,
+    Coordinates, GeographicExtent, Projection, ProjectionChoice, ProjectionError, Reprojection,
+    projected_polygons,
 };
 use meshbrush_mesh::text::LengthUnit;
 
@@ -27,8 +28,8 @@ const MOST_BYTES: u64 = 256 << 20;
 pub struct Outline {
     /// The polygons with their names.
     pub polygons: Vec<NamedPolygon>,
-    /// The unit of their coordinates.
-    pub unit: LengthUnit,
+    /// What their coordinates are.
+    pub coordinates: FileCoordinates,
 }
 
 impl Outline {
@@ -37,31 +38,50 @@ impl Outline {
     /// section 3.1.9), and a mesh does not join the halves.
     pub fn is_cut_at_antimeridian(&self) -> bool {
         let rings = || self.polygons.iter().flat_map(|named| &named.polygon);
-        self.unit == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
+        self.coordinates.unit() == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
     }
 
-    /// Returns longitudes and latitudes in the plane of a projection that suits them. Coordinates beside a
-    /// given projection are in its plane already.
+    /// Returns the polygons in the plane of a projection that suits them. Their coordinates are `assumed`
+    /// where the file does not name a known system.
     ///
     /// # Errors
-    /// Fails when the coordinates are not longitudes and latitudes, or no projection suits them.
-    pub fn projected(self, choice: ProjectionChoice) -> Result<(Self, Projection), ProjectOutlineError> {
-        if let ProjectionChoice::Given(projection) = choice {
-            return Ok((Self { unit: LengthUnit::Metre, ..self }, projection));
+    /// Fails where nobody says what the coordinates are on the Earth, and where no projection suits them.
+    pub fn projected(
+        self,
+        choice: ProjectionChoice,
+        assumed: Option<Coordinates>,
+    ) -> Result<(Self, Projection), ProjectOutlineError> {
+        let from = self.coordinates.on_earth(assumed).ok_or(ProjectOutlineError::NotOnEarth)?;
+        if let ProjectionChoice::Given(projection) = choice
+            && from == Coordinates::Plane(projection)
+        {
+            return Ok((Self { coordinates: FileCoordinates::Known(from), ..self }, projection));
         }
         let rings = self.polygons.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
-        let extent = GeographicExtent::of_rings(rings).filter(|_| self.unit == LengthUnit::Degree);
-        let projection = choice.projection(&extent.ok_or(ProjectOutlineError::NotDegrees)?)?;
-        Ok((self.in_plane(&projection), projection))
+        let extent = GeographicExtent::of_coordinates(&from, rings).ok_or(ProjectOutlineError::NotOnEarth)?;
+        let projection = choice.projection(&extent)?;
+        Ok((self.reprojected(&Reprojection { from, to: projection }), projection))
     }
 
-    /// Returns longitudes and latitudes in the plane of a projection.
-    pub(super) fn in_plane(self, projection: &Projection) -> Self {
+    /// Returns the polygons in the plane of a document.
+    ///
+    /// # Errors
+    /// Fails where the file names a system that is not known. Coordinates that nobody names, and that are no
+    /// longitudes and latitudes, are in the plane already.
+    pub(super) fn in_plane(self, plane: &DocumentPlane) -> Result<Self, Flaw> {
+        match (plane.reprojection(&self.coordinates), self.coordinates) {
+            (Some(reprojection), _) => Ok(self.reprojected(&reprojection)),
+            (None, FileCoordinates::Foreign(_)) => Err(coordinates::foreign()),
+            (None, _) => Ok(self),
+        }
+    }
+
+    fn reprojected(self, reprojection: &Reprojection) -> Self {
         let (polygons, names): (Vec<_>, Vec<_>) =
             self.polygons.into_iter().map(|named| (named.polygon, named.name)).unzip();
-        let projected = projected_polygons(&polygons, projection).into_iter().zip(names);
+        let projected = projected_polygons(&polygons, reprojection).into_iter().zip(names);
         let polygons = projected.map(|(polygon, name)| NamedPolygon { polygon, name }).collect();
-        Self { polygons, unit: LengthUnit::Metre }
+        Self { polygons, coordinates: FileCoordinates::Known(Coordinates::Plane(reprojection.to)) }
     }
 }
 
@@ -71,10 +91,10 @@ impl Outline {
 pub enum ProjectOutlineError {
     /// They do not lie on the Earth, as far as the file says.
     #[error(
-        "its coordinates are not longitudes and latitudes, so they cannot be projected. Leave the projection out, or \
-         convert the file to EPSG:4326 first."
+        "its coordinates are not longitudes and latitudes, and it names no coordinate system that is known here, so they \
+         cannot be projected. Say what they are (--crs EPSG:32633, or the key `crs`), or convert the file to EPSG:4326."
     )]
-    NotDegrees,
+    NotOnEarth,
     /// No projection suits them.
     #[error(transparent)]
     Unsuited(#[from] ProjectionError),
@@ -203,8 +223,8 @@ pub(super) fn parse(input: impl Read) -> Result<Outline, PlacedFlaw> {
         return Err(Flaw::Syntax(no_polygon(&others)).into());
     }
     let corners = polygons.iter().flat_map(|named: &NamedPolygon| named.polygon.iter().flatten());
-    let unit = coordinates::unit(crs.as_deref(), corners.copied());
-    Ok(Outline { polygons, unit })
+    let coordinates = coordinates::named(crs.as_deref(), corners.copied());
+    Ok(Outline { polygons, coordinates })
 }
 
 /// Writes polygons as one geometry with one line for each ring. [`read`] returns the same polygons bit for

@@ -77,6 +77,7 @@ mod triangle_pieces;
 pub mod ugrid;
 mod values;
 pub mod vtu;
+mod wkt_projection;
 pub mod world_file;
 
 use std::io::{self, Write};
@@ -84,6 +85,7 @@ use std::io::{self, Write};
 pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
+pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, Place, ReadError};
 pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};

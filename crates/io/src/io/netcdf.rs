@@ -89,7 +89,8 @@ pub fn decode(
     let grid = Grid::choose(source.variables(), name)?;
     let system = grid.system(source.variables());
     let window = place.window.filter(|_| place.over.is_none());
-    let spans = spans(&mut *source, &grid, window.map(|window| grid.area(&window)))?;
+    let area = window.and_then(|window| grid.area(&window, system.as_ref()));
+    let spans = spans(&mut *source, &grid, area)?;
     let values = values(&mut *source, &grid, &spans, meter)?;
     let bounds = place.over.unwrap_or_else(|| Rect::new(corner(&spans, 0), corner(&spans, 1)));
     if !bounds.is_proper() {

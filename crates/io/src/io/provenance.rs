@@ -1,6 +1,6 @@
 //! The origin of a file, as text for the formats that have a place for it.
 
-use meshbrush_core::earth::Projection;
+use meshbrush_core::earth::{Coordinates, Projection};
 use meshbrush_mesh::mesh::Fingerprint;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -50,15 +50,18 @@ impl Provenance {
         self
     }
 
-    /// Says that coordinates are longitudes and latitudes of a mesh in the plane of a projection, if it is in
-    /// one. Lengths stay in metres.
+    /// Says what coordinates are, other than those of the plane that the mesh is in, if it is in one. Lengths
+    /// stay in metres.
     #[must_use]
-    pub fn in_degrees(mut self, meshed_in: Option<Projection>) -> Self {
+    pub fn in_coordinates(mut self, coordinates: &Coordinates, meshed_in: Option<Projection>) -> Self {
         let Some(meshed_in) = meshed_in else { return self };
         self.lines.retain(|(key, _)| !matches!(*key, "coordinates" | "unit"));
-        let coordinates = format!("longitude, latitude in degrees; meshed in {meshed_in}, with lengths in m");
-        self.lines.push(("coordinates", coordinates));
-        self.unit = LengthUnit::Degree;
+        let (meaning, unit) = match coordinates {
+            Coordinates::Geographic => ("longitude, latitude in degrees".to_owned(), LengthUnit::Degree),
+            plane => (format!("x, y in {plane}"), LengthUnit::Metre),
+        };
+        self.lines.push(("coordinates", format!("{meaning}; meshed in {meshed_in}, with lengths in m")));
+        self.unit = unit;
         self
     }
 

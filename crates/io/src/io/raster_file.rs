@@ -4,8 +4,7 @@ use std::path::Path;
 use super::coordinate_system::{CoordinateKind, CoordinateSystem};
 use super::netcdf::file_and_variable;
 use super::png::Behind;
-use super::{Meter, RASTER_FORMATS, ReadError};
-use meshbrush_core::earth::GeographicExtent;
+use super::{DocumentPlane, FileCoordinates, Meter, RASTER_FORMATS, ReadError};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
 
@@ -44,11 +43,10 @@ pub struct GridPlace {
 /// A part of a grid.
 #[derive(Clone, Copy, Debug)]
 pub struct GridWindow {
-    /// The part, in world units: it counts where the coordinates of the file are those of the document.
+    /// The part, in world units.
     pub area: Rect,
-    /// The longitudes and latitudes of that part, where the document is in the plane of a projection: they
-    /// count where the file is in degrees.
-    pub geographic: Option<GeographicExtent>,
+    /// The plane of the document, if it has one.
+    pub plane: Option<DocumentPlane>,
 }
 
 /// A grid as its file has it.
@@ -61,18 +59,17 @@ pub struct FileGrid {
 }
 
 impl FileGrid {
-    /// Returns whether the coordinates are longitudes and latitudes: the file says so, or says nothing, and
-    /// they can be.
-    pub fn is_in_degrees(&self) -> bool {
+    /// Returns what the coordinates are. Longitudes may be from 0 to 360.
+    pub fn coordinates(&self) -> FileCoordinates {
         let Rect { min, max } = self.raster.bounds();
         let pixel = self.raster.pixel_size();
-        let fits = min.y >= -90.0 - pixel.y
+        let can_be_degrees = min.y >= -90.0 - pixel.y
             && max.y <= 90.0 + pixel.y
             && min.x >= -180.0 - pixel.x
             && max.x <= 360.0 + pixel.x;
         match &self.system {
-            Some(system) if system.kind != CoordinateKind::Other => system.kind == CoordinateKind::Geographic,
-            _ => fits,
+            Some(system) if system.kind != CoordinateKind::Other => system.stated(),
+            _ => FileCoordinates::Unstated { can_be_degrees },
         }
     }
 }

@@ -5,12 +5,12 @@
 
 use std::path::Path;
 
+use super::error::PlacedFlaw;
 use super::geojson::Outline;
 use super::shapes::ShapeFile;
-use super::{Meter, ReadError, SHAPE_FORMATS};
+use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS, coordinates};
 use meshbrush_core::domain::NamedPolygon;
-use meshbrush_core::earth::Projection;
-use meshbrush_mesh::text::LengthUnit;
+use meshbrush_core::earth::Coordinates;
 
 /// A file format of shapes, as its module describes it.
 pub struct ShapeFormatSpec {
@@ -37,36 +37,42 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
 }
 
 /// Reads polygons with their names for a document, as [`read_outline`] does. `plane` is that of the document,
-/// if it has one: longitudes and latitudes are projected to it.
+/// if it has one: the polygons are projected to it.
 ///
 /// # Errors
-/// Fails as [`read_outline`] does.
+/// Fails as [`read_outline`] does, and where the file names a coordinate system that is not known.
 pub fn read_polygons(
     path: &Path,
-    plane: Option<&Projection>,
+    plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<Vec<NamedPolygon>, ReadError> {
     let outline = read_outline(path, meter)?;
-    Ok(match plane {
-        Some(plane) if outline.unit == LengthUnit::Degree => outline.in_plane(plane).polygons,
-        _ => outline.polygons,
-    })
+    let Some(plane) = plane else { return Ok(outline.polygons) };
+    let placed = outline.in_plane(plane).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))?;
+    Ok(placed.polygons)
 }
 
-/// Reads points, lines and polygons for a document, with their unit. `plane` is as in [`read_polygons`]. The
-/// meter counts the bytes of the file.
+/// Reads points, lines and polygons for a document, with what their coordinates are. `plane` is as in
+/// [`read_polygons`]. The meter counts the bytes of the file.
 ///
 /// # Errors
-/// Fails when the file cannot be read, breaks a rule of its format, or has no shape, and when the work was
-/// cancelled.
-pub fn read_shapes(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+/// Fails when the file cannot be read, breaks a rule of its format, has no shape, or names a coordinate
+/// system that is not known for a document with a plane, and when the work was cancelled.
+pub fn read_shapes(
+    path: &Path,
+    plane: Option<&DocumentPlane>,
+    meter: &Meter,
+) -> Result<ShapeFile, ReadError> {
     let file = (format_of(path).read_shapes)(path, meter)?;
-    Ok(match plane {
-        Some(plane) if file.unit == LengthUnit::Degree => {
-            ShapeFile { shapes: file.shapes.projected(plane), unit: LengthUnit::Metre }
-        }
-        _ => file,
-    })
+    let Some(plane) = plane else { return Ok(file) };
+    match (plane.reprojection(&file.coordinates), file.coordinates) {
+        (Some(reprojection), _) => Ok(ShapeFile {
+            shapes: file.shapes.projected(&reprojection),
+            coordinates: FileCoordinates::Known(Coordinates::Plane(plane.projection)),
+        }),
+        (None, FileCoordinates::Foreign(_)) => Err(PlacedFlaw::from(coordinates::foreign()).in_file(path)),
+        (None, _) => Ok(file),
+    }
 }
 
 fn format_of(path: &Path) -> &'static ShapeFormatSpec {

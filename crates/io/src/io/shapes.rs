@@ -8,18 +8,18 @@ use glam::DVec2;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
 use super::positions::Coordinates;
-use super::{Meter, coordinates, geojson};
+use super::{FileCoordinates, Meter, coordinates, geojson};
 use meshbrush_core::domain::MOST_CORNERS;
 use meshbrush_core::layers::ShapeList;
-use meshbrush_mesh::text::{Grouped, LengthUnit};
+use meshbrush_mesh::text::Grouped;
 
 /// The shapes in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeFile {
     /// The shapes, each kind in the order of the file.
     pub shapes: ShapeList,
-    /// The unit of their coordinates.
-    pub unit: LengthUnit,
+    /// What their coordinates are.
+    pub coordinates: FileCoordinates,
 }
 
 /// Reads every shape of a file: of a geometry, a feature, or a collection of either. The meter counts the
@@ -58,8 +58,8 @@ fn parse(input: impl Read) -> Result<ShapeFile, PlacedFlaw> {
     let mut shapes = ShapeList::default();
     collect(object, &mut shapes).map_err(Flaw::Syntax)?;
     check(&shapes)?;
-    let unit = coordinates::unit(crs.as_deref(), places(&shapes));
-    Ok(ShapeFile { shapes, unit })
+    let coordinates = coordinates::named(crs.as_deref(), places(&shapes));
+    Ok(ShapeFile { shapes, coordinates })
 }
 
 /// Checks that there are shapes, and not too many points.
@@ -175,7 +175,10 @@ mod tests {
         let lines: Vec<usize> = file.shapes.lines.iter().map(Vec::len).collect();
         assert_eq!((lines, file.shapes.lines[0][2]), (vec![3, 2, 2], DVec2::ZERO));
         let corners: Vec<usize> = file.shapes.polygons.iter().map(|rings| rings[0].len()).collect();
-        assert_eq!((corners, file.unit), (vec![3, 3], LengthUnit::Degree));
+        assert_eq!(
+            (corners, file.coordinates),
+            (vec![3, 3], FileCoordinates::Unstated { can_be_degrees: true })
+        );
     }
 
     #[test]

@@ -8,16 +8,16 @@ use std::path::Path;
 
 use glam::{DVec2, dvec2};
 
+use super::Meter;
 use super::coordinate_system::CoordinateSystem;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::geojson::{self, Outline};
 use super::shape_format::ShapeFormatSpec;
 use super::shapes::{self, ShapeFile};
-use super::{Meter, coordinates};
 use meshbrush_core::domain::{MOST_CORNERS, NamedPolygon, Polygon, Ring, signed_area};
 use meshbrush_core::layers::ShapeList;
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::{Grouped, LengthUnit};
+use meshbrush_mesh::text::Grouped;
 
 /// The format, for the list of all formats of shapes.
 pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec { endings: &["shp"], read_outline, read_shapes: read };
@@ -40,10 +40,10 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
         let others: Vec<String> = others.iter().filter(|kind| kind.0).map(|kind| kind.1.to_owned()).collect();
         return Err(PlacedFlaw::from(Flaw::Syntax(geojson::no_polygon(&others))).in_file(path));
     }
-    let unit =
-        unit(CoordinateSystem::beside(path).as_ref(), shapes.polygons.iter().flatten().flatten().copied());
+    let corners = shapes.polygons.iter().flatten().flatten().copied();
+    let coordinates = CoordinateSystem::of_corners(CoordinateSystem::beside(path).as_ref(), corners);
     let named = |polygon| NamedPolygon { polygon, name: String::new() };
-    Ok(Outline { polygons: shapes.polygons.into_iter().map(named).collect(), unit })
+    Ok(Outline { polygons: shapes.polygons.into_iter().map(named).collect(), coordinates })
 }
 
 /// Reads the shapes of a file. The meter counts the bytes of the file.
@@ -67,12 +67,8 @@ pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> 
 
 fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<ShapeFile, Flaw> {
     shapes::check(&shapes)?;
-    let unit = unit(system, shapes::places(&shapes));
-    Ok(ShapeFile { shapes, unit })
-}
-
-fn unit(system: Option<&CoordinateSystem>, places: impl IntoIterator<Item = DVec2>) -> LengthUnit {
-    system.map_or_else(|| coordinates::unit(None, places), |system| system.unit)
+    let coordinates = CoordinateSystem::of_corners(system, shapes::places(&shapes));
+    Ok(ShapeFile { shapes, coordinates })
 }
 
 /// Reads all records. Memory grows with the bytes of the file.

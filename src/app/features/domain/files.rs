@@ -3,7 +3,6 @@
 use crate::app::command::{Command, DomainCommand};
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
-use meshbrush_mesh::text::LengthUnit;
 
 /// Polygons as the domain of a new document.
 pub static OPEN_DOMAIN: FileKind = FileKind {
@@ -44,9 +43,8 @@ pub static ROLES: [DataRole; 3] = [
         kind: &OPEN_DOMAIN_IN_METRES,
         is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
         refusal: |file, _| {
-            let is_in_degrees = file.unit == LengthUnit::Degree;
-            let problem = || "Its coordinates are not longitudes and latitudes.".into();
-            file.lacks_polygons().or_else(|| (!is_in_degrees).then(problem))
+            let problem = || "It does not say where on the Earth its coordinates are.".into();
+            file.lacks_polygons().or_else(|| (!file.is_on_earth).then(problem))
         },
     },
     DataRole {

@@ -28,12 +28,12 @@ pub fn load_domain(background: &mut Background, path: &Path, projection: Option<
 /// Reads polygons, and adds them to the domain of the document.
 pub fn load_outline(session: &Session, background: &mut Background, path: &Path) {
     let (file, settings) = (path.to_owned(), session.document().settings().clone());
+    let plane = settings.domain.projection.map(io::DocumentPlane::from);
     background.start(Aim::Read, path, move |meter| {
-        let polygons =
-            match io::shape_format::read_polygons(&file, settings.domain.projection.as_ref(), meter) {
-                Ok(polygons) => polygons,
-                Err(error) => return Outcome::not_read(error),
-            };
+        let polygons = match io::shape_format::read_polygons(&file, plane.as_ref(), meter) {
+            Ok(polygons) => polygons,
+            Err(error) => return Outcome::not_read(error),
+        };
         match settings.with_outline(&polygons) {
             Ok(setting) => {
                 let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
@@ -52,14 +52,15 @@ fn domain_of(path: &Path, choice: Option<ProjectionChoice>, meter: &Meter) -> Re
     let mut outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
     let mut projection = None;
     if let Some(choice) = choice {
-        let projected = outline.projected(choice).map_err(|error| format!("{}: {error}", path.display()))?;
+        let projected =
+            outline.projected(choice, None).map_err(|error| format!("{}: {error}", path.display()))?;
         (outline, projection) = (projected.0, Some(projected.1));
     }
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     let domain = Domain { projection, ..domain };
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let (unit, boundary_marks) = (outline.unit, Arc::new(marks));
+    let (unit, boundary_marks) = (outline.coordinates.unit(), Arc::new(marks));
     let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };
     Document::new(settings, None).map_err(|error| format!("{}: {error}", path.display()))
 }

@@ -8,12 +8,11 @@ use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
-use meshbrush_core::earth::Projection;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, ShapeList, Shapes};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues};
-use meshbrush_io::io::{self, Meter};
+use meshbrush_io::io::{self, DocumentPlane, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -89,7 +88,7 @@ fn commands_to_add(kind: LayerKind) -> Vec<Command> {
 /// extent.
 pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) {
     let Settings { transfer, domain, .. } = session.document().settings();
-    let (transfer, plane) = (*transfer, domain.projection);
+    let (transfer, plane) = (*transfer, domain.projection.map(DocumentPlane::from));
     let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
     background.start(Aim::Read, path, move |meter| {
         let read = || {
@@ -113,6 +112,7 @@ pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) 
 pub fn replace_shapes(session: &Session, background: &mut Background, path: &Path) {
     let Some(layer) = session.document().active_layer().map(|layer| layer.id) else { return };
     let (file, plane) = (path.to_owned(), session.document().settings().domain.projection);
+    let plane = plane.map(DocumentPlane::from);
     background.start(Aim::Read, path, move |meter| match shapes_of(&file, plane.as_ref(), meter) {
         Ok((to, ..)) => Outcome::PartRead(vec![Command::Layer(LayerCommand::MeasureTo(layer, to))]),
         Err(problem) => Outcome::NotRead(problem),
@@ -129,7 +129,7 @@ pub fn load_mask(session: &Session, background: &mut Background, path: &Path) {
 /// longitudes and latitudes in the plane of the document, if it has one. The distance within a polygon is 0.
 fn shapes_of(
     path: &Path,
-    plane: Option<&Projection>,
+    plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<(DistanceTo, Rect, LengthUnit), String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
@@ -138,7 +138,7 @@ fn shapes_of(
         (ShapeList { points, ..ShapeList::default() }, LengthUnit::None)
     } else {
         let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
-        (file.shapes, file.unit)
+        (file.shapes, file.coordinates.unit())
     };
     let shapes = Shapes::new(list, true).map_err(|error| format!("{}: {error}", path.display()))?;
     let extent = shapes.extent();

@@ -23,6 +23,8 @@ pub struct DataFile {
     pub contents: DataContents,
     /// The rectangle that the file covers, in world units; `None` if it says no place.
     pub extent: Option<Rect>,
+    /// Whether it is known where on the Earth the coordinates are.
+    pub is_on_earth: bool,
     /// The unit of the coordinates.
     pub unit: LengthUnit,
     /// A small picture of the contents.

@@ -9,11 +9,10 @@ use glam::DVec2;
 use super::{DataContents, DataFile, Preview, RasterFacts};
 use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
-use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader, RasterValues};
-use meshbrush_io::io::{self, Meter, RasterFormat};
+use meshbrush_io::io::{self, DocumentPlane, Meter, RasterFormat};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -42,14 +41,23 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
         Err(_) if is_table => table(path, meter)?,
         Err(_) => shapes(path, frame.plane.as_ref(), meter)?,
     };
-    let Seen { contents, extent, unit, preview } = seen;
-    Ok(DataFile { path: path.to_owned(), bytes: meter.total().unwrap_or(0), contents, extent, unit, preview })
+    let Seen { contents, extent, is_on_earth, unit, preview } = seen;
+    Ok(DataFile {
+        path: path.to_owned(),
+        bytes: meter.total().unwrap_or(0),
+        contents,
+        extent,
+        is_on_earth,
+        unit,
+        preview,
+    })
 }
 
 /// What was seen of a file.
 struct Seen {
     contents: DataContents,
     extent: Option<Rect>,
+    is_on_earth: bool,
     unit: LengthUnit,
     preview: Preview,
 }
@@ -68,7 +76,7 @@ fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, Strin
     let is_grid = file.format.is_grid();
     let contents = if is_grid { DataContents::Grid(facts) } else { DataContents::Picture(facts) };
     let preview = Preview::of_raster(raster, facts.values);
-    Ok(Seen { contents, extent, unit: LengthUnit::None, preview })
+    Ok(Seen { contents, extent, is_on_earth: false, unit: LengthUnit::None, preview })
 }
 
 fn facts(raster: &Raster) -> RasterFacts {
@@ -81,12 +89,13 @@ fn facts(raster: &Raster) -> RasterFacts {
     RasterFacts { size: raster.size(), values, missing }
 }
 
-fn shapes(path: &Path, plane: Option<&Projection>, meter: &Meter) -> Result<Seen, String> {
+fn shapes(path: &Path, plane: Option<&DocumentPlane>, meter: &Meter) -> Result<Seen, String> {
     let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
     let ShapeList { points, lines, polygons } = &file.shapes;
     let contents =
         DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
-    Ok(drawn(contents, &file.shapes, file.unit))
+    let is_on_earth = file.coordinates.on_earth(None).is_some();
+    Ok(Seen { is_on_earth, ..drawn(contents, &file.shapes, file.coordinates.unit()) })
 }
 
 /// A table of threats, or else of points.
@@ -121,5 +130,5 @@ fn drawn(contents: DataContents, shapes: &ShapeList, unit: LengthUnit) -> Seen {
     let all = shapes.points.iter().chain(rings);
     let extent = all.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b));
     let preview = Preview::of_shapes(shapes, extent.unwrap_or(Rect::UNIT));
-    Seen { contents, extent, unit, preview }
+    Seen { contents, extent, is_on_earth: false, unit, preview }
 }

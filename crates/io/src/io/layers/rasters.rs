@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::png::Behind;
-use super::super::{FileGrid, GridPlace, GridWindow, Meter, RasterFormat, ReadError, ReadRaster};
-use meshbrush_core::earth::{GeographicExtent, Projection};
+use super::super::{
+    DocumentPlane, FileGrid, GridPlace, GridWindow, Meter, RasterFormat, ReadError, ReadRaster,
+};
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::layers::RasterReading;
 use meshbrush_core::raster::{Raster, RasterPyramid, projected_raster};
@@ -75,8 +76,8 @@ pub struct RasterFrame {
     pub domain: Rect,
     /// The part of a grid that is wanted, in world units; `None` for all of it.
     pub wanted: Option<Rect>,
-    /// The plane of the document, if it has one: grids of longitudes and latitudes are projected to it.
-    pub plane: Option<Projection>,
+    /// The plane of the document, if it has one: grids are projected to it.
+    pub plane: Option<DocumentPlane>,
     /// The scale of images of diameters.
     pub transfer: Transfer,
 }
@@ -84,9 +85,7 @@ pub struct RasterFrame {
 impl RasterFrame {
     /// Returns the part of a grid that a document wants.
     fn window(&self) -> Option<GridWindow> {
-        let area = self.wanted?;
-        let geographic = self.plane.and_then(|plane| GeographicExtent::of_plane(&plane, area));
-        Some(GridWindow { area, geographic })
+        Some(GridWindow { area: self.wanted?, plane: self.plane })
     }
 }
 
@@ -192,17 +191,21 @@ impl RasterLoader {
 }
 
 /// Returns a grid in the plane of a document, as far as it covers an area there.
-fn in_plane(grid: FileGrid, plane: &Projection, area: Rect, path: &Path) -> Result<Raster, RasterError> {
+fn in_plane(grid: FileGrid, plane: &DocumentPlane, area: Rect, path: &Path) -> Result<Raster, RasterError> {
     let named = |problem: &dyn Display| RasterError::Value(format!("{}: {problem}", path.display()));
-    if grid.is_in_degrees() {
-        return projected_raster(&grid.raster, plane, area).map_err(|error| named(&error));
+    if let Some(reprojection) = plane.reprojection(&grid.coordinates()) {
+        if reprojection.is_identity() {
+            return Ok(grid.raster);
+        }
+        return projected_raster(&grid.raster, &reprojection, area).map_err(|error| named(&error));
     }
     let name = grid.system.and_then(|system| system.name);
     let system =
         name.map_or("no coordinate system that is known here".to_owned(), |name| format!("“{name}”"));
     Err(named(&format_args!(
-        "its coordinates are in {system}, and the document is in the plane {plane}. Convert the file to longitudes and \
-         latitudes first, for example with gdalwarp -t_srs EPSG:4326."
+        "its coordinates are in {system}, and the document is in the plane {}. Say what they are with a .prj file \
+         beside it, or convert it to longitudes and latitudes first, for example with gdalwarp -t_srs EPSG:4326.",
+        plane.projection
     )))
 }
 

@@ -8,7 +8,7 @@ use super::super::coordinate_system::{CoordinateKind, CoordinateSystem};
 use super::super::{Flaw, GridWindow};
 use super::axis::{AxisUnit, Direction, direction};
 use super::contents::Variable;
-use meshbrush_core::earth::GeographicExtent;
+use meshbrush_core::earth::{self, GeographicExtent};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, excerpt};
 
@@ -99,7 +99,11 @@ impl Grid {
     /// Returns what the file says about the coordinates.
     pub(super) fn system(&self, variables: &[Variable]) -> Option<CoordinateSystem> {
         let described = described(variables, &variables[self.variable]);
-        let known = |kind, unit| Some(CoordinateSystem { kind, epsg: None, name: None, unit });
+        let known = |kind, unit| {
+            let on_earth =
+                Some(earth::Coordinates::Geographic).filter(|_| kind == CoordinateKind::Geographic);
+            Some(CoordinateSystem { kind, epsg: None, name: None, on_earth, unit })
+        };
         let is_geographic =
             described.as_ref().is_some_and(|system| system.kind == CoordinateKind::Geographic);
         match (self.x.unit, self.y.unit) {
@@ -111,7 +115,7 @@ impl Grid {
                 let (epsg, name) =
                     (epsg.and_then(|system| system.epsg), described.and_then(|system| system.name));
                 let (kind, unit) = (CoordinateKind::Projected, LengthUnit::Kilometre);
-                Some(CoordinateSystem { kind, epsg, name, unit })
+                Some(CoordinateSystem { kind, epsg, name, on_earth: None, unit })
             }
             (AxisUnit::Metre, AxisUnit::Metre) => {
                 let plane = described.or_else(|| known(CoordinateKind::Projected, LengthUnit::Metre))?;
@@ -121,14 +125,15 @@ impl Grid {
         }
     }
 
-    /// Returns the rectangle of a window in the coordinates of the grid.
-    pub(super) fn area(&self, window: &GridWindow) -> Rect {
-        match window.geographic {
-            Some(GeographicExtent { west, width, south, north, .. }) if self.is_geographic() => {
-                Rect::new(dvec2(west, south), dvec2(west + width, north))
-            }
-            _ => window.area,
+    /// Returns the rectangle of a window in the coordinates of the grid; `None` where they are not known.
+    pub(super) fn area(&self, window: &GridWindow, system: Option<&CoordinateSystem>) -> Option<Rect> {
+        let Some(plane) = window.plane else { return Some(window.area) };
+        if self.is_geographic() {
+            let extent = GeographicExtent::of_plane(&plane.projection, window.area)?;
+            let GeographicExtent { west, width, south, north, .. } = extent;
+            return Some(Rect::new(dvec2(west, south), dvec2(west + width, north)));
         }
+        plane.reprojection(&system?.stated())?.rectangle_from_plane(window.area)
     }
 
     /// Returns whether coordinates are longitudes and latitudes.

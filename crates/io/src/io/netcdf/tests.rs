@@ -6,7 +6,7 @@ mod written;
 
 use std::io::Cursor;
 
-use meshbrush_core::earth::GeographicExtent;
+use meshbrush_core::earth::Projection;
 use meshbrush_mesh::text::LengthUnit;
 
 use super::super::GridWindow;
@@ -28,7 +28,7 @@ fn read_window(file: &Classic, [low_x, low_y, high_x, high_y]: [f64; 4]) -> Resu
 
 /// Returns the place of a grid of which a window is wanted.
 fn at(area: Rect) -> GridPlace {
-    GridPlace { over: None, window: Some(GridWindow { area, geographic: None }) }
+    GridPlace { over: None, window: Some(GridWindow { area, plane: None }) }
 }
 
 fn said(file: &Classic) -> String {
@@ -331,8 +331,10 @@ fn a_window_is_where_the_grid_is_or_a_sentence_says_where_that_is() {
     assert_eq!(part.raster.values()[..6], [33.0, 34.0, 35.0, 0.0, 1.0, 2.0]);
     assert_eq!(part.raster.get(3, 2), 72.0);
     // Of a document in a plane, the window in degrees counts.
-    let extent = GeographicExtent { west: -15.0, width: 27.0, south: 51.2, north: 51.3, pole: None };
-    let window = GridWindow { area: Rect::new(dvec2(1e5, 1e5), dvec2(2e5, 2e5)), geographic: Some(extent) };
+    let projection: Projection = "+proj=merc +lon_0=0 +ellps=WGS84 +units=m".parse().unwrap();
+    let corner = |x, y| projection.plane_from_geographic(dvec2(x, y));
+    let area = Rect::new(corner(-14.0, 51.3), corner(11.0, 51.4));
+    let window = GridWindow { area, plane: Some(projection.into()) };
     let mut place = GridPlace { over: None, window: Some(window) };
     let read = |place: &GridPlace| decode(Cursor::new(file.bytes()), None, place, &Meter::default()).unwrap();
     assert_eq!(read(&place), part);

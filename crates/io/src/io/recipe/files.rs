@@ -9,12 +9,13 @@ use super::super::geojson::{self, Outline};
 use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
-use super::super::settings::{ReadRegion, SavedSettings, Storage, Usual};
-use super::super::{KeyFault, Meter, ReadError, project, shape_format, threats};
+use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
+use super::super::{
+    DocumentPlane, FileCoordinates, KeyFault, Meter, ReadError, project, shape_format, threats,
+};
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
-use meshbrush_core::earth::{Projection, ProjectionChoice};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
 use meshbrush_core::raster::RasterPyramid;
@@ -89,7 +90,7 @@ impl SavedSettings {
                 transfer: Settings::default().transfer,
             },
             paint: PaintLayers::default(),
-            projection: None,
+            plane: None,
             note: None,
         };
         let settings = self.load(name, &loading.usual, &mut files)?;
@@ -110,8 +111,8 @@ struct Files<'a> {
     projects: BTreeMap<PathBuf, Document>,
     frame: RasterFrame,
     paint: PaintLayers,
-    /// The projection of longitudes and latitudes, where files have them.
-    projection: Option<Projection>,
+    /// The plane of the domain, if it has one.
+    plane: Option<DocumentPlane>,
     /// A sentence for a person about the polygons.
     note: Option<String>,
 }
@@ -155,20 +156,23 @@ impl Storage for Files<'_> {
         &mut self,
         file: &Path,
         bounds: Option<Rect>,
-        projection: Option<ProjectionChoice>,
+        coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
         let outline = (self.loading.read_outline)(file, self.loading.meter)?;
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
+        let RegionCoordinates { assumed, projection } = *coordinates;
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
-            return Ok(ReadRegion { domain, marks, unit: outline.unit });
+            let unit = match outline.coordinates.on_earth(assumed) {
+                Some(known) => FileCoordinates::Known(known).unit(),
+                None => outline.coordinates.unit(),
+            };
+            return Ok(ReadRegion { domain, marks, unit });
         };
-        let (outline, projection) = outline.projected(choice).map_err(|error| unsuited(&error))?;
+        let (outline, projection) = outline.projected(choice, assumed).map_err(|error| unsuited(&error))?;
         self.note = Some(in_the_plane(&outline, &projection));
-        // The other files of a recipe are in the plane where the polygons of its domain are.
-        let is_in_plane = matches!(choice, ProjectionChoice::Given(_));
-        self.projection = Some(projection).filter(|_| !is_in_plane);
+        self.plane = Some(DocumentPlane { projection, assumed });
         let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
         let domain = Domain { projection: Some(projection), ..domain };
         Ok(ReadRegion { domain, marks, unit: LengthUnit::Metre })
@@ -194,15 +198,14 @@ impl Storage for Files<'_> {
         if !(layer.visible || self.loading.with_hidden) {
             return Ok(None);
         }
-        self.frame =
-            RasterFrame { domain, wanted: Some(domain), plane: self.projection, transfer: *transfer };
+        self.frame = RasterFrame { domain, wanted: Some(domain), plane: self.plane, transfer: *transfer };
         let loaded = layer.load(number, self)?;
         self.add_paint(layer, number)?;
         Ok(Some(loaded))
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        let polygons = shape_format::read_polygons(file, self.projection.as_ref(), self.loading.meter)?;
+        let polygons = shape_format::read_polygons(file, self.plane.as_ref(), self.loading.meter)?;
         Ok(geojson::without_names(polygons))
     }
 }
@@ -225,7 +228,7 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        Ok(shape_format::read_shapes(file, self.projection.as_ref(), self.loading.meter)?.shapes)
+        Ok(shape_format::read_shapes(file, self.plane.as_ref(), self.loading.meter)?.shapes)
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {

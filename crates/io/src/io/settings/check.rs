@@ -3,13 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins, SavedSettings, SavedTreatment,
+    RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins,
+    SavedSettings, SavedTreatment,
 };
 use crate::io::layers::{FindFile, SavedLayer, Stored, compiled, each, point, positive_length, rect_of};
 use crate::io::{KeyFault, Step};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
-use meshbrush_core::earth::{ProjectionChoice, ProjectionTextError};
+use meshbrush_core::earth::{
+    Coordinates, CoordinatesTextError, Projection, ProjectionChoice, ProjectionTextError,
+};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
@@ -122,6 +125,7 @@ impl SavedDomain {
         self.rect()?;
         self.formula()?;
         self.projection()?;
+        self.assumed()?;
         self.boundary_diameter.map_or(Ok(()), |diameter| length("boundary_diameter", diameter))?;
         if let Some(SavedParts::Share(share)) = self.parts
             && !(0.0..=1.0).contains(&share)
@@ -145,6 +149,7 @@ impl SavedDomain {
             ("boundary_diameter", self.boundary_diameter.is_some()),
             ("boundary", self.boundary.is_some()),
             ("projection", self.projection.is_some()),
+            ("crs", self.crs.is_some()),
         ];
         if let Some((key, _)) =
             of_outline.into_iter().find(|(_, is_given)| *is_given && self.region.is_none())
@@ -166,10 +171,26 @@ impl SavedDomain {
     }
 
     /// Returns how the projection of the region is chosen; `None` for the plane of its own coordinates.
-    pub(super) fn projection(&self) -> Result<Option<ProjectionChoice>, KeyFault> {
+    fn projection(&self) -> Result<Option<ProjectionChoice>, KeyFault> {
         let text = self.projection.as_deref().filter(|&text| text != "none");
         let choice = text.map(str::parse).transpose();
         choice.map_err(|error: ProjectionTextError| KeyFault::value("projection", error.to_string()))
+    }
+
+    /// Returns what coordinates of files are that do not name a known system. Without `crs`, a projection
+    /// that is given by all its numbers says that they are in its plane.
+    fn assumed(&self) -> Result<Option<Coordinates>, KeyFault> {
+        let fault = |error: CoordinatesTextError| KeyFault::value("crs", error.to_string());
+        if let Some(text) = &self.crs {
+            return text.parse().map(Some).map_err(fault);
+        }
+        let given = self.projection.as_deref().and_then(|text| text.parse::<Projection>().ok());
+        Ok(given.map(Coordinates::Plane))
+    }
+
+    /// Returns what the coordinates of files are, and the plane of the domain.
+    pub(super) fn coordinates(&self) -> Result<RegionCoordinates, KeyFault> {
+        Ok(RegionCoordinates { assumed: self.assumed()?, projection: self.projection()? })
     }
 
     /// Returns the formula of the domain.

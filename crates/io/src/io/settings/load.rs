@@ -8,7 +8,7 @@ use crate::io::KeyFault;
 use crate::io::layers::{SavedLayer, TextError};
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
-use meshbrush_core::earth::ProjectionChoice;
+use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerId};
 use meshbrush_mesh::geometry::{Lattice, Rect};
@@ -50,6 +50,15 @@ pub struct ReadRegion {
     pub unit: LengthUnit,
 }
 
+/// What the coordinates of the domain's polygons are, and the plane where they are meshed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionCoordinates {
+    /// What coordinates of files are that do not name a known system.
+    pub assumed: Option<Coordinates>,
+    /// How the plane is chosen; `None` for that of the polygons' own coordinates.
+    pub projection: Option<ProjectionChoice>,
+}
+
 /// Where the data are that tables and layers name.
 pub trait Storage {
     /// A layer, with what says where its data are.
@@ -69,7 +78,7 @@ pub trait Storage {
         &mut self,
         file: &Path,
         bounds: Option<Rect>,
-        projection: Option<ProjectionChoice>,
+        coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, Self::Error>;
 
     /// Returns the rectangle of the rasters of layers, in world units: the domain where no key says it.
@@ -151,7 +160,7 @@ impl<L> SavedSettings<L> {
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {
         let bounds = self.domain.rect()?;
         if let Some(file) = &self.domain.region {
-            return storage.region(file, bounds, self.domain.projection()?);
+            return storage.region(file, bounds, &self.domain.coordinates()?);
         }
         let bounds = match bounds {
             Some(bounds) => bounds,

@@ -13,7 +13,7 @@ mod paths;
 mod tables;
 mod words;
 
-pub use load::{ReadRegion, Storage, Usual};
+pub use load::{ReadRegion, RegionCoordinates, Storage, Usual};
 pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
     SavedSettings, SavedTreatment,

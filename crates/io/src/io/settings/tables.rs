@@ -67,8 +67,12 @@ pub struct SavedDomain {
     /// The domain is what the polygons of this file cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<PathBuf>,
-    /// How longitudes and latitudes of the region become metres in a plane: "none", "auto", a family, or a
-    /// projection as PROJ writes it.
+    /// What the coordinates of files are that do not name a known system: "lonlat", "EPSG:…", or a projection
+    /// as PROJ writes it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crs: Option<String>,
+    /// The plane of the region, in metres: "none", "auto", a family, "EPSG:…", or a projection as PROJ writes
+    /// it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub projection: Option<String>,
     /// The unit of coordinates and lengths.

@@ -1,6 +1,7 @@
 use std::fs;
 
 use super::*;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Returns a shapefile of records, each with its content.
 fn file(records: &[Vec<u8>]) -> Vec<u8> {
@@ -107,11 +108,11 @@ fn the_text_beside_a_file_tells_the_unit() {
     fs::write(&path, file(&[parts(5, &[&square(0.0, 4.0, true)])])).unwrap();
     let meter = Meter::default();
     let outline = read_outline(&path, &meter).unwrap();
-    assert_eq!((outline.polygons.len(), outline.unit), (1, LengthUnit::Degree));
+    assert_eq!((outline.polygons.len(), outline.coordinates.unit()), (1, LengthUnit::Degree));
     assert_eq!((meter.total(), CoordinateSystem::beside(&path)), (Some(meter.done()), None));
     fs::write(folder.join("coast.prj"), r#"PROJCS["UTM",GEOGCS["WGS 84"],UNIT["metre",1]]"#).unwrap();
-    assert_eq!(read_outline(&path, &meter).unwrap().unit, LengthUnit::Metre);
-    assert_eq!(read(&path, &meter).unwrap().unit, LengthUnit::Metre);
+    assert_eq!(read_outline(&path, &meter).unwrap().coordinates.unit(), LengthUnit::Metre);
+    assert_eq!(read(&path, &meter).unwrap().coordinates.unit(), LengthUnit::Metre);
     fs::write(&path, file(&[point(1, [0.0; 2])])).unwrap();
     let sentence = read_outline(&path, &meter).unwrap_err().to_string();
     assert!(sentence.contains("a domain needs a Polygon") && sentence.contains("it has Point"), "{sentence}");
