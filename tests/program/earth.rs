@@ -180,7 +180,7 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
         ("--region globe.geojson --projection auto", "goes all around the Earth"),
         ("--region plane.geojson --projection auto", "not longitudes and latitudes"),
         ("--region far.geojson --projection merc", "times is the limit"),
-        ("--region sea.geojson --projection mercator", "one of auto, merc, tmerc, stere and lcc"),
+        ("--region sea.geojson --projection mercator", "one of auto, metres, merc, tmerc, stere and lcc"),
         ("--region sea.geojson --projection +proj=merc+lat_ts=89", "is not a projection of this program"),
         ("--projection auto", "--projection auto: it is for the coordinates of a region"),
         ("--crs EPSG:32631", "--crs EPSG:32631: it is for the coordinates of a region"),
@@ -340,4 +340,43 @@ fn files_of_a_zone_of_utm_lie_where_they_do_on_the_earth() {
         let distances = nodes.iter().map(|at| (at[0] - corner[0]).hypot(at[1] - corner[1]));
         assert!(distances.fold(f64::MAX, f64::min) < 0.01, "{corner:?}");
     }
+}
+
+/// Lengths with a unit need no other option: the region is meshed in metres.
+#[test]
+fn a_length_with_a_unit_puts_a_region_into_metres() {
+    let folder = Folder::new("earth-units");
+    let frame = |[west, south, east, north]: [f64; 4]| {
+        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
+    };
+    folder.file("sea.geojson", frame([14.0, 58.0, 16.0, 59.0]));
+    folder.file("utm.geojson", frame([440_000.0, 6_430_000.0, 560_000.0, 6_540_000.0]));
+    folder.file("local.geojson", frame([0.0, 0.0, 5_000.0, 3_000.0]));
+    let hash = |options: &str| folder.json("mesh", options)["hash"].as_str().unwrap().to_owned();
+    let by_numbers = hash("--region sea.geojson --projection auto --spacing 37040 --target 4000");
+    assert_eq!(hash("--region sea.geojson --spacing '20 nmi' --target '4 km'"), by_numbers);
+    // A plane in metres that is known stays as it is.
+    let own = "--region utm.geojson --crs EPSG:32633 --projection EPSG:32633 --spacing 20000";
+    assert_eq!(hash("--region utm.geojson --crs EPSG:32633 --spacing 20km"), hash(own));
+    for (options, sentence) in [
+        ("--region local.geojson --spacing 1km", "so they cannot be projected. Say what they are (--crs"),
+        (
+            "--spacing 0.1km",
+            "--spacing 0.1km: lengths of this domain are plain numbers. Name a region on the Earth",
+        ),
+        (
+            "--region sea.geojson --projection none --h-min 2km",
+            "--h-min 2km: lengths of this domain are in degrees",
+        ),
+        (
+            "--region sea.geojson --projection auto --spacing 0.1°",
+            "--spacing 0.1°: lengths of this domain are in metres",
+        ),
+        ("--region sea.geojson --spacing 2apples", "“apples” cannot be converted to m"),
+        ("--region sea.geojson --spacing much", "“much” is not a number"),
+    ] {
+        let ran = folder.run(format!("mesh {options}"));
+        assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+    assert_eq!(folder.run("mesh --region sea.geojson --spacing 0.1°").status, 0);
 }

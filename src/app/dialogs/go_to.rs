@@ -6,11 +6,9 @@ use glam::{DVec2, dvec2};
 use crate::app::command::{Command, InspectCommand, ShellCommand};
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{
-    ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format, typed,
-};
+use crate::app::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format};
 use meshbrush_mesh::mesh::TriangleId;
-use meshbrush_mesh::text::LengthUnit;
+use meshbrush_mesh::text::{LengthUnit, typed};
 
 /// The target that was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,8 @@
 
 use eframe::egui::{Context, Id};
 
-use super::{format, typed};
+use super::format;
+use meshbrush_mesh::text::typed;
 
 /// Kilometres of one degree of latitude, on the sphere with the area of the Earth.
 pub const KM_PER_DEGREE: f64 = 111.195;

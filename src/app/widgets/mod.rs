@@ -16,7 +16,6 @@ pub mod degrees;
 pub mod shown_keys;
 mod layer_tips;
 pub mod tips;
-pub mod typed;
 mod vanished;
 
 pub use controls::*;

@@ -11,6 +11,7 @@ use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
 };
+use super::lengths::Length;
 use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
@@ -174,7 +175,7 @@ pub struct InputArguments {
     /// Largest diameter of triangles on the outline, before nodes move onto it [default: an eighth of the
     /// spacing]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub boundary_diameter: Option<f64>,
+    pub boundary_diameter: Option<Length>,
 
     /// Parts of the mesh that stay: the largest, all, or those with this share of the area [default: largest
     /// for a region, but all with --boundary report]
@@ -191,9 +192,10 @@ pub struct InputArguments {
 
     /// Longest side of a coarse cell [default: a twentieth of the domain's longer side]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub spacing: Option<f64>,
+    pub spacing: Option<Length>,
 
-    /// Target diameter as a formula in x and y; may be repeated, the smallest wins
+    /// Target diameter as a formula in x and y, or as a length such as 2 km; may be repeated, the smallest
+    /// wins
     ///
     /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual
     /// functions, and the polar r and theta.
@@ -229,7 +231,7 @@ pub struct InputArguments {
 
     /// Target diameter at distance 0; the default is --h-min
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
-    pub distance_at_zero: Option<f64>,
+    pub distance_at_zero: Option<Length>,
 
     /// How much the target diameter grows with the distance: 0.2 is 2 in 10 [default: 0.2]
     #[arg(long, value_name = "SLOPE", allow_hyphen_values = true, requires = "distance")]
@@ -237,7 +239,7 @@ pub struct InputArguments {
 
     /// The distance beyond which --distance asks for nothing [default: unlimited]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
-    pub distance_range: Option<f64>,
+    pub distance_range: Option<Length>,
 
     #[command(flatten)]
     pub water: WaterArguments,
@@ -251,15 +253,15 @@ pub struct InputArguments {
 
     /// Smallest target diameter; larger where less is asked for
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub h_min: Option<f64>,
+    pub h_min: Option<Length>,
 
     /// Target diameter where the risk is 1 [default: the smallest, --h-min]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub h_risk: Option<f64>,
+    pub h_risk: Option<Length>,
 
     /// Largest target diameter, where the risk is 0 [default with risk: that of a coarse triangle]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub h_max: Option<f64>,
+    pub h_max: Option<Length>,
 
     /// Bend of the curve from risk to diameter: above 1 only high risk refines, below 1 low risk does
     ///

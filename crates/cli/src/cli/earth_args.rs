@@ -15,8 +15,10 @@ pub struct EarthArguments {
     /// chooses what suits the region: merc (Mercator), tmerc (transverse Mercator), stere (polar
     /// stereographic) or lcc (Lambert). EPSG:N is the projection of a code, such as EPSG:32633 for a zone of
     /// UTM. A projection as PROJ writes it, with all its numbers, is the plane of files that name no
-    /// coordinate system, too. none takes degrees for lengths in a plane [default: none]
-    #[arg(long, value_name = "auto|none|merc|tmerc|stere|lcc|EPSG:N|PROJ")]
+    /// coordinate system, too. metres is the plane of the region's file if that is known, or else
+    /// auto. none takes degrees for lengths in a plane [default: metres where a length has a unit, as in
+    /// 2 km; or else none]
+    #[arg(long, value_name = "auto|metres|none|merc|tmerc|stere|lcc|EPSG:N|PROJ")]
     pub projection: Option<String>,
 
     /// What coordinates are in files that do not name a coordinate system that is known: lonlat, EPSG:N, or a

@@ -1,12 +1,14 @@
 //! What a command meshes: a project, a recipe or what options say, with options in place of the values of a
 //! file.
 
+use std::fmt::Display;
 use std::io::stdin;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::args::InputArguments;
 use super::failure::Failure;
+use super::lengths::LengthWithUnit;
 use super::options;
 use super::output::is_standard_stream;
 use super::terminal::Terminal;
@@ -36,6 +38,8 @@ pub struct Input {
     pub recipe: Option<Recipe>,
     /// The settings in the options, in place of those of the recipe where there is one.
     pub settings: SavedSettings,
+    /// Options whose lengths have a unit.
+    lengths: Vec<LengthWithUnit>,
 }
 
 /// A mesh to make, and the texts about it.
@@ -71,7 +75,7 @@ impl Input {
             return Err(Failure::Usage(format!("{problem}. The size of the finest detail is a good start.")));
         }
         settings.limits.check().map_err(|fault| Failure::Usage(fault.full_sentence()))?;
-        match typed.boundary_diameter {
+        match &typed.boundary_diameter {
             // Of a project the domain is not known yet.
             Some(diameter) if typed.project.is_none() => {
                 let has_outline = settings.domain.region.is_some();
@@ -79,7 +83,8 @@ impl Input {
             }
             _ => {}
         }
-        Ok(Self { project: typed.project.clone(), recipe, settings })
+        let lengths = LengthWithUnit::all(typed);
+        Ok(Self { project: typed.project.clone(), recipe, settings, lengths })
     }
 
     /// Options that were given and change nothing, a sentence each.
@@ -119,6 +124,7 @@ impl Input {
             Some(path) => self.read_project(path, terminal)?,
             None => self.read_files(terminal)?,
         };
+        self.lengths.iter().try_for_each(|length| length.check(settings.unit))?;
         let limits = Limits {
             max_triangles: settings.max_triangles,
             max_level: self.settings.mesh.max_level,
@@ -173,7 +179,7 @@ impl Input {
 /// # Errors
 /// Fails when the domain has no outline, or nothing is refined along it.
 fn check_boundary_diameter(
-    diameter: f64,
+    diameter: impl Display,
     has_outline: bool,
     boundary: Option<SavedTreatment>,
 ) -> Result<(), Failure> {

@@ -12,6 +12,7 @@ mod earth_args;
 mod failure;
 mod help;
 mod input;
+mod lengths;
 mod locate;
 mod mesh;
 mod more_args;

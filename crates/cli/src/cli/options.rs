@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::args::{BoundaryArgument, InputArguments};
 use super::failure::Failure;
+use super::lengths::{Length, LengthWithUnit, length_with_unit};
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedQuantity};
 use meshbrush_io::io::settings::{
@@ -13,9 +14,12 @@ use meshbrush_io::io::settings::{
 };
 use meshbrush_io::io::{KeyFault, Step};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Growth of the target diameter by unit of distance, unless an option says otherwise.
 const USUAL_SLOPE: f64 = 0.2;
+/// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
+const METRES: &str = "metres";
 
 /// Returns the settings that the options state; every value is checked on its own.
 ///
@@ -31,30 +35,31 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
         )));
     }
     let layers = layers(typed)?;
+    let projection = projection(typed)?;
     let settings = SavedSettings {
         domain: SavedDomain {
             bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.clone(),
             region: typed.region.clone(),
             crs: typed.earth.crs.clone(),
-            projection: typed.earth.projection.clone(),
+            projection,
             boundary: typed.boundary.map(Into::into),
-            boundary_diameter: typed.boundary_diameter,
+            boundary_diameter: value(&typed.boundary_diameter),
             parts: typed.parts.as_deref().map(parts).transpose()?,
             keep_pinches: typed.keep_pinches,
             ..SavedDomain::default()
         },
         mesh: SavedMesh {
-            spacing: typed.spacing,
+            spacing: value(&typed.spacing),
             rule: typed.rule.map(|rule| meshbrush_core::field::RefinementRule::from(rule).into()),
             max_triangles: typed.max_triangles,
             max_level: typed.max_level,
             max_memory: typed.max_memory.clone(),
         },
         limits: SavedLimits {
-            h_min: typed.h_min,
-            h_risk: typed.h_risk,
-            h_max: typed.h_max,
+            h_min: value(&typed.h_min),
+            h_risk: value(&typed.h_risk),
+            h_max: value(&typed.h_max),
             shape: typed.transfer_shape,
             gradation: typed.gradation,
         },
@@ -65,6 +70,22 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
     Ok(settings)
 }
 
+/// Returns the projection: lengths in metres need a plane in metres.
+fn projection(typed: &InputArguments) -> Result<Option<String>, Failure> {
+    let lengths = LengthWithUnit::all(typed);
+    let is_metric = lengths.iter().any(LengthWithUnit::is_metric) && typed.region.is_some();
+    let projection = typed.earth.projection.clone().or(is_metric.then(|| METRES.to_owned()));
+    if projection.as_ref().is_some_and(|word| word != "none") {
+        lengths.iter().try_for_each(|length| length.check(LengthUnit::Metre))?;
+    }
+    Ok(projection)
+}
+
+/// Returns the number of a length.
+fn value(length: &Option<Length>) -> Option<f64> {
+    length.as_ref().map(|length| length.value)
+}
+
 /// Returns the layers of the options, each of which takes the finest, from the bottom of the stack to its
 /// top, each with its option as typed.
 fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> {
@@ -72,7 +93,9 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     let mut layers = Vec::new();
     for (option, texts, quantity) in [("--target", &typed.target, diameter), ("--risk", &typed.risk, risk)] {
         layers.extend(texts.iter().map(|text| {
-            let (quantity, formula) = (Some(quantity), Some(text.clone()));
+            let formula =
+                length_with_unit(text).map_or_else(|| text.clone(), |length| length.value.to_string());
+            let (quantity, formula) = (Some(quantity), Some(formula));
             let layer = SavedLayer { quantity, formula, ..SavedLayer::of_kind(SavedKind::Formula) };
             (option.to_owned(), layer)
         }));
@@ -92,14 +115,14 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
     for path in &typed.distance {
         let (option, layer) = of_file("--distance", SavedKind::Distance, path);
-        let at_zero = typed.distance_at_zero.or(typed.h_min).ok_or_else(|| {
+        let at_zero = value(&typed.distance_at_zero).or(value(&typed.h_min)).ok_or_else(|| {
             let problem =
                 "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
             Failure::Usage(format!("{option}: {problem}."))
         })?;
         let slope = typed.distance_slope.unwrap_or(USUAL_SLOPE);
         let (at_zero, slope) = (Some(at_zero), Some(slope));
-        layers.push((option, SavedLayer { at_zero, slope, range: typed.distance_range, ..layer }));
+        layers.push((option, SavedLayer { at_zero, slope, range: value(&typed.distance_range), ..layer }));
     }
     layers.extend(typed.water.depth_layers());
     layers.extend(straits(typed)?);
@@ -108,8 +131,8 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
 
 /// Returns the layer of `--straits`.
 fn straits(typed: &InputArguments) -> Result<Option<(String, SavedLayer)>, Failure> {
-    let (Some(across), Some(h_min)) = (typed.water.straits, typed.h_min) else { return Ok(None) };
-    let widest = typed.water.widest_strait.or(typed.h_max.map(|h_max| across * h_max));
+    let (Some(across), Some(h_min)) = (typed.water.straits, value(&typed.h_min)) else { return Ok(None) };
+    let widest = value(&typed.water.widest_strait).or(value(&typed.h_max).map(|h_max| across * h_max));
     let widest = widest.ok_or_else(|| {
         let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
         Failure::Usage(format!("--straits {across}: {problem}."))
@@ -125,30 +148,34 @@ fn straits(typed: &InputArguments) -> Result<Option<(String, SavedLayer)>, Failu
 
 /// Returns the sentence for a value that cannot be used, with its option.
 fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLayer)]) -> Failure {
-    let number = |option: &str, value: Option<f64>| match (value, &fault.given) {
+    let with = |option: &str, value: Option<String>| match (value, &fault.given) {
         (Some(value), Some(_)) => format!("{option} {value}"),
         _ => option.to_owned(),
     };
+    let length = |option: &str, value: &Option<Length>| with(option, value.as_ref().map(Length::to_string));
     let option = match &fault.path[..] {
         [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
-            "at_zero" => number("--distance-at-zero", typed.distance_at_zero.or(typed.h_min)),
-            "slope" => number("--distance-slope", typed.distance_slope),
-            "range" => number("--distance-range", typed.distance_range),
-            "width_to" => number("--widest-strait", typed.water.widest_strait),
+            "at_zero" => length(
+                "--distance-at-zero",
+                if typed.distance_at_zero.is_some() { &typed.distance_at_zero } else { &typed.h_min },
+            ),
+            "slope" => with("--distance-slope", typed.distance_slope.map(|slope| slope.to_string())),
+            "range" => length("--distance-range", &typed.distance_range),
+            "width_to" => length("--widest-strait", &typed.water.widest_strait),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
             "projection" => "--projection".to_owned(),
             "crs" => "--crs".to_owned(),
-            "boundary_diameter" => number("--boundary-diameter", typed.boundary_diameter),
-            "spacing" => number("--spacing", typed.spacing),
-            "h_min" => number("--h-min", typed.h_min),
-            "h_risk" if fault.given.is_some() => number("--h-risk", typed.h_risk),
+            "boundary_diameter" => length("--boundary-diameter", &typed.boundary_diameter),
+            "spacing" => length("--spacing", &typed.spacing),
+            "h_min" => length("--h-min", &typed.h_min),
+            "h_risk" if fault.given.is_some() => length("--h-risk", &typed.h_risk),
             "gradation" => "--gradation".to_owned(),
             "max_triangles" => format!("--max-triangles {}", typed.max_triangles.unwrap_or_default()),
             "max_memory" => format!("--max-memory {}", typed.max_memory.as_deref().unwrap_or_default()),
-            "h_max" if fault.given.is_some() => number("--h-max", typed.h_max),
+            "h_max" if fault.given.is_some() => length("--h-max", &typed.h_max),
             // The sentences about the curve name its numbers.
             _ => return Failure::Usage(fault.full_sentence()),
         },

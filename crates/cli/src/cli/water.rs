@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::lengths::Length;
 use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
 
 /// The period of the semidiurnal lunar tide (M2), in seconds.
@@ -38,9 +39,9 @@ pub struct WaterArguments {
     #[arg(long, value_name = "N", requires = "depth", allow_hyphen_values = true)]
     pub per_slope: Option<f64>,
 
-    /// Side of the squares over which heights are averaged for --per-slope, in metres [default: none]
+    /// Side of the squares over which heights are averaged for --per-slope [default: none]
     #[arg(long, value_name = "LENGTH", requires = "per_slope", allow_hyphen_values = true)]
-    pub smoothing: Option<f64>,
+    pub smoothing: Option<Length>,
 
     /// Largest Courant number of a wave of 1 m with --time-step: triangles are no smaller than this needs
     #[arg(long, value_name = "C", requires_all = ["depth", "time_step"], allow_hyphen_values = true)]
@@ -63,7 +64,7 @@ pub struct WaterArguments {
 
     /// Width of the widest strait of --straits [default: K times --h-max]
     #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
-    pub widest_strait: Option<f64>,
+    pub widest_strait: Option<Length>,
 }
 
 /// The direction in which values grow.
@@ -86,7 +87,8 @@ impl WaterArguments {
                 ("--per-wavelength", SavedLayer { size, period, triangles: Some(triangles), ..depths() })
             }),
             self.per_slope.map(|triangles| {
-                let (size, smoothing) = (Some(SavedDepthSize::Slope), self.smoothing);
+                let (size, smoothing) =
+                    (Some(SavedDepthSize::Slope), self.smoothing.as_ref().map(|side| side.value));
                 ("--per-slope", SavedLayer { size, triangles: Some(triangles), smoothing, ..depths() })
             }),
             self.min_courant.map(|number| ("--min-courant", self.courant(number, SavedCombine::Finest))),

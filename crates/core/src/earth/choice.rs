@@ -10,6 +10,8 @@ use crate::text::Number;
 pub enum ProjectionChoice {
     /// By where the domain lies.
     Automatic,
+    /// The plane where the domain is already, if that is known and in metres, or else by where it lies.
+    OwnOrAutomatic,
     /// One of a family, with the parameters that suit the domain.
     Family(ProjectionKind),
     /// This one.
@@ -82,7 +84,7 @@ impl ProjectionChoice {
         let projection = match self {
             Self::Given(projection) => projection,
             Self::Family(kind) => suited(kind, extent)?,
-            Self::Automatic => suited(family_for(extent), extent)?,
+            Self::Automatic | Self::OwnOrAutomatic => suited(family_for(extent), extent)?,
         };
         let kind = projection.kind();
         if extent.width >= 360.0 && kind != ProjectionKind::PolarStereographic {
@@ -167,11 +169,12 @@ impl Projection {
 impl FromStr for ProjectionChoice {
     type Err = ProjectionTextError;
 
-    /// Reads `auto`, the word of a family, `EPSG:32633`, or a projection as PROJ writes it.
+    /// Reads `auto`, `metres`, the word of a family, `EPSG:32633`, or a projection as PROJ writes it.
     fn from_str(text: &str) -> Result<Self, ProjectionTextError> {
         let family = || ProjectionKind::ALL.into_iter().find(|kind| kind.word() == text);
         match text {
             "auto" => Ok(Self::Automatic),
+            "metres" => Ok(Self::OwnOrAutomatic),
             _ if text.to_lowercase().starts_with("epsg:") => {
                 match text.parse().map(|known: Coordinates| known.projection()) {
                     Ok(Some(projection)) => Ok(Self::Given(projection)),

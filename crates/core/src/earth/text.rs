@@ -11,7 +11,7 @@ use crate::text::excerpt;
 /// A text that is no projection of this program.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "“{text}” is not a projection of this program: {problem}. Write one of auto, merc, tmerc, stere and lcc, the code of \
+    "“{text}” is not a projection of this program: {problem}. Write one of auto, metres, merc, tmerc, stere and lcc, the code of \
      one such as EPSG:32633, or all numbers as PROJ does: “+proj=lcc +lat_0=60 +lat_1=60 +lat_2=60 +lon_0=20 +ellps=WGS84 +units=m”."
 )]
 pub struct ProjectionTextError {

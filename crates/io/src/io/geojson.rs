@@ -52,6 +52,10 @@ impl Outline {
         assumed: Option<Coordinates>,
     ) -> Result<(Self, Projection), ProjectOutlineError> {
         let from = self.coordinates.on_earth(assumed).ok_or(ProjectOutlineError::NotOnEarth)?;
+        let choice = match (choice, from) {
+            (ProjectionChoice::OwnOrAutomatic, Coordinates::Plane(own)) => ProjectionChoice::Given(own),
+            _ => choice,
+        };
         if let ProjectionChoice::Given(projection) = choice
             && from == Coordinates::Plane(projection)
         {

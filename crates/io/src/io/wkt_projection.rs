@@ -3,8 +3,8 @@
 use super::coordinate_system::Element;
 use meshbrush_core::earth::Projection;
 
-/// Names of methods, without blanks and in lower case, and the word of PROJ. Old text has its own names for the
-/// same, and some names have a version at their end.
+/// Names of methods, without blanks and in lower case, and the word of PROJ. Old text has its own names for
+/// the same, and some names have a version at their end.
 const METHODS: [(&str, &str); 7] = [
     ("transversemercator", "tmerc"),
     ("gausskruger", "tmerc"),
@@ -39,8 +39,8 @@ const PARAMETERS: [(&str, &str); 20] = [
     ("northingatfalseorigin", "y_0"),
 ];
 
-/// Largest difference of an ellipsoid from WGS 84: in the radius, in metres, and in 1/f. GRS 80 differs by 0 and
-/// 1.5e-6.
+/// Largest difference of an ellipsoid from WGS 84: in the radius, in metres, and in 1/f. GRS 80 differs by 0
+/// and 1.5e-6.
 const DIFFERENCES: [f64; 2] = [0.5, 1e-4];
 
 /// Returns the projection that the elements of a projected system describe; `None` for other methods and

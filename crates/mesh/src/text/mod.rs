@@ -5,6 +5,7 @@ mod digits;
 mod excerpt;
 mod grouped;
 mod number;
+pub mod typed;
 mod unit;
 mod xml;
 

@@ -13,8 +13,8 @@ use super::paint;
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::degrees::metric_in_degrees;
 use crate::app::widgets::shown_keys::with_keys;
-use crate::app::widgets::{tips, typed};
-use meshbrush_mesh::text::LengthUnit;
+use crate::app::widgets::tips;
+use meshbrush_mesh::text::{LengthUnit, typed};
 
 /// Seconds after the last turn of the wheel until its value is taken, so that a turn is one gesture.
 const WHEEL_REST: f64 = 0.25;

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::format;
-use crate::app::widgets::typed;
+use meshbrush_mesh::text::typed;
 
 /// Points that a pointer moves to change a number by a factor of ten, or over the whole of its range.
 const PX_PER_DECADE: f64 = 200.0;

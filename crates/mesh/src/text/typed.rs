@@ -1,15 +1,16 @@
 //! Numbers as users type them.
 
 /// Units of length, as factors of a metre.
-const LENGTHS: [(&str, f64, f64); 4] =
-    [("mm", 1.0, 1000.0), ("cm", 1.0, 100.0), ("m", 1.0, 1.0), ("km", 1000.0, 1.0)];
+const LENGTHS: [(&str, f64, f64); 5] =
+    [("mm", 1.0, 1000.0), ("cm", 1.0, 100.0), ("m", 1.0, 1.0), ("km", 1000.0, 1.0), ("nmi", 1852.0, 1.0)];
 /// Units of memory, as factors of a byte.
 const BYTES: [(&str, f64, f64); 4] =
     [("kB", 1e3, 1.0), ("MB", 1e6, 1.0), ("GB", 1e9, 1.0), ("TB", 1e12, 1.0)];
 /// Letters after a number that multiply it.
 const MULTIPLIERS: [(&str, f64); 4] = [("k", 1e3), ("K", 1e3), ("M", 1e6), ("G", 1e9)];
 
-/// Returns the number that a user typed, in `unit`.
+/// Returns the number that a user typed, in `unit`, which is a symbol such as `m`, `km`, `°` or `MB`, or
+/// empty.
 ///
 /// Takes `−` and `-`, spaces and commas that group thousands, one comma as decimal sign, `1e-4`, `100k`,
 /// `2M`, and a unit at the end: `unit` itself, or one that can be converted to it (`1.5 km` in metres).
@@ -103,8 +104,8 @@ fn unknown_unit(suffix: &str, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{rounded, significant};
     use super::*;
-    use crate::app::widgets::format;
 
     #[test]
     fn typed_numbers_are_understood() {
@@ -122,6 +123,7 @@ mod tests {
             ("2 M", 2e6),
             ("1.5 km", 1500.0),
             ("25cm", 0.25),
+            ("0.5 nmi", 926.0),
         ] {
             assert_eq!(number(text, "m"), Ok(value), "{text}");
         }
@@ -147,7 +149,7 @@ mod tests {
     #[test]
     fn the_shown_number_is_the_rounded_value() {
         for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.24159] {
-            assert_eq!(number(&format::significant(value, 3), ""), Ok(format::rounded(value, 3)));
+            assert_eq!(number(&significant(value, 3), ""), Ok(rounded(value, 3)));
         }
     }
 }
