@@ -33,12 +33,25 @@ pub enum FieldOverlay {
     Forced,
     /// How many edits ago each triangle came.
     Age,
+    /// The depth of the water, as a shaded relief.
+    Depth,
+    /// How far the mesh is from the depths.
+    DepthError,
 }
 
 impl FieldOverlay {
     /// All of them, in the order of lists.
-    pub const ALL: [Self; 7] =
-        [Self::None, Self::Risk, Self::Target, Self::Layer, Self::Slack, Self::Forced, Self::Age];
+    pub const ALL: [Self; 9] = [
+        Self::None,
+        Self::Risk,
+        Self::Target,
+        Self::Layer,
+        Self::Slack,
+        Self::Forced,
+        Self::Age,
+        Self::Depth,
+        Self::DepthError,
+    ];
 
     /// Returns the name of the choice in the list of the panel.
     pub fn name(self) -> &'static str {
@@ -50,6 +63,8 @@ impl FieldOverlay {
             Self::Slack => "Slack",
             Self::Forced => "Forced",
             Self::Age => "Age",
+            Self::Depth => "Depth",
+            Self::DepthError => "Depth error",
         }
     }
 
@@ -63,6 +78,8 @@ impl FieldOverlay {
             Self::Slack => "Overlay slack",
             Self::Forced => "Overlay forced triangles",
             Self::Age => "Overlay age of triangles",
+            Self::Depth => "Overlay depth of water",
+            Self::DepthError => "Overlay depth error of the mesh",
         }
     }
 }

@@ -8,6 +8,7 @@ pub mod plot;
 pub mod steps;
 pub mod levels;
 pub mod pixels;
+pub mod relief;
 pub mod report;
 
 #[cfg(test)]

@@ -2,12 +2,15 @@
 
 use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
-use super::overlay_palette::{MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
+use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
 use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR};
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::view::{FieldOverlay, deepest_level};
 use crate::app::widgets::{elided_text, format, paint_floating};
+use meshbrush_core::layers::DepthSurface;
+use meshbrush_mesh::text::LengthUnit;
+use meshbrush_study::relief::isobath_interval;
 
 /// Width of the box and of a swatch, in points.
 const WIDTH: f32 = 124.0;
@@ -30,6 +33,8 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Slack => Some(slack_legend(ui, inner, palette)),
         FieldOverlay::Forced => Some(forced_legend(ui, inner, palette)),
         FieldOverlay::Age => Some(age_legend(ui, inner, palette)),
+        FieldOverlay::Depth => Some(depth_legend(ui, inner, state, palette)),
+        FieldOverlay::DepthError => Some(depth_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None => None,
     };
@@ -76,6 +81,54 @@ fn age_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
     let place = boxed(ui, inner, 30.0, "Edits ago", "Legend: edits ago, 0 to 10");
     let colors = (0..OLD_AGE + 1).map(|age| palette.age(Some(age)));
     scale(ui, place, colors, ["0".into(), (OLD_AGE / 2).to_string(), format!("≥ {OLD_AGE}")]);
+    place
+}
+
+/// Returns depths from the shore to the deepest place, and the metres between isobaths.
+fn depth_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
+    let Some(surface) = DepthSurface::of(&state.session.document().settings().layers) else {
+        return no_depths(ui, inner);
+    };
+    let deepest = surface.deepest();
+    let metres = |depth: f64| LengthUnit::Metre.after(&format::significant(depth, 3));
+    let spoken = format!("Legend: depth 0 to {}", metres(deepest));
+    let place = boxed(ui, inner, 30.0 + ROW, "Depth", &spoken);
+    let steps = 16_u8;
+    let share = |step: u8| (f32::from(step) / f32::from(steps)).powi(2);
+    scale(
+        ui,
+        place,
+        (0..=steps).map(|step| palette.water(share(step))),
+        ["0".into(), format::significant(0.25 * deepest, 3), metres(deepest)],
+    );
+    let every = format!("isobaths every {}", metres(isobath_interval(deepest)));
+    let below = place.left_top() + vec2(0.0, 32.0);
+    ui.painter().text(below, Align2::LEFT_TOP, every, font::axis(), tokens(ui).label);
+    place
+}
+
+/// Returns how much deeper the mesh is, as a share of the depth.
+fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
+    if DepthSurface::of(&state.session.document().settings().layers).is_none() {
+        return no_depths(ui, inner);
+    }
+    let percent = format::digits(f64::from(100.0 * MOST_ERROR), 3);
+    let spoken = format!("Legend: depth error −{percent} % to {percent} %");
+    let place = boxed(ui, inner, 30.0 + ROW, "Depth error", &spoken);
+    let steps = 8_i8;
+    let color = |step: i8| palette.depth_error(MOST_ERROR * f32::from(step) / f32::from(steps));
+    let ends = [format!("−{percent} %"), "0".into(), format!("{percent} %")];
+    scale(ui, place, (-steps..=steps).map(color).collect::<Vec<_>>().into_iter(), ends);
+    let below = place.left_top() + vec2(0.0, 32.0);
+    let text = "shallower, deeper";
+    ui.painter().text(below, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
+    place
+}
+
+/// Says that there is no layer of depths.
+fn no_depths(ui: &Ui, inner: Rect) -> Rect {
+    let place = boxed(ui, inner, ROW, "Depth", "Legend: no layer of depths");
+    ui.painter().text(place.min, Align2::LEFT_TOP, "no layer of depths", font::axis(), tokens(ui).label);
     place
 }
 

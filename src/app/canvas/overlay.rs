@@ -1,17 +1,26 @@
 //! The field as colours, in place of those of the levels. They are computed on another thread: sampling many
 //! layers takes longer than a frame.
 
+use std::sync::Arc;
+
 use super::super::contours::pixels_over;
+use super::super::derivation::Derived;
 use super::super::jobs::{Jobs, Slot, Wanted};
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
-use super::overlay_palette::OverlayPalette;
+use super::overlay_palette::{OverlayPalette, lit};
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::layers::{Layer, PaintLayers, SettledSquares, SizeField};
+use meshbrush_core::layers::{DepthSurface, Layer, NodeDepths, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::scene::{Camera, Overlay};
 use meshbrush_study::pixels::PixelTriangles;
+use meshbrush_study::relief::{Relief, ReliefPixel, depth_differences};
+
+/// The light on an isobath, and the most on any ground.
+const ISOBATH: f32 = 0.72;
+const MOST_LIGHT: f32 = 1.25;
 
 /// The data from which colours are made.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +28,8 @@ struct OverlayState {
     kind: FieldOverlay,
     document: u64,
     mesh: u64,
+    /// Whether the nodes along the outline of this mesh are known.
+    is_derived: bool,
     /// The rectangle of the domain, in world units.
     domain: Rect,
     /// The rectangle of the pixels, in world units.
@@ -29,8 +40,12 @@ struct OverlayState {
 }
 
 impl OverlayState {
-    /// Returns whether each triangle has one colour. Those of the visible part of the mesh are found pixel by
-    /// pixel of the screen, so that they are exact at any zoom.
+    /// Returns whether colours are found pixel by pixel of the screen, so that they are exact at any zoom.
+    fn is_of_screen(kind: FieldOverlay) -> bool {
+        Self::is_of_triangles(kind) || matches!(kind, FieldOverlay::Depth | FieldOverlay::DepthError)
+    }
+
+    /// Returns whether each triangle has one colour.
     fn is_of_triangles(kind: FieldOverlay) -> bool {
         matches!(kind, FieldOverlay::Slack | FieldOverlay::Forced | FieldOverlay::Age)
     }
@@ -38,12 +53,13 @@ impl OverlayState {
     fn new(kind: FieldOverlay, session: &Session, palette: OverlayPalette, camera: &Camera) -> Self {
         let (document, follower) = (session.document(), session.follower());
         let domain = document.settings().domain.bounds;
-        let (bounds, size) = match Self::is_of_triangles(kind) {
+        let (bounds, size) = match Self::is_of_screen(kind) {
             true => (camera.visible_world(), camera.size_px()),
             false => (domain, pixels_over(&domain)),
         };
         let (document, mesh) = (document.revision(), follower.revision());
-        Self { kind, document, mesh, domain, bounds, size, palette }
+        let is_derived = session.derived().is_some();
+        Self { kind, document, mesh, is_derived, domain, bounds, size, palette }
     }
 }
 
@@ -121,7 +137,8 @@ fn colors_of(
     let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
-    let mesh = OverlayState::is_of_triangles(state.kind).then(|| follower.shared_mesh());
+    let mesh = OverlayState::is_of_screen(state.kind).then(|| follower.shared_mesh());
+    let derived = session.derived().map(Derived::shared_extract);
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
@@ -129,7 +146,9 @@ fn colors_of(
         let OverlayState { bounds, size, palette, .. } = &state;
         let goes_on = &|| wanted.goes_on();
         let sampled = || field.sampled_while(&paint, *bounds, *size, goes_on);
-        let triangles = mesh.as_ref().map(|mesh| PixelTriangles::new(mesh, *bounds, *size));
+        let extract = || derived.or_else(|| Some(Arc::new(mesh.as_ref()?.extract().into_owned())));
+        let of_triangles = mesh.as_ref().filter(|_| OverlayState::is_of_triangles(state.kind));
+        let triangles = of_triangles.map(|mesh| PixelTriangles::new(mesh, *bounds, *size));
         let rgba = match (triangles, ages, rule) {
             (Some(triangles), Some(ages), _) => {
                 triangles.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
@@ -145,6 +164,10 @@ fn colors_of(
                 triangles.colors(goes_on, palette.neutral(), |id| {
                     palette.slack(triangles.slack(id, &field, &paint, &mut squares))
                 })
+            }
+            _ if state.kind == FieldOverlay::Depth => depth_colors(&layers, &state, goes_on),
+            _ if state.kind == FieldOverlay::DepthError => {
+                depth_error_colors(&layers, &*extract()?, &state, goes_on)
             }
             _ if state.kind == FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
             _ if state.kind == FieldOverlay::Layer => {
@@ -172,6 +195,42 @@ fn risk_colors(
     };
     let color = |(x, y)| table[(risk(centers(x, y)) * 255.0) as u8 as usize];
     grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| color((x, y)))).collect()
+}
+
+/// Returns a shaded relief with isobaths; neutral without depths.
+fn depth_colors(
+    layers: &[Layer],
+    OverlayState { bounds, size, domain, palette, .. }: &OverlayState,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
+    let Some(surface) = DepthSurface::of(layers) else { return Some(neutral(*size, palette)) };
+    let relief = Relief::new(&surface, *domain, *bounds, *size, goes_on)?;
+    let deepest = surface.deepest() as f32;
+    let color = |pixel: Option<ReliefPixel>| {
+        let Some(pixel) = pixel else { return palette.neutral() };
+        let color = if pixel.depth > 0.0 { palette.water(pixel.depth / deepest) } else { palette.land() };
+        lit(color, if pixel.is_isobath { ISOBATH } else { 1.0 } * pixel.light.min(MOST_LIGHT))
+    };
+    Some(relief.pixels().map(color).collect())
+}
+
+/// Returns how far the mesh is from the depths; neutral beyond it, and without depths.
+fn depth_error_colors(
+    layers: &[Layer],
+    mesh: &Extract,
+    OverlayState { bounds, size, palette, .. }: &OverlayState,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
+    let at_nodes = NodeDepths::of(layers, mesh.view()).and_then(Result::ok);
+    let (Some(surface), Some(at_nodes)) = (DepthSurface::of(layers), at_nodes) else {
+        return Some(neutral(*size, palette));
+    };
+    let differences = depth_differences(mesh.view(), &at_nodes.depths, &surface, (*bounds, *size), goes_on)?;
+    Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
+}
+
+fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {
+    vec![palette.neutral(); size[0] as usize * size[1] as usize]
 }
 
 fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -> Vec<[u8; 4]> {

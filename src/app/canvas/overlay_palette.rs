@@ -9,6 +9,16 @@ pub type Opaque = [u8; 4];
 
 /// Halvings from which on slack has its strongest colour.
 pub const MOST_SLACK: f32 = 4.0;
+/// The relative error of a depth that has the strongest colour.
+pub const MOST_ERROR: f32 = 0.1;
+/// The colours of water from the shore to the deepest place, at equal steps of [`OverlayPalette::water`].
+const WATER: [Opaque; 5] = [
+    [0xd3, 0xee, 0xe6, 0xff],
+    [0x8c, 0xcf, 0xcb, 0xff],
+    [0x4d, 0xa3, 0xb8, 0xff],
+    [0x35, 0x6b, 0x9e, 0xff],
+    [0x2b, 0x35, 0x6b, 0xff],
+];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
@@ -71,6 +81,35 @@ impl OverlayPalette {
         }
     }
 
+    /// Returns the colour of water by its depth, as a share of the deepest: shallow water has most of the
+    /// colours.
+    pub fn water(&self, share: f32) -> Opaque {
+        let along = share.clamp(0.0, 1.0).sqrt() * (WATER.len() - 1) as f32;
+        let below = (along as usize).min(WATER.len() - 2);
+        mixed(WATER[below], WATER[below + 1], along - below as f32)
+    }
+
+    /// Returns the colour of land.
+    pub fn land(&self) -> Opaque {
+        match self.ground {
+            Ground::Dark => [0x6e, 0x66, 0x55, 0xff],
+            Ground::Light => [0xdb, 0xd2, 0xbd, 0xff],
+        }
+    }
+
+    /// Returns the colour of a relative difference of depths: blue where the mesh is deeper, red where it is
+    /// shallower. Neutral for NaN.
+    pub fn depth_error(&self, difference: f32) -> Opaque {
+        let share = (difference / MOST_ERROR).clamp(-1.0, 1.0);
+        let strongest = match (share > 0.0, self.ground) {
+            (true, Ground::Dark) => [0x4c, 0x9d, 0xff, 0xff],
+            (true, Ground::Light) => [0x0b, 0x54, 0xc4, 0xff],
+            (false, Ground::Dark) => [0xff, 0x5c, 0x4d, 0xff],
+            (false, Ground::Light) => [0xc4, 0x24, 0x16, 0xff],
+        };
+        mixed(self.neutral(), strongest, if share.is_nan() { 0.0 } else { share.abs() })
+    }
+
     /// Returns a colour from neutral to one that stands out in the theme, by a share from 0 to 1.
     fn emphasised(&self, share: f32) -> Opaque {
         let strongest = match self.ground {
@@ -79,6 +118,12 @@ impl OverlayPalette {
         };
         mixed(self.neutral(), strongest, share)
     }
+}
+
+/// Returns a colour in a light from 0 (black) over 1 (as it is).
+pub fn lit([r, g, b, a]: Opaque, light: f32) -> Opaque {
+    let [r, g, b] = [r, g, b].map(|channel| (f32::from(channel) * light).min(255.0) as u8);
+    [r, g, b, a]
 }
 
 fn mixed(from: Opaque, to: Opaque, share: f32) -> Opaque {
@@ -115,11 +160,16 @@ mod tests {
                 ("age", palette.age(Some(0))),
                 ("forced", palette.forced(true)),
                 ("risk", palette.risk(255)),
+                ("a mesh that is too deep", palette.depth_error(MOST_ERROR)),
+                ("a mesh that is too shallow", palette.depth_error(-MOST_ERROR)),
             ] {
                 assert!(contrast(color, neutral) > 3.0, "{what} {ground:?}: {}", contrast(color, neutral));
             }
             let step = contrast(palette.age(Some(0)), palette.age(Some(3)));
             assert!(step > 1.5, "ages differ in {ground:?}: {step}");
+            let depths: Vec<f32> = (0..=8).map(|n| luminance(palette.water(n as f32 / 8.0))).collect();
+            assert!(depths.windows(2).all(|pair| pair[1] < pair[0]), "deeper is darker: {depths:?}");
+            assert_eq!([palette.depth_error(f32::NAN), palette.depth_error(0.0)], [neutral; 2]);
             assert_eq!([palette.slack(0.0), palette.slack(f32::NAN), palette.age(None)], [neutral; 3]);
         }
     }

@@ -29,6 +29,14 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Overlay/Slack", "Shows where the mesh is finer than h̄ asks for, as the factor h̄ / h."),
     ("Overlay/Forced", "Shows the triangles that only compatibility asked for."),
     ("Overlay/Age", "Shows how many edits ago each triangle came."),
+    (
+        "Overlay/Depth",
+        "Shows the depth of the water, from layers of depths, as a shaded relief with isobaths.",
+    ),
+    (
+        "Overlay/Depth error",
+        "Shows where depths that are linear over triangles are deeper or shallower than the grids.",
+    ),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),
     ("Colours/Cividis", "Navy to yellow; looks nearly the same with and without red-green blindness."),

@@ -1,12 +1,10 @@
 //! Depths at the nodes of a mesh, and how far the mesh is from the rasters that they come from.
-//!
-//! The visible layers of depths, from the top to the bottom of the stack, are one surface: a layer counts
-//! where it has a value and its mask covers.
 
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Depths, Layer, LayerKind};
+use super::depth_surface::{covers, has_value};
+use super::{DepthSurface, Depths, Layer};
 use crate::geometry::Rect;
 use crate::mesh::MeshView;
 use crate::raster::{PixelRect, Raster};
@@ -61,9 +59,6 @@ pub struct NoDepth {
     pub at: DVec2,
 }
 
-/// The visible layers of depths, from the top to the bottom.
-struct Surface<'a>(Vec<(&'a Layer, &'a Depths)>);
-
 /// The depth of a node.
 struct Found {
     depth: f64,
@@ -78,16 +73,11 @@ impl NodeDepths {
     /// # Errors
     /// Fails when nodes are far from every pixel with a value.
     pub fn of(layers: &[Layer], mesh: MeshView) -> Option<Result<Self, NoDepth>> {
-        let depths = layers.iter().rev().filter_map(|layer| match &layer.kind {
-            LayerKind::Depth(depths) if layer.visible => Some((layer, depths)),
-            _ => None,
-        });
-        let surface = Surface(depths.collect());
-        (!surface.0.is_empty()).then(|| surface.at_nodes(mesh))
+        DepthSurface::of(layers).map(|surface| surface.at_nodes(mesh))
     }
 }
 
-impl Surface<'_> {
+impl DepthSurface<'_> {
     fn at_nodes(&self, mesh: MeshView) -> Result<NodeDepths, NoDepth> {
         let lattice = mesh.lattice();
         let nodes: Vec<DVec2> =
@@ -159,14 +149,6 @@ impl Surface<'_> {
         }
         sums
     }
-}
-
-fn covers(layer: &Layer, at: DVec2) -> bool {
-    layer.mask.as_ref().is_none_or(|mask| mask.contains(at))
-}
-
-fn has_value(depths: &Depths, at: DVec2) -> bool {
-    depths.source().raster.sample(at).is_some_and(|value| !value.is_nan())
 }
 
 /// Returns the weights of the corners at a point in a triangle. A point on an edge that runs up, or to the

@@ -5,11 +5,15 @@ use std::fs;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
+use glam::dvec2;
+
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
+use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
-    TALL, Window, active, click_button, entries, folder, send, settings, triangles, type_into, value_of,
-    wait_for_notice, wait_until, window_of,
+    RESTING_PLACE, TALL, Window, active, click_button, entries, folder, on_screen, send, settings, triangles,
+    type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
 };
+use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{DepthRule, DepthSizes, LayerKind, PositiveDepth, Straits};
 use meshbrush_mesh::text::LengthUnit;
@@ -108,4 +112,35 @@ fn straits_are_found_again_when_the_outline_changes() {
 fn click_on(window: &mut Window, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).click();
     window.run();
+}
+
+#[test]
+fn the_overlays_of_depths_have_the_colours_of_their_legends() {
+    let folder = folder("app-depth", "overlay");
+    let file = folder.join("heights.asc");
+    fs::write(&file, heights()).unwrap();
+    let mut window = drawn_window();
+    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Depth)));
+    assert!(window.query_by_label_contains("Legend: no layer of depths").is_some());
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    for overlay in [FieldOverlay::Depth, FieldOverlay::DepthError] {
+        send(&mut window, Command::View(ViewCommand::SetOverlay(overlay)));
+        window.hover_at(RESTING_PLACE);
+        window.run();
+        wait_for_jobs(&mut window);
+        let image = picture(&mut window);
+        let [land, shallow, deep] =
+            [700.0, 6_000.0, 19_000.0].map(|x| pixel(&image, on_screen(&window, dvec2(x, 9_400.0))));
+        if overlay == FieldOverlay::Depth {
+            assert!(window.query_by_label_contains("Legend: depth 0 to 185 m").is_some());
+            assert!(land[0] > land[2], "land is brown: {land:?}");
+            assert!(shallow[1] > deep[1] + 40 && deep[2] > deep[0] + 30, "{shallow:?} {deep:?}");
+        } else {
+            assert!(window.query_by_label_contains("Legend: depth error −10 % to 10 %").is_some());
+            // A plane, so that the mesh is exact.
+            assert_eq!(shallow, deep);
+        }
+    }
 }

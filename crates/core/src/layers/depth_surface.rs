@@ -1,0 +1,51 @@
+//! Several layers of depths as one surface.
+
+use glam::DVec2;
+
+use super::{Depths, Layer, LayerKind};
+
+/// The visible layers of depths of a stack. Each counts where it has a value and its mask covers, and no
+/// layer above it does.
+#[derive(Clone, Debug)]
+pub struct DepthSurface<'a>(pub(super) Vec<(&'a Layer, &'a Depths)>);
+
+impl<'a> DepthSurface<'a> {
+    /// Returns the surface of a stack of layers, from the bottom to the top; `None` if no visible layer is
+    /// one of depths.
+    pub fn of(layers: &'a [Layer]) -> Option<Self> {
+        let depths = layers.iter().rev().filter_map(|layer| match &layer.kind {
+            LayerKind::Depth(depths) if layer.visible => Some((layer, depths)),
+            _ => None,
+        });
+        let depths: Vec<_> = depths.collect();
+        (!depths.is_empty()).then_some(Self(depths))
+    }
+
+    /// Returns the depth at a point, in metres, positive downwards: linear between the centres of pixels.
+    /// `None` where no layer has a value.
+    pub fn depth_at(&self, at: DVec2) -> Option<f64> {
+        let covering = self.0.iter().filter(|(layer, _)| covers(layer, at));
+        let mut values = covering.filter_map(|(_, depths)| {
+            depths.source().raster.raster().linear_at(at).map(|value| depths.sizes().depth_of(value))
+        });
+        values.next()
+    }
+
+    /// Returns the greatest depth of any pixel, in metres; 0 where all is land.
+    pub fn deepest(&self) -> f64 {
+        let depths = self.0.iter().flat_map(|(_, depths)| {
+            let range = depths.source().raster.finite_range();
+            let ends = range.map(|range| [range.least, range.greatest].map(f64::from));
+            ends.into_iter().flatten().map(|value| depths.sizes().depth_of(value))
+        });
+        depths.fold(0.0, f64::max)
+    }
+}
+
+pub(super) fn covers(layer: &Layer, at: DVec2) -> bool {
+    layer.mask.as_ref().is_none_or(|mask| mask.contains(at))
+}
+
+pub(super) fn has_value(depths: &Depths, at: DVec2) -> bool {
+    depths.source().raster.sample(at).is_some_and(|value| !value.is_nan())
+}

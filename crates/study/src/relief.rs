@@ -1,0 +1,235 @@
+//! Depths of water at the pixels of a picture: as a shaded relief with isobaths, and how far a mesh is from
+//! them.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use glam::{DVec2, dvec2};
+
+use crate::geometry::Rect;
+use crate::layers::DepthSurface;
+use crate::mesh::MeshView;
+use crate::raster::Raster;
+
+/// About how many isobaths there are from the shore to the deepest place.
+const ISOBATHS: f64 = 10.0;
+/// How high the deepest place would be drawn above a map, as a share of its longer side.
+const RELIEF: f64 = 0.08;
+/// The direction to the light, east, north and up: from the north-west.
+const LIGHT: [f64; 3] = [-0.5, 0.5, FRAC_1_SQRT_2];
+/// How far a point on an edge can seem to be outside, as a share of the height.
+const ROUNDING: f64 = 1e-9;
+/// Depth that counts as least in relative differences, in metres.
+const LEAST_DEPTH: f64 = 10.0;
+
+/// A surface of depths at the pixels of a picture.
+#[derive(Clone, Debug)]
+pub struct Relief {
+    /// Depths in metres, positive downwards; NaN without one.
+    depths: Raster,
+    /// Metres between isobaths.
+    interval: f64,
+    /// World units up in the relief for each metre.
+    exaggeration: f64,
+}
+
+/// What a pixel of a relief shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReliefPixel {
+    /// The depth in metres, positive downwards.
+    pub depth: f32,
+    /// The light on it: 1 where the ground is level, 0 in full shade, up to 1.4.
+    pub light: f32,
+    /// Whether an isobath runs through it.
+    pub is_isobath: bool,
+}
+
+impl Relief {
+    /// Returns the relief of a surface over `bounds` in world units; `size` is [columns, rows]. `domain` is
+    /// all that the relief could be drawn of: it says how steep the ground is drawn. `None` where `goes_on`
+    /// says at the beginning of a row that nobody wants it any more.
+    pub fn new(
+        surface: &DepthSurface,
+        domain: Rect,
+        bounds: Rect,
+        size: [u32; 2],
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Self> {
+        let grid = Raster::filled(bounds, size, 0_u8);
+        let centers = grid.pixel_centers();
+        let depth = |(x, y)| surface.depth_at(centers(x, y)).map_or(f32::NAN, |depth| depth as f32);
+        let depths = grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| depth((x, y))));
+        let deepest = surface.deepest().max(f64::MIN_POSITIVE);
+        Some(Self {
+            depths: Raster::from_values(bounds, size, depths.collect::<Option<_>>()?),
+            interval: isobath_interval(deepest),
+            exaggeration: RELIEF * domain.size().max_element() / deepest,
+        })
+    }
+
+    /// Returns the pixels row by row from the lowest; `None` for those without a depth.
+    pub fn pixels(&self) -> impl Iterator<Item = Option<ReliefPixel>> + '_ {
+        self.depths.all().pixels().map(|(x, y)| {
+            let depth = self.depths.get(x, y);
+            (!depth.is_nan()).then(|| ReliefPixel {
+                depth,
+                light: self.light(x, y) as f32,
+                is_isobath: self.is_isobath(x, y),
+            })
+        })
+    }
+
+    /// Returns the light on a pixel, by the slope to its neighbours.
+    fn light(&self, x: u32, y: u32) -> f64 {
+        let pixel = self.depths.pixel_size();
+        let here = f64::from(self.depths.get(x, y));
+        let at = |dx: i64, dy: i64| {
+            self.depths.known(i64::from(x) + dx, i64::from(y) + dy).map_or(here, f64::from)
+        };
+        // Heights, so that depths count against them.
+        let rise = 0.5 * self.exaggeration * dvec2(at(-1, 0) - at(1, 0), at(0, -1) - at(0, 1));
+        let slope = rise / pixel;
+        let [east, north, up] = LIGHT;
+        let facing = (up - slope.x * east - slope.y * north) / (1.0 + slope.length_squared()).sqrt();
+        (facing / up).max(0.0)
+    }
+
+    /// Returns whether an isobath runs between a pixel and the one to its right or above it. That of depth 0
+    /// is the shore.
+    fn is_isobath(&self, x: u32, y: u32) -> bool {
+        let band = |depth: f32| (f64::from(depth) / self.interval).floor();
+        let here = band(self.depths.get(x, y));
+        let beside = [(1, 0), (0, 1)].map(|(dx, dy)| self.depths.known(i64::from(x) + dx, i64::from(y) + dy));
+        beside.into_iter().flatten().any(|depth| band(depth) != here && band(depth).max(here) >= 0.0)
+    }
+}
+
+/// Returns the metres between isobaths of a sea: 1, 2 or 5 times a power of ten.
+pub fn isobath_interval(deepest: f64) -> f64 {
+    let about = deepest / ISOBATHS;
+    let power = libm::pow(10.0, libm::log10(about).floor());
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
+    let off = |step: f64| libm::log(step / about).abs();
+    steps.into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(power)
+}
+
+/// Returns how much deeper a mesh is than the surface at the pixels over `bounds`, as a share of the depth
+/// there, or of 10 m where it is less; NaN beyond the mesh, and without a depth. `depths` are those at the
+/// nodes of the mesh. `None` where `goes_on` says that nobody wants it any more.
+pub fn depth_differences(
+    mesh: MeshView,
+    depths: &[f64],
+    surface: &DepthSurface,
+    (bounds, size): (Rect, [u32; 2]),
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Raster> {
+    let mut differences = Raster::filled(bounds, size, f32::NAN);
+    let centers = differences.pixel_centers();
+    for (number, triangle) in mesh.triangles().iter().enumerate() {
+        if number % 4096 == 0 && !goes_on() {
+            return None;
+        }
+        let corners =
+            triangle.vertices.map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node.index()]));
+        let around = corners.map(|at| Rect::new(at, at)).into_iter().reduce(|a, b| a.union(&b))?;
+        if around.intersection(&bounds).is_none() {
+            continue;
+        }
+        for (x, y) in differences.pixels_touching(&around).pixels() {
+            let at = centers(x, y);
+            let Some(weights) = weights(corners, at) else { continue };
+            let Some(depth) = surface.depth_at(at) else { continue };
+            let of_mesh: f64 = (0..3).map(|n| weights[n] * depths[triangle.vertices[n].index()]).sum();
+            differences.set(x, y, ((of_mesh - depth) / depth.abs().max(LEAST_DEPTH)) as f32);
+        }
+    }
+    Some(differences)
+}
+
+/// Returns the weights of the corners at a point in a closed triangle.
+fn weights([a, b, c]: [DVec2; 3], at: DVec2) -> Option<[f64; 3]> {
+    let whole = (b - a).perp_dot(c - a);
+    let parts = [(b, c), (c, a), (a, b)].map(|(from, to)| (to - from).perp_dot(at - from) / whole);
+    parts.iter().all(|part| *part >= -ROUNDING).then_some(parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::field::RefinementRule;
+    use crate::fixture;
+    use crate::layers::{
+        DepthRule, DepthSizes, Depths, Layer, LayerKind, NodeDepths, PositiveDepth, RasterSource,
+    };
+    use crate::mesh::Limits;
+    use crate::raster::RasterPyramid;
+
+    /// Returns a stack with depths over the unit square, in 100 × 100 pixels.
+    fn depths(depth: impl Fn(DVec2) -> f64) -> Vec<Layer> {
+        let mut raster = Raster::filled(Rect::UNIT, [100, 100], 0.0_f32);
+        for (x, y) in raster.all().pixels() {
+            let at = raster.pixel_center(x, y);
+            raster.set(x, y, depth(at) as f32);
+        }
+        let source = RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) };
+        let sizes = DepthSizes {
+            positive: PositiveDepth::Down,
+            rule: DepthRule::Nothing,
+            between: DepthSizes::ALL_WATER,
+        };
+        Layer::stack([LayerKind::Depth(Depths::new(source, sizes))])
+    }
+
+    fn relief(layers: &[Layer]) -> Relief {
+        let surface = DepthSurface::of(layers).unwrap();
+        Relief::new(&surface, Rect::UNIT, Rect::UNIT, [200, 200], &|| true).unwrap()
+    }
+
+    #[test]
+    fn slopes_to_the_north_west_are_lit_and_the_others_in_shade() {
+        // A hill in a sea of 100 m.
+        let layers = depths(|at| 100.0 * (1.0 - (1.0 - 2.5 * at.distance(dvec2(0.5, 0.5))).max(0.0)));
+        let relief = relief(&layers);
+        let pixels: Vec<ReliefPixel> = relief.pixels().map(Option::unwrap).collect();
+        let at = |x: usize, y: usize| pixels[200 * y + x];
+        assert!(at(70, 130).light > 1.05 && at(130, 70).light < 0.95, "{:?} {:?}", at(70, 130), at(130, 70));
+        assert_eq!(at(5, 5), ReliefPixel { depth: 100.0, light: 1.0, is_isobath: false });
+        // From the top to the west: isobaths every 10 m.
+        assert_eq!(isobath_interval(100.0), 10.0);
+        let crossed = (20..=100).filter(|&x| at(x, 100).is_isobath).count();
+        assert!((9..=22).contains(&crossed), "{crossed}");
+        assert!(
+            Relief::new(&DepthSurface::of(&layers).unwrap(), Rect::UNIT, Rect::UNIT, [9, 9], &|| false)
+                .is_none()
+        );
+    }
+
+    #[test]
+    fn intervals_are_1_2_or_5_times_a_power_of_ten() {
+        for (deepest, interval) in [(100.0, 10.0), (7000.0, 500.0), (0.3, 0.02), (2500.0, 200.0), (9.0, 1.0)]
+        {
+            assert!((isobath_interval(deepest) - interval).abs() < 1e-9 * interval, "{deepest}");
+        }
+    }
+
+    #[test]
+    fn a_mesh_is_as_deep_as_a_plane_and_too_shallow_in_a_trench() {
+        let built = fixture::built("0.3", RefinementRule::Area, Limits::default());
+        let extract = built.mesh.extract();
+        let differences = |layers: &[Layer]| {
+            let at_nodes = NodeDepths::of(layers, extract.view()).unwrap().unwrap();
+            let surface = DepthSurface::of(layers).unwrap();
+            let pixels = (Rect::UNIT, [150, 150]);
+            depth_differences(extract.view(), &at_nodes.depths, &surface, pixels, &|| true).unwrap()
+        };
+        let plane = differences(&depths(|at| 50.0 + 20.0 * at.x - 10.0 * at.y));
+        // Beside the rim, the half of the last pixels is level.
+        let inner = plane.pixels_touching(&Rect::new(dvec2(0.15, 0.15), dvec2(0.85, 0.85)));
+        assert!(inner.pixels().all(|(x, y)| plane.get(x, y).abs() < 1e-3));
+        assert!(plane.values().iter().all(|difference| !difference.is_nan()));
+        let trench = depths(|at| if (at.x - 0.54).abs() < 0.015 { 100.0 } else { 20.0 });
+        let trench = differences(&trench);
+        assert!(trench.get(81, 70) < -0.5, "{}", trench.get(81, 70));
+    }
+}
