@@ -20,12 +20,13 @@ use super::path_args::PathArguments;
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
+use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::Projection;
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
-    CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
-    PathSample, Planner, Solution, Weights,
+    CertificateEnd, CertificateTask, CostDensity, PathArea, PathCertificate, PathError, PathMesh,
+    PathRequest, PathSample, Planner, Solution, Weights,
 };
 use meshbrush_io::io::{self as files, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
@@ -58,12 +59,13 @@ pub fn run(
     let extract = finished.extract();
     let density = asked.cost.density(finished.risk())?;
     let start = Instant::now();
-    let search = || asked.path(&*density, extract.view());
+    let area = asked.area(finished.domain())?;
+    let search = || asked.path(&*density, extract.view(), &area);
     let (mut solution, mesh) = terminal
         .while_working("finding the path", search)
         .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
     if let Some(width) = within.filter(|&width| solution.gap() > width) {
-        let task = task(&finished, density.clone(), &asked.keep_out, &solution, width);
+        let task = task(&finished, density.clone(), area, &solution, width);
         let end = prove(&mut solution, &task, mesh, terminal);
         note_end(end, &solution, width, terminal);
     }
@@ -88,6 +90,7 @@ struct Asked {
     places: Vec<DVec2>,
     cost: PathCost,
     keep_out: Vec<Mask>,
+    clearance: f64,
 }
 
 impl Asked {
@@ -105,7 +108,13 @@ impl Asked {
             false => typed.keep_out.iter().map(|path| mask(path, plane)).collect::<Result<_, _>>()?,
         };
         let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
-        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
+        let clearance = typed.clearance.unwrap_or(saved.clearance);
+        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out, clearance })
+    }
+
+    /// Returns where the path may go.
+    fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
+        PathArea::new(domain, self.keep_out.clone(), self.clearance)
     }
 
     /// Returns the path, and the triangles that it was sought in.
@@ -113,8 +122,9 @@ impl Asked {
         &self,
         density: &dyn CostDensity,
         view: MeshView,
+        area: &PathArea,
     ) -> Result<(Solution, Arc<PathMesh>), PathError> {
-        let mesh = PathMesh::with_keep_out(view, &self.keep_out);
+        let mesh = Arc::new(PathMesh::in_area(view, area)).detailed(std::slice::from_ref(&self.places));
         let mut planner = Planner::new(mesh, density)?;
         let solution = planner.solve(density, &self.places, PathRequest::FULL)?;
         Ok((solution, Arc::clone(planner.mesh())))
@@ -211,7 +221,7 @@ fn mask(path: &Path, plane: Option<&Projection>) -> Result<Mask, Failure> {
 fn task(
     finished: &FinishedMesh,
     cost: Arc<dyn CostDensity>,
-    keep_out: &[Mask],
+    area: PathArea,
     solution: &Solution,
     width: f64,
 ) -> CertificateTask {
@@ -219,7 +229,7 @@ fn task(
     CertificateTask::in_rectangle(domain.bounds, cost, solution.points.clone(), solution.upper, width)
         .expect("the bounds of a domain are a rectangle")
         .in_domain(domain)
-        .outside_of(keep_out.to_vec())
+        .in_area(area)
 }
 
 /// Raises the lower bound, and takes better paths. Returns why that ended.
