@@ -351,7 +351,7 @@ fn bad_input_has_a_sentence_and_a_status() {
         (format!("{ends} --length-weight 0 --risk-weight 0"), 1, "one of them above 0."),
         (format!("{ends} --length-weight 0"), 1, "give the length a weight above 0."),
         (format!("{ends} --within 0"), 2, "--within 0: write a share"),
-        (format!("{ends} -o path.vtu"), 2, "use .geojson, .csv, .svg or .png."),
+        (format!("{ends} -o path.vtu"), 2, "use .geojson, .csv, .gpx, .kml, .svg or .png."),
         (format!("{ends} --simplify -1"), 1, "A tolerance of -1 is no distance"),
         (format!("{ends} --cost 1 --risk-weight 2"), 2, "cannot be used with"),
     ] {

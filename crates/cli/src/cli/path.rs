@@ -21,7 +21,7 @@ use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::earth::Projection;
+use meshbrush_core::earth::{EarthPlane, Projection};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
@@ -31,7 +31,7 @@ use meshbrush_core::path::{
 use meshbrush_io::io::{self as files, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
-use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
+use meshbrush_render::render::path_export::{MeshOfPath, NotOnEarth, PathExport, PathFormat};
 
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
@@ -54,6 +54,8 @@ pub fn run(
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let ask = |saved: &PathPlan, plane: Option<&Projection>| Asked::new(typed, places, formula, saved, plane);
     let (read, asked) = read_and_ask(&input, terminal, ask)?;
+    let plane = EarthPlane::new(read.spec.domain.projection, read.unit);
+    outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
@@ -70,7 +72,7 @@ pub fn run(
         note_end(end, &solution, width, terminal);
     }
     let seconds = start.elapsed().as_secs_f64();
-    let export = PathExport::new(&solution, &*density, typed.simplify)?;
+    let export = PathExport::new(&solution, &*density, typed.simplify)?.named(asked.name.clone(), plane);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
@@ -91,6 +93,7 @@ struct Asked {
     cost: PathCost,
     keep_out: Vec<Mask>,
     clearance: f64,
+    name: String,
 }
 
 impl Asked {
@@ -107,9 +110,10 @@ impl Asked {
             true => saved.keep_out_masks(),
             false => typed.keep_out.iter().map(|path| mask(path, plane)).collect::<Result<_, _>>()?,
         };
+        let name = if places.is_some() { "Path".to_owned() } else { saved.name(route_index(typed)) };
         let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
         let clearance = typed.clearance.unwrap_or(saved.clearance);
-        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out, clearance })
+        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out, clearance, name })
     }
 
     /// Returns where the path may go.
@@ -153,6 +157,15 @@ fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
     let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
     let texts = std::iter::once(from).chain(&typed.via).chain([to]);
     texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
+}
+
+/// Returns the number, from 0, of the path of the project or the recipe that is asked for.
+fn route_index(typed: &PathArguments) -> usize {
+    typed.route.unwrap_or(1).saturating_sub(1)
+}
+
+fn usage(error: NotOnEarth) -> Failure {
+    Failure::Usage(format!("-o {error}"))
 }
 
 /// Returns the places of a path of the project or the recipe.

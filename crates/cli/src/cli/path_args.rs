@@ -78,9 +78,12 @@ pub struct PathArguments {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Output")]
     pub simplify: Option<f64>,
 
-    /// File to write, may be repeated: .geojson .csv .svg .png
+    /// File to write, may be repeated: .geojson .csv .gpx .kml .svg .png
     ///
-    /// A .csv has the cost up to each point. A picture has the mesh, with the path over it.
+    /// A .csv has the cost up to each point. A .gpx is a route and a .kml a line in longitudes and latitudes
+    /// (WGS 84): the domain needs a projection, or the unit degrees. They have further points, so that lines
+    /// between them stay within 2 m of the path whether drawn as great circles or with one course. A picture
+    /// has the mesh, with the path over it.
     #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
     pub output: Vec<PathBuf>,
 

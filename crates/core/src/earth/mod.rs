@@ -9,6 +9,8 @@ mod cone;
 mod ellipsoid;
 mod extent;
 mod outline;
+mod plane;
+mod route;
 mod text;
 mod transverse;
 
@@ -21,6 +23,8 @@ use transverse::Transverse;
 pub use choice::{ProjectionChoice, ProjectionError};
 pub use extent::GeographicExtent;
 pub use outline::{projected_line, projected_polygons};
+pub use plane::EarthPlane;
+pub use route::RoutePoint;
 pub use text::ProjectionTextError;
 
 /// A family of conformal projections.
