@@ -76,8 +76,8 @@ pub use meshbrush_mesh::text::LengthUnit;
 #[doc(inline)]
 pub use meshbrush_core::path::{
     Certificate, CertificateEnd, CertificateTask, Corridor, CostDensity, CostRange, Effort, FormulaCost,
-    Passage, PathCertificate, PathError, PathMesh, PathRequest, PathSample, Placement, PlacementTest,
-    Planner, Solution, TriangleCosts, Waypoint, WeightedCost, Weights,
+    Passage, PathArea, PathCertificate, PathError, PathMesh, PathRequest, PathSample, Placement,
+    PlacementTest, Planner, Solution, TriangleCosts, Waypoint, WeightedCost, Weights,
 };
 
 // Query a mesh.

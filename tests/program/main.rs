@@ -11,6 +11,7 @@ mod located;
 mod memory;
 mod one_program;
 mod path_cli;
+mod path_routes;
 mod project;
 mod readme;
 mod recipe;

@@ -217,6 +217,7 @@ fn paths(random: &mut fastrand::Rng) -> PathPlan {
         names: Vec::new(),
         cost,
         keep_out: (0..random.usize(..3)).map(|number| keep_out(number, random)).collect(),
+        clearance: [0.0, 0.01][random.usize(..2)],
     };
     plan.with_names((0..random.usize(..3)).map(|n| ["Ferry", "道 “2”"][n].to_owned()))
 }

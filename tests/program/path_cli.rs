@@ -4,7 +4,7 @@ use std::fs;
 use std::sync::Arc;
 
 use crate::folder::{Folder, Ran};
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 use meshbrush::RiskField;
 use meshbrush_core::build::MeshBuilder;
 use meshbrush_core::document::{Document, KeepOut, PathCost, PathPlan, Settings};
@@ -55,16 +55,67 @@ fn a_proof_narrows_the_interval() {
 #[test]
 fn a_path_without_a_proof_is_written_all_the_same() {
     let folder = Folder::new("no-proof");
-    let inlet = r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0.6,1],[0.6,0.7],[0.4,0.7],[0.4,1],
-        [0,1],[0,0]]]}"#;
-    fs::write(folder.0.join("inlet.geojson"), inlet).unwrap();
-    // Triangles so large that they cover a part of the inlet.
-    let coarse = "--region inlet.geojson --spacing 0.25 --target 0.5 --boundary-diameter 0.5";
-    let ran = path(&folder, &format!("{coarse} --from 0.45,0.75 --to 0.9,0.1 --within 1%"));
+    let options =
+        "--spacing 0.25 --from 0.2,0.3 --to 0.8,0.6 --cost 'if(hypot(x - 0.5, y - 0.5) < 0.2, 9, 1)'";
+    let ran = path(&folder, &format!("{options} --within 0.00001%"));
     assert_eq!(ran.status, 0, "{}", ran.err);
-    assert!(ran.out.starts_with("cost 0.79"), "{}", ran.out);
-    let said = "not proved to be within 1 % of the best. No bound is proved from the start (0.45, 0.75)";
-    assert!(ran.err.contains(said), "{}", ran.err);
+    assert!(ran.out.starts_with("cost 0.746"), "{}", ran.out);
+    assert!(
+        ran.err.contains("note: The path is proved to be within 1.03 % of the best, not "),
+        "{}",
+        ran.err
+    );
+}
+
+/// The unit square without a cape from below that ends in a point, as GeoJSON, and the cape itself.
+const CAPE: &str =
+    r#"{"type":"Polygon","coordinates":[[[0,0],[0.45,0],[0.5,0.6],[0.55,0],[1,0],[1,1],[0,1],[0,0]]]}"#;
+
+#[test]
+fn a_path_keeps_the_clearance_from_a_cape_that_the_mesh_cuts() {
+    let folder = Folder::new("clearance");
+    fs::write(folder.0.join("cape.geojson"), CAPE).unwrap();
+    // Triangles so large that the mesh covers the tip.
+    let options = "--region cape.geojson --spacing 0.25 --target 0.5 --boundary-diameter 0.5";
+    let ends = "--from 0.1,0.3 --to 0.9,0.3";
+    let from_cape = |more: &str| {
+        let answer = folder.json("path", format!("{options} {ends} {more}"));
+        let point = |point: &Value| dvec2(point[0].as_f64().unwrap(), point[1].as_f64().unwrap());
+        let points: Vec<_> = answer["points"].as_array().unwrap().iter().map(point).collect();
+        let to_segment = |p: DVec2, a: DVec2, b: DVec2| {
+            let share = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+            p.distance(a + share * (b - a))
+        };
+        let [left, tip, right] = [dvec2(0.45, 0.0), dvec2(0.5, 0.6), dvec2(0.55, 0.0)];
+        let sides = [[left, tip], [tip, right]];
+        let piece = |pair: &[DVec2]| {
+            let ends = sides.iter().flat_map(|side| pair.iter().map(|&p| to_segment(p, side[0], side[1])));
+            ends.fold(to_segment(tip, pair[0], pair[1]), f64::min)
+        };
+        assert!(
+            points.iter().all(|p| p.y > 0.29) && points.iter().any(|p| p.y > 0.6),
+            "over the tip: {points:?}"
+        );
+        points.windows(2).map(piece).fold(f64::INFINITY, f64::min)
+    };
+    for more in ["", "--simplify 0.1", "--within 5%"] {
+        let distance = from_cape(more);
+        assert!(distance > 0.0 && distance < 0.05, "{more}: {distance}");
+        let distance = from_cape(&format!("{more} --clearance 0.2"));
+        assert!((0.2..0.25).contains(&distance), "{more}: {distance}");
+    }
+    let refused = |more: &str, message: &str| {
+        let ran = path(&folder, &format!("{options} {more}"));
+        assert!(ran.status != 0 && ran.err.contains(message), "{more}: {}", ran.err);
+    };
+    refused(
+        "--from 0.4,0.6 --to 0.9,0.3 --clearance 0.25",
+        "The start (0.4, 0.6) is only 0.0996546 from the outline of the domain or a keep-out region, and the clearance of \
+         paths is 0.25.",
+    );
+    refused("--from 0.5,0.59 --to 0.9,0.3", "The start (0.5, 0.59) lies ");
+    refused("--from 0.01,0.3 --to 0.99,0.3 --clearance 0.41", "enclose the");
+    refused(&format!("{ends} --clearance -1"), "A clearance of -1 is no distance");
 }
 
 #[test]
@@ -178,7 +229,7 @@ fn each_obstacle_has_an_error_of_its_own() {
     for (arguments, message) in [
         (
             "--spacing 0.05 --keep-out wall.geojson",
-            "keep-out regions, with the triangles that they touch, enclose",
+            "keep-out regions, the outline of the domain and the clearance, with the triangles that they touch, enclose",
         ),
         ("--spacing 0.05 --inside 'abs(x-0.5)>0.2'", "but the domain may: a strait between them"),
         ("--spacing 0.05 --cost '1+1e300*x'", "Only costs from 1e-100 to 1e100 can be added up"),
@@ -207,9 +258,9 @@ fn a_project_or_its_recipe_decides_places_cost_and_regions_unless_options_do() {
     let cost = PathCost::Weighted(Weights { length: 3.0, risk: 1.0 });
     let plan = PathPlan {
         routes: routes.clone(),
-        names: Vec::new(),
         cost: cost.clone(),
         keep_out: [region("a", 0.0)].into(),
+        ..PathPlan::default()
     };
     let settings = Settings { paths: Arc::new(plan), ..Settings::default() };
     let document = Document::new(settings, None).unwrap();
@@ -300,7 +351,7 @@ fn bad_input_has_a_sentence_and_a_status() {
         (format!("{ends} --length-weight 0 --risk-weight 0"), 1, "one of them above 0."),
         (format!("{ends} --length-weight 0"), 1, "give the length a weight above 0."),
         (format!("{ends} --within 0"), 2, "--within 0: write a share"),
-        (format!("{ends} -o path.vtu"), 2, "use .geojson, .csv, .svg or .png."),
+        (format!("{ends} -o path.vtu"), 2, "use .geojson, .csv, .gpx, .kml, .svg or .png."),
         (format!("{ends} --simplify -1"), 1, "A tolerance of -1 is no distance"),
         (format!("{ends} --cost 1 --risk-weight 2"), 2, "cannot be used with"),
     ] {

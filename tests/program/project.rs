@@ -70,7 +70,8 @@ fn paths(random: &mut fastrand::Rng) -> PathPlan {
     };
     let keep_out = (0..2).map(&mut region).collect();
     let names = (0..random.usize(..4)).map(|n| ["", "Ferry", "Шлях", "道"][n].to_owned());
-    PathPlan { routes, names: Vec::new(), cost, keep_out }.with_names(names)
+    let clearance = [0.0, 0.25 * random.f64()][random.usize(..2)];
+    PathPlan { routes, names: Vec::new(), cost, keep_out, clearance }.with_names(names)
 }
 
 /// Outlines with holes, crossing themselves and each other, at places where coordinates have many digits.

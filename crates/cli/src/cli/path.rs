@@ -20,16 +20,18 @@ use super::path_args::PathArguments;
 use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::earth::EarthPlane;
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
-    CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathError, PathMesh, PathRequest,
-    PathSample, Planner, Solution, Weights,
+    CertificateEnd, CertificateTask, CostDensity, PathArea, PathCertificate, PathError, PathMesh,
+    PathRequest, PathSample, Planner, Solution, Weights,
 };
 use meshbrush_io::io::{self as files, DocumentPlane, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
-use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
+use meshbrush_render::render::path_export::{MeshOfPath, NotOnEarth, PathExport, PathFormat};
 
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
 ///
@@ -53,22 +55,25 @@ pub fn run(
     let ask =
         |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, places, formula, saved, plane);
     let (read, asked) = read_and_ask(&input, terminal, ask)?;
+    let plane = EarthPlane::new(read.spec.domain.projection, read.unit);
+    outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let density = asked.cost.density(finished.risk())?;
     let start = Instant::now();
-    let search = || asked.path(&*density, extract.view());
+    let area = asked.area(finished.domain())?;
+    let search = || asked.path(&*density, extract.view(), &area);
     let (mut solution, mesh) = terminal
         .while_working("finding the path", search)
         .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
     if let Some(width) = within.filter(|&width| solution.gap() > width) {
-        let task = task(&finished, density.clone(), &asked.keep_out, &solution, width);
+        let task = task(&finished, density.clone(), area, &solution, width);
         let end = prove(&mut solution, &task, mesh, terminal);
         note_end(end, &solution, width, terminal);
     }
     let seconds = start.elapsed().as_secs_f64();
-    let export = PathExport::new(&solution, &*density, typed.simplify)?;
+    let export = PathExport::new(&solution, &*density, typed.simplify)?.named(asked.name.clone(), plane);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
@@ -88,6 +93,8 @@ struct Asked {
     places: Vec<DVec2>,
     cost: PathCost,
     keep_out: Vec<Mask>,
+    clearance: f64,
+    name: String,
 }
 
 impl Asked {
@@ -104,8 +111,15 @@ impl Asked {
             true => saved.keep_out_masks(),
             false => typed.keep_out.iter().map(|path| mask(path, plane)).collect::<Result<_, _>>()?,
         };
+        let name = if places.is_some() { "Path".to_owned() } else { saved.name(route_index(typed)) };
         let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
-        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out })
+        let clearance = typed.clearance.unwrap_or(saved.clearance);
+        Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out, clearance, name })
+    }
+
+    /// Returns where the path may go.
+    fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
+        PathArea::new(domain, self.keep_out.clone(), self.clearance)
     }
 
     /// Returns the path, and the triangles that it was sought in.
@@ -113,8 +127,9 @@ impl Asked {
         &self,
         density: &dyn CostDensity,
         view: MeshView,
+        area: &PathArea,
     ) -> Result<(Solution, Arc<PathMesh>), PathError> {
-        let mesh = PathMesh::with_keep_out(view, &self.keep_out);
+        let mesh = Arc::new(PathMesh::in_area(view, area)).detailed(std::slice::from_ref(&self.places));
         let mut planner = Planner::new(mesh, density)?;
         let solution = planner.solve(density, &self.places, PathRequest::FULL)?;
         Ok((solution, Arc::clone(planner.mesh())))
@@ -144,6 +159,15 @@ fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
     let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
     let texts = std::iter::once(from).chain(&typed.via).chain([to]);
     texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
+}
+
+/// Returns the number, from 0, of the path of the project or the recipe that is asked for.
+fn route_index(typed: &PathArguments) -> usize {
+    typed.route.unwrap_or(1).saturating_sub(1)
+}
+
+fn usage(error: NotOnEarth) -> Failure {
+    Failure::Usage(format!("-o {error}"))
 }
 
 /// Returns the places of a path of the project or the recipe.
@@ -212,7 +236,7 @@ fn mask(path: &Path, plane: Option<&DocumentPlane>) -> Result<Mask, Failure> {
 fn task(
     finished: &FinishedMesh,
     cost: Arc<dyn CostDensity>,
-    keep_out: &[Mask],
+    area: PathArea,
     solution: &Solution,
     width: f64,
 ) -> CertificateTask {
@@ -220,7 +244,7 @@ fn task(
     CertificateTask::in_rectangle(domain.bounds, cost, solution.points.clone(), solution.upper, width)
         .expect("the bounds of a domain are a rectangle")
         .in_domain(domain)
-        .outside_of(keep_out.to_vec())
+        .in_area(area)
 }
 
 /// Raises the lower bound, and takes better paths. Returns why that ended.

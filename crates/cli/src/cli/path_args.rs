@@ -33,6 +33,14 @@ pub struct PathArguments {
     #[arg(long, value_name = "FILE.geojson", help_heading = "Path")]
     pub keep_out: Vec<PathBuf>,
 
+    /// Keep paths at least this far from the outline of the domain, where polygons give it, and from keep-out
+    /// regions [default: that of the project or recipe, or 0]
+    ///
+    /// A length in the unit of the domain. Triangles that are nearer are left out; along them the mesh is
+    /// divided for the path. Sides of the rectangle around the domain do not count.
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Path")]
+    pub clearance: Option<f64>,
+
     /// Cost per unit of length as a formula of x, y and risk, in place of the weights
     ///
     /// Without this and without weights, the cost is that of the project or recipe.
@@ -70,9 +78,12 @@ pub struct PathArguments {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Output")]
     pub simplify: Option<f64>,
 
-    /// File to write, may be repeated: .geojson .csv .svg .png
+    /// File to write, may be repeated: .geojson .csv .gpx .kml .svg .png
     ///
-    /// A .csv has the cost up to each point. A picture has the mesh, with the path over it.
+    /// A .csv has the cost up to each point. A .gpx is a route and a .kml a line in longitudes and latitudes
+    /// (WGS 84): the domain needs a projection, or the unit degrees. They have further points, so that lines
+    /// between them stay within 2 m of the path whether drawn as great circles or with one course. A picture
+    /// has the mesh, with the path over it.
     #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
     pub output: Vec<PathBuf>,
 

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::domain::Domain;
 use crate::field::CostFormula;
 use crate::layers::{Mask, RiskField};
-use crate::path::{CostDensity, FormulaCost, PathError, Waypoint, WeightedCost, Weights};
+use crate::path::{
+    CostDensity, FormulaCost, PathArea, PathError, Waypoint, WeightedCost, Weights, check_clearance,
+};
 
 /// The paths of a document. They do not change the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,6 +23,8 @@ pub struct PathPlan {
     pub cost: PathCost,
     /// The regions that paths do not enter.
     pub keep_out: Arc<[KeepOut]>,
+    /// The least distance of paths from the outline of the domain and from keep-out regions, in world units.
+    pub clearance: f64,
 }
 
 /// A region that paths stay out of. Clones share its polygons.
@@ -60,11 +65,11 @@ impl PathCost {
 }
 
 impl PathPlan {
-    /// Checks the places and the weights.
+    /// Checks the places, the clearance and the weights.
     ///
     /// # Errors
-    /// Fails for the first place that is not finite, a route of fewer than two places, and weights that make
-    /// no cost.
+    /// Fails for the first place that is not finite, a route of fewer than two places, a clearance that is no
+    /// distance, and weights that make no cost.
     pub fn check(&self) -> Result<(), PathError> {
         for route in &self.routes {
             if route.len() < 2 {
@@ -74,6 +79,7 @@ impl PathPlan {
                 return Err(PathError::NotAPlace { which: Waypoint::of(n, route.len()), at });
             }
         }
+        check_clearance(self.clearance)?;
         self.cost.density(RiskField::default()).map(|_| ())
     }
 
@@ -132,6 +138,14 @@ impl PathPlan {
         self.routes.iter().enumerate().flat_map(|(route, places)| {
             places.iter().enumerate().map(move |(place, &at)| ((route, place), at))
         })
+    }
+
+    /// Returns the part of a domain where the paths may go.
+    ///
+    /// # Errors
+    /// Fails when the clearance is negative, NaN or infinite.
+    pub fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
+        PathArea::new(domain, self.keep_out_masks(), self.clearance)
     }
 
     /// Returns the area of each keep-out region.

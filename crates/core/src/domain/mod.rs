@@ -7,6 +7,7 @@ mod outline_edge;
 mod fit;
 mod fit_quality;
 mod on_lattice;
+mod outline;
 mod outline_query;
 mod region;
 mod region_builder;
@@ -39,6 +40,7 @@ pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
+pub(crate) use outline::Outline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
 

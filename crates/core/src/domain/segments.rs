@@ -46,6 +46,11 @@ impl Segments {
         Some((number, self.distance(number, p)))
     }
 
+    /// Visits the segments whose rectangles meet another, until `visit` breaks.
+    pub fn visit_meeting(&self, area: &Rect, visit: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
+        self.tree.visit_meeting(area, visit)
+    }
+
     /// Calls `found` once for each segment within a distance of `p`, with its distance.
     pub fn visit_within(&self, p: DVec2, reach: f64, mut found: impl FnMut(u32, f64)) {
         let _ = self.tree.visit_meeting(&Rect::around(p, reach), |number| {

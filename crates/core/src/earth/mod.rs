@@ -10,8 +10,10 @@ mod coordinates;
 mod ellipsoid;
 mod extent;
 mod outline;
+mod plane;
 mod register;
 mod reprojection;
+mod route;
 mod text;
 mod transverse;
 
@@ -25,7 +27,9 @@ pub use choice::{ProjectionChoice, ProjectionError};
 pub use coordinates::{Coordinates, CoordinatesTextError};
 pub use extent::GeographicExtent;
 pub use outline::{projected_line, projected_polygons};
+pub use plane::EarthPlane;
 pub use reprojection::Reprojection;
+pub use route::RoutePoint;
 pub use text::ProjectionTextError;
 
 /// A family of conformal projections.

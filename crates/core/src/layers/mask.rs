@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, Ring};
-use crate::geometry::{BoxTree, Rect};
+use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
 /// The part of the plane that polygons cover.
 ///
@@ -166,7 +166,23 @@ impl Mask {
         }
     }
 
-    fn largest_coordinate(&self) -> f64 {
+    /// Visits the edges whose rectangles meet another, until `visit` breaks.
+    pub(crate) fn visit_edges_meeting(
+        &self,
+        area: &Rect,
+        mut visit: impl FnMut([DVec2; 2]) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.0.tree.visit_meeting(area, |number| visit(self.0.edges[number as usize]))
+    }
+
+    /// Returns the edge that is nearest to a point.
+    pub(crate) fn nearest_edge(&self, p: DVec2) -> Option<[DVec2; 2]> {
+        let squared = |number: u32| p.distance_squared(nearest_on_segment(p, self.0.edges[number as usize]));
+        self.0.tree.nearest(p, squared).map(|(number, _)| self.0.edges[number as usize])
+    }
+
+    /// Returns the largest absolute value of a coordinate.
+    pub(crate) fn largest_coordinate(&self) -> f64 {
         let Rect { min, max } = self.bounds();
         min.abs().max(max.abs()).max_element()
     }

@@ -130,8 +130,9 @@ impl PathMesh {
         {
             let places = corners.map(|node| self.nodes[node as usize]);
             let mut triangle = PathTriangle { corners, obtuse: obtuse_corner(&places), ..old };
-            if old.passage == Passage::Partly && self.has_keep_out() {
-                triangle.passage = self.passage_of_part(&places);
+            triangle.divisions = old.divisions.saturating_sub(1);
+            if old.passage == Passage::Partly && !self.area().is_everything() {
+                triangle.passage = self.area().passage(&places);
                 triangle.is_kept_out = triangle.passage == Passage::Closed;
             }
             let obtuse = triangle.obtuse;

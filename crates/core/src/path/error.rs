@@ -78,10 +78,10 @@ pub enum PathError {
         at: DVec2,
     },
     /// The start, the goal or a via point is in a region where no path may go, or in a triangle that touches
-    /// one.
+    /// one or the outline.
     #[error(
-        "The {which} {} lies in a keep-out region, or in a triangle that one touches. Choose a place farther \
-         away, or make the mesh finer there.",
+        "The {which} {} lies in a keep-out region, or in a triangle that one or the outline touches. Choose a \
+         place farther away, or make the mesh finer there.",
         PointInWords(*at)
     )]
     KeptOut {
@@ -89,6 +89,42 @@ pub enum PathError {
         which: Waypoint,
         /// The place, in world units.
         at: DVec2,
+    },
+    /// The start, the goal or a via point is not on the polygons of the domain, but in a triangle of the
+    /// mesh.
+    #[error(
+        "The {which} {} lies on the outline of the domain or beyond it, though a triangle of the mesh holds it. \
+         Paths stay on the polygons of the domain: choose a place on them.",
+        PointInWords(*at)
+    )]
+    BesidePolygons {
+        /// Which place.
+        which: Waypoint,
+        /// The place, in world units.
+        at: DVec2,
+    },
+    /// The start, the goal or a via point is nearer than the clearance to the outline or to a keep-out
+    /// region.
+    #[error(
+        "The {which} {} is only {} from the outline of the domain or a keep-out region, and the clearance of paths is \
+         {}. Choose a place farther away, or a smaller clearance.",
+        PointInWords(*at), Number(rounded(*distance, VALUE_DIGITS)), Number(rounded(*clearance, VALUE_DIGITS))
+    )]
+    TooClose {
+        /// Which place.
+        which: Waypoint,
+        /// The place, in world units.
+        at: DVec2,
+        /// Its distance, in world units.
+        distance: f64,
+        /// The clearance, in world units.
+        clearance: f64,
+    },
+    /// A clearance is negative, NaN or infinite.
+    #[error("A clearance of {} is no distance: it must be a finite number from 0.", Number(*clearance))]
+    InvalidClearance {
+        /// The clearance as given.
+        clearance: f64,
     },
     /// A cost is so great or so small that sums of costs along paths overflow or are lost.
     #[error(
@@ -124,10 +160,11 @@ pub enum PathError {
         /// The end of the path.
         to: Waypoint,
     },
-    /// Keep-out regions separate two places.
+    /// Keep-out regions, the outline or the clearance separate two places.
     #[error(
-        "No path leads from the {from} to the {to}: keep-out regions, with the triangles that they touch, \
-         enclose the {which}. Remove or move a region, or make the mesh finer between regions."
+        "No path leads from the {from} to the {to}: keep-out regions, the outline of the domain and the \
+         clearance, with the triangles that they touch, enclose the {which}. Choose a smaller clearance, remove or \
+         move a region, or make the mesh finer where the way is narrow."
     )]
     Enclosed {
         /// The place that is enclosed: of the two parts, its own has fewer triangles.
@@ -171,10 +208,16 @@ impl PathError {
     /// Returns the error as what is known of the domain tells it: whether two places that the mesh does not
     /// connect lie in different parts of the domain as well. `places` are those that the path was to visit.
     pub fn in_domain(self, domain: &Domain, places: &[DVec2]) -> Self {
-        let Self::Apart { from, to } = self else { return self };
+        let (from, to) = match self {
+            Self::Apart { from, to } | Self::Enclosed { from, to, .. } => (from, to),
+            _ => return self,
+        };
         let polygons = match &domain.shape {
             DomainShape::Whole => return self,
-            DomainShape::Formula(_) => return Self::MeshApart { from, to },
+            DomainShape::Formula(_) if matches!(self, Self::Apart { .. }) => {
+                return Self::MeshApart { from, to };
+            }
+            DomainShape::Formula(_) => return self,
             DomainShape::Region(region) => region.polygons(),
         };
         let part = |which: Waypoint| {
@@ -182,7 +225,8 @@ impl PathError {
             polygons.iter().position(|polygon| covers(polygon, *place))
         };
         match (part(from), part(to)) {
-            (Some(a), Some(b)) if a != b => self,
+            (Some(a), Some(b)) if a != b => Self::Apart { from, to },
+            _ if matches!(self, Self::Enclosed { .. }) => self,
             // A place that is in no part is beside the outline, where the mesh follows it roughly.
             _ => Self::MeshApart { from, to },
         }

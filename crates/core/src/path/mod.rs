@@ -1,7 +1,8 @@
 //! Paths of least cost through the domain, with bounds of how far from the best they can be.
 //!
 //! ```text
-//!   mesh, keep-out regions → PathMesh: triangles that paths go through
+//!   domain, keep-out regions, clearance → PathArea: where paths may go
+//!   mesh, PathArea         → PathMesh: triangles that paths go through, smaller along the rim of the area
 //!   CostDensity            → TriangleCosts: the mean and the least cost of each triangle; finer triangles
 //!                            where the cost varies much
 //!   March                  → distance to each node: fast marching on triangles
@@ -16,10 +17,12 @@
 //! ```
 
 mod alternatives;
+mod area;
 mod bisection;
 mod certificate;
 mod corridor;
 mod cost;
+mod detail;
 mod error;
 mod front;
 mod integral;
@@ -46,6 +49,8 @@ mod walls;
 mod ways;
 
 pub use alternatives::{Alternatives, Difference};
+pub use area::PathArea;
+pub(crate) use area::check_clearance;
 pub use certificate::{
     Certificate, CertificateEnd, CertificateTask, PathCertificate, Placement, PlacementTest,
 };

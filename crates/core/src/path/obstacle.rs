@@ -26,7 +26,7 @@ pub(super) fn obstacle(mesh: &PathMesh, places: [Place; 2], [from, to]: [Waypoin
 }
 
 /// Returns the nodes in parts that hang together by the triangles that count.
-fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> Parts {
+pub(super) fn parts(mesh: &PathMesh, counts: impl Fn(&PathTriangle) -> bool) -> Parts {
     let mut parts = Parts::new(mesh.nodes.len());
     for triangle in mesh.triangles.iter().filter(|triangle| counts(triangle)) {
         let [a, b, c] = triangle.corners.map(|node| node as usize);

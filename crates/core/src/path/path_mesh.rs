@@ -1,16 +1,20 @@
 //! The triangles that paths go through, as plain arrays.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
+use super::area::PathArea;
 use crate::geometry::{BoxTree, Rect, Side, side_of_points, z_order};
-use crate::layers::{Coverage, Mask};
+use crate::layers::Mask;
 use crate::mesh::MeshView;
 
 /// Marks a missing triangle.
 pub(super) const NONE: u32 = u32::MAX;
+/// A thread looks at so many triangles at a time.
+const TOGETHER: usize = 1024;
 
 /// Whether paths go through a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,10 +42,10 @@ pub struct PathMesh {
     /// The triangles around each node that are not closed.
     around: Vec<u32>,
     pub(super) has_obtuse: bool,
-    /// The regions that paths stay out of.
-    keep_out: Arc<[Mask]>,
-    /// Whether the triangles cover the whole rectangle of the mesh, but for what keep-out regions hold: then
-    /// no path through the domain leaves them.
+    /// Where paths may go.
+    area: PathArea,
+    /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
+    /// path through the domain leaves them.
     pub(super) covers_domain: bool,
     tree: OnceLock<BoxTree>,
 }
@@ -54,8 +58,10 @@ pub(super) struct PathTriangle {
     pub passage: Passage,
     /// The corner with an obtuse angle; 3 without one.
     pub obtuse: u8,
-    /// Whether it belongs to the domain and is closed by a keep-out region.
+    /// Whether it belongs to the mesh of the domain, and no point of it to the area of paths.
     pub is_kept_out: bool,
+    /// How often it is still bisected along the rim of that area.
+    pub divisions: u8,
 }
 
 impl PathTriangle {
@@ -72,11 +78,39 @@ impl PathMesh {
 
     /// Keep-out regions close the triangles within and leave out those that they touch.
     pub fn with_keep_out(view: MeshView, keep_out: &[Mask]) -> Self {
-        let passage = |corners: &[DVec2; 3], is_outside| match is_outside {
-            true => Passage::Closed,
-            false => passage_beside(keep_out, corners),
+        Self::in_area(view, &PathArea::outside_of(keep_out))
+    }
+
+    /// The triangles outside an area are closed, and those through which its rim passes are left out. Along
+    /// the outline of a domain, and with a clearance, these are bisected first.
+    pub fn in_area(view: MeshView, area: &PathArea) -> Self {
+        let mut mesh = Self { area: area.clone(), ..Self::new(view) };
+        if !area.is_everything() {
+            mesh.close_outside_area();
+            mesh.divide_along_area();
+        }
+        mesh
+    }
+
+    /// Returns the area of paths.
+    pub fn area(&self) -> &PathArea {
+        &self.area
+    }
+
+    /// Closes triangles that the area does not have.
+    fn close_outside_area(&mut self) {
+        let passage = |number: u32| match self.passage(number) {
+            Passage::Closed => Passage::Closed,
+            _ => self.area.passage(&self.corners(number)),
         };
-        Self { keep_out: keep_out.into(), ..Self::with_passages(view, passage) }
+        let numbers = (0..self.triangles.len() as u32).into_par_iter();
+        let passages: Vec<Passage> = numbers.with_min_len(TOGETHER).map(passage).collect();
+        for (triangle, passage) in self.triangles.iter_mut().zip(passages) {
+            triangle.is_kept_out = passage == Passage::Closed && triangle.is_passable();
+            triangle.passage = passage;
+        }
+        self.has_obtuse = self.triangles.iter().any(|triangle| triangle.obtuse < 3 && triangle.is_passable());
+        self.connect();
     }
 
     /// `passage` says for each triangle, by its corners and whether it is marked as outside the domain,
@@ -94,7 +128,7 @@ impl PathMesh {
             mesh.has_obtuse |= obtuse < 3 && passage > Passage::Closed;
             covered += if triangle.is_outside() { 0 } else { twice_area(&view, corners) };
             let is_kept_out = passage == Passage::Closed && !triangle.is_outside();
-            mesh.triangles.push(PathTriangle { corners, passage, obtuse, is_kept_out });
+            mesh.triangles.push(PathTriangle { corners, passage, obtuse, is_kept_out, divisions: 0 });
             mesh.across.push(across);
         }
         let extent = lattice.extent();
@@ -110,16 +144,6 @@ impl PathMesh {
             || (self.nodes == other.nodes
                 && self.triangles.len() == other.triangles.len()
                 && self.triangles.iter().zip(&other.triangles).all(|(a, b)| a.corners == b.corners))
-    }
-
-    /// Returns whether there are regions that paths stay out of.
-    pub(super) fn has_keep_out(&self) -> bool {
-        !self.keep_out.is_empty()
-    }
-
-    /// Returns whether paths go through a part of a triangle that a keep-out region touches.
-    pub(super) fn passage_of_part(&self, corners: &[DVec2; 3]) -> Passage {
-        passage_beside(&self.keep_out, corners)
     }
 
     /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes.
@@ -237,7 +261,7 @@ impl PathMesh {
         })
     }
 
-    /// Returns whether a point lies in a triangle of the domain that a keep-out region closes.
+    /// Returns whether a point lies in a triangle of the domain that the area of paths closes.
     pub(super) fn is_kept_out(&self, point: DVec2) -> bool {
         let holds = |&t: &u32| self.triangles[t as usize].is_kept_out && contains(&self.corners(t), point);
         self.around_point(point).iter().any(holds)
@@ -274,17 +298,6 @@ impl PathMesh {
         };
         self.around_point(point).into_iter().find(contains)
     }
-}
-
-/// Returns whether paths that stay out of regions go through a triangle.
-fn passage_beside(keep_out: &[Mask], &[a, b, c]: &[DVec2; 3]) -> Passage {
-    let rectangle = Rect::new(a.min(b).min(c), a.max(b).max(c));
-    let passage = |mask: &Mask| match mask.classify(&rectangle) {
-        Coverage::Inside => Passage::Closed,
-        Coverage::Mixed => Passage::Partly,
-        Coverage::Outside => Passage::Open,
-    };
-    keep_out.iter().map(passage).min().unwrap_or(Passage::Open)
 }
 
 /// Returns twice the area of a triangle, in square lattice steps.

@@ -29,7 +29,7 @@ impl Place {
         match mesh.open_triangle_at(point) {
             Some(triangle) => Ok(Self { point: mesh.moved_into(triangle, point), triangle }),
             None if mesh.locate(point, Passage::Partly).is_some() || mesh.is_kept_out(point) => {
-                Err(PathError::KeptOut { which, at: point })
+                Err(mesh.area().refusal(which, point).unwrap_or(PathError::KeptOut { which, at: point }))
             }
             None => Err(PathError::Outside { which, at: point }),
         }

@@ -26,6 +26,7 @@ mod outline_follower;
 mod path;
 mod path_bounds;
 mod path_choices;
+mod path_coast;
 mod path_edits;
 mod path_random;
 mod path_referees;

@@ -1,4 +1,4 @@
-//! Exports a path: as GeoJSON, as a table, or as a picture over its mesh.
+//! Exports a path: as GeoJSON, as a table, as a route on the Earth, or as a picture over its mesh.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -7,9 +7,12 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::export::{ExportFormat, Look};
+use meshbrush_core::earth::{Coordinates, EarthPlane};
 use meshbrush_core::path::{CostDensity, PathError, PathSample, Solution};
+use meshbrush_io::io::gpx::write_gpx;
+use meshbrush_io::io::kml::write_kml;
 use meshbrush_io::io::path::{write_csv, write_geojson};
-use meshbrush_io::io::{Meter, Provenance, write_file_metered};
+use meshbrush_io::io::{Meter, Provenance, RouteOnEarth, write_file_metered};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 
 /// A file format for paths.
@@ -19,18 +22,31 @@ pub enum PathFormat {
     GeoJson,
     /// A table with the cost up to each point.
     Csv,
+    /// A route for navigation programs.
+    Gpx,
+    /// A line for programs that show the Earth.
+    Kml,
     /// A picture of the mesh with the path over it.
     Picture(ExportFormat),
 }
 
 /// The error for a file name whose ending belongs to no format for paths.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}: the ending decides the format; use .geojson, .csv, .svg or .png", .0.display())]
+#[error("{}: the ending decides the format; use .geojson, .csv, .gpx, .kml, .svg or .png", .0.display())]
 pub struct UnknownPathEnding(pub PathBuf);
+
+/// The error for a route of a document that does not lie on the Earth.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{}: GPX and KML have longitudes and latitudes, and the coordinates of this path have no place on the Earth. \
+     They need a projection, or the unit degrees; .geojson and .csv write them as they are.",
+    .0.display()
+)]
+pub struct NotOnEarth(pub PathBuf);
 
 impl PathFormat {
     /// All endings, without their dots, the usual one first.
-    pub const ENDINGS: [&'static str; 5] = ["geojson", "csv", "svg", "png", "json"];
+    pub const ENDINGS: [&'static str; 7] = ["geojson", "csv", "gpx", "kml", "svg", "png", "json"];
 
     /// Returns the format that the ending of a file name chooses; upper and lower case are the same.
     ///
@@ -41,9 +57,22 @@ impl PathFormat {
         match ending.as_str() {
             "geojson" | "json" => Ok(Self::GeoJson),
             "csv" => Ok(Self::Csv),
+            "gpx" => Ok(Self::Gpx),
+            "kml" => Ok(Self::Kml),
             "svg" => Ok(Self::Picture(ExportFormat::Svg)),
             "png" => Ok(Self::Picture(ExportFormat::Png)),
             _ => Err(UnknownPathEnding(path.to_owned())),
+        }
+    }
+
+    /// Checks that a file of this format can be written of a path in a plane.
+    ///
+    /// # Errors
+    /// Fails for a route where no plane on the Earth is known.
+    pub fn check(self, file: &Path, plane: Option<EarthPlane>) -> Result<(), NotOnEarth> {
+        match self {
+            Self::Gpx | Self::Kml if plane.is_none() => Err(NotOnEarth(file.to_owned())),
+            _ => Ok(()),
         }
     }
 }
@@ -52,6 +81,8 @@ impl PathFormat {
 pub struct PathExport<'a> {
     solution: Cow<'a, Solution>,
     samples: Vec<PathSample>,
+    name: String,
+    plane: Option<EarthPlane>,
 }
 
 /// The mesh of a path, and its appearance in pictures.
@@ -80,7 +111,13 @@ impl<'a> PathExport<'a> {
             None => Cow::Borrowed(solution),
         };
         let samples = solution.samples(density);
-        Ok(Self { solution, samples })
+        Ok(Self { solution, samples, name: "Path".into(), plane: None })
+    }
+
+    /// Gives the path a name, and says how its plane lies on the Earth, if it does.
+    #[must_use]
+    pub fn named(self, name: String, plane: Option<EarthPlane>) -> Self {
+        Self { name, plane, ..self }
     }
 
     /// Returns the path that is written, with its figures.
@@ -109,11 +146,25 @@ impl<'a> PathExport<'a> {
         write_file_metered(file, meter, |out: &mut dyn Write| match format {
             PathFormat::GeoJson => write_geojson(out, &self.solution, &self.samples, provenance),
             PathFormat::Csv => write_csv(out, &self.samples),
+            PathFormat::Gpx => write_gpx(out, &self.route(file)?, &self.of_route(provenance)),
+            PathFormat::Kml => write_kml(out, &self.route(file)?, &self.of_route(provenance)),
             PathFormat::Picture(format) => {
                 let points: Vec<DVec2> = self.samples.iter().map(|sample| sample.point).collect();
                 let MeshOfPath { mesh, extract, look } = *over;
                 format.write_path_to(out, (mesh, extract), &points, look, provenance, meter)
             }
         })
+    }
+
+    /// Returns the path as a route.
+    fn route(&self, file: &Path) -> io::Result<RouteOnEarth<'_>> {
+        let plane = self.plane.ok_or_else(|| io::Error::other(NotOnEarth(file.to_owned())))?;
+        Ok(RouteOnEarth::new(&self.name, plane, &self.solution, &self.samples))
+    }
+
+    /// Returns what a route says about its origin.
+    fn of_route(&self, provenance: &Provenance) -> Provenance {
+        let projection = self.plane.and_then(EarthPlane::projection);
+        provenance.clone().in_coordinates(&Coordinates::Geographic, projection)
     }
 }

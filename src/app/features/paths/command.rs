@@ -46,6 +46,8 @@ pub enum PathCommand {
     KeepFormer(usize),
     /// Makes the start the goal of the path that is shown.
     Swap,
+    /// Sets how far paths stay from the outline and from keep-out regions. Further changes join this gesture.
+    Clearance(f64),
     /// Sets what paths cost. Further changes join this gesture.
     Cost(PathCost),
     /// Lets paths cost what weights say, or a formula: the one that is equal to the weights at first.

@@ -8,12 +8,14 @@ use crate::app::derivation::Derived;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::widgets::format;
+use meshbrush_core::earth::EarthPlane;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};
 use meshbrush_render::render::path_export::{MeshOfPath, PathExport, PathFormat};
 
-/// Writes the path of the panel: as GeoJSON, as a table, or as a picture over the mesh, as the ending says.
+/// Writes the path of the panel: as GeoJSON, as a table, as a route on the Earth, or as a picture over the
+/// mesh, as the ending says.
 ///
 /// # Errors
 /// Fails with a sentence when the path is not that of the document as it is, or when it is clear at once that
@@ -27,10 +29,13 @@ pub fn export(
 ) -> Result<(), String> {
     let format = PathFormat::of(path).map_err(|error| format!("{error}."))?;
     let solution = current_path(session, paths, tool)?.clone();
+    let settings = session.document().settings().clone();
+    let plane = EarthPlane::new(settings.domain.projection, settings.unit);
+    format.check(path, plane).map_err(|error| error.to_string())?;
+    let name = settings.paths.name(tool.route_in(&settings.paths).unwrap_or(0));
     if let Some(obstacle) = io::obstacle(path) {
         return Err(format!("{} could not be written: {obstacle}.", path.display()));
     }
-    let settings = session.document().settings().clone();
     let risk = RiskField::new(&settings.layers, session.document().paint()).within(&settings.domain.bounds);
     let (mesh, derived) = (session.follower().shared_mesh(), session.derived().map(Derived::shared_extract));
     let tolerance = Some(tool.export_tolerance).filter(|&tolerance| tolerance > 0.0);
@@ -39,6 +44,7 @@ pub fn export(
         let write = || -> std::io::Result<usize> {
             let density = settings.paths.cost.density(risk).map_err(std::io::Error::other)?;
             let export = PathExport::new(&solution, &*density, tolerance).map_err(std::io::Error::other)?;
+            let export = export.named(name, plane);
             let whole = derived.is_none().then(|| mesh.extract());
             let extract = whole.as_ref().or(derived.as_deref()).expect("one of the two");
             let source = MeshSource::Document(&settings.name);

@@ -20,7 +20,7 @@ pub static EXPORT_PATH: FileKind = FileKind {
     title: "Export path",
     act: FileAct::Export,
     endings: || PathFormat::ENDINGS.to_vec(),
-    contents: "Lines, tables and pictures",
+    contents: "Lines, tables, routes and pictures",
     folder: "exports",
     suffix: " path",
     command_after_browsing: |path| {

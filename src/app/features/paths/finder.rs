@@ -157,7 +157,7 @@ impl PathFinder {
             // Other regions need another planner.
             false => {
                 let plan = &document.settings().paths;
-                self.planner.as_ref().filter(|(known, _)| known.avoids_those_of(plan))?.1
+                self.planner.as_ref().filter(|(known, _)| known.has_area_of(plan))?.1
             }
         };
         let is_of_document = mesh.document_id == document_id;
@@ -170,7 +170,7 @@ impl PathFinder {
         let risk = RiskField::new(&settings.layers, paint).within(&settings.domain.bounds);
         let (plan, is_live) = (document.settings().paths.clone(), key.is_live);
         let planner = self.planner.take();
-        let planner = planner.filter(|(known, mesh)| *mesh == key.mesh && known.avoids_those_of(&plan));
+        let planner = planner.filter(|(known, mesh)| *mesh == key.mesh && known.has_area_of(&plan));
         let mesh = match planner {
             Some((planner, _)) => PlannedMesh::Planner(Box::new(planner)),
             None => match session.derived() {
@@ -183,7 +183,7 @@ impl PathFinder {
             key,
             move || {
                 let density = plan.cost.density(risk.clone()).ok()?;
-                let planner = mesh.planner(&density, (plan.clone(), risk), domain.bounds, is_live);
+                let planner = mesh.planner(&density, (plan.clone(), risk), &domain, is_live);
                 Some(find(planner, density, (&plan.routes, &domain), is_live))
             },
             jobs,
@@ -207,17 +207,13 @@ impl PathFinder {
             self.key = Some(key);
             return;
         };
-        let known = work.planner.as_ref().map(|known| {
-            let (mesh, keep_out) = (Arc::clone(known.planner.mesh()), known.plan.keep_out_masks());
-            (mesh, keep_out)
-        });
+        let mesh = work.planner.as_ref().map(|known| Arc::clone(known.planner.mesh()));
         self.planner = work.planner.map(|planner| (planner, key.mesh));
         match work.result {
             WorkResult::Corridor(lines) => self.corridor.lines = lines.into(),
             WorkResult::Paths { density, routes } => {
                 self.take_paths(routes);
-                self.basis =
-                    known.zip(density).map(|((mesh, keep_out), density)| Known { density, mesh, keep_out });
+                self.basis = mesh.zip(density).map(|(mesh, density)| Known { density, mesh });
                 self.prover.begin(self.basis.clone());
                 self.key = Some(key);
             }

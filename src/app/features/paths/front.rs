@@ -38,6 +38,7 @@ struct FrontKey {
     mesh: MeshKey,
     places: Vec<DVec2>,
     keep_out: Arc<[KeepOut]>,
+    clearance: f64,
     layers: Vec<Layer>,
     paint: PaintLayers,
     domain: Rect,
@@ -122,7 +123,8 @@ impl FrontFinder {
             let (places, keep_out) = (settings.paths.routes[route].clone(), settings.paths.keep_out.clone());
             let (layers, paint) = (settings.layers.clone(), session.document().paint().clone());
             let domain = settings.domain.bounds;
-            let of = FrontKey { mesh: key.mesh, places, keep_out, layers, paint, domain };
+            let clearance = settings.paths.clearance;
+            let of = FrontKey { mesh: key.mesh, places, keep_out, clearance, layers, paint, domain };
             if self.of.as_ref() != Some(&of) {
                 self.start(mesh.clone(), of, jobs);
             }

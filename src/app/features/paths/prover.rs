@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::work::FoundPath;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
 };
@@ -27,10 +26,8 @@ pub struct Prover {
 pub struct Known {
     /// The cost density of the paths.
     pub density: Arc<dyn CostDensity>,
-    /// The triangles that they go through.
+    /// The triangles that they go through, and the area that these are in.
     pub mesh: Arc<PathMesh>,
-    /// The regions that the paths do not enter.
-    pub keep_out: Vec<Mask>,
 }
 
 /// The state of a certificate after a step.
@@ -97,12 +94,12 @@ impl Prover {
     }
 
     fn start(&self, solution: &Solution, domain: &Domain, jobs: &Jobs) -> Option<Job<Proof>> {
-        let Known { density, mesh, keep_out } = self.known.clone()?;
+        let Known { density, mesh } = self.known.clone()?;
         let (path, upper) = (solution.points.clone(), solution.upper);
         let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
         let (domain, solution) = (domain.clone(), solution.clone());
         let prove = move |output: &Output<Proof>| {
-            let task = task.in_domain(&domain).outside_of(keep_out);
+            let task = task.in_domain(&domain).in_area(mesh.area().clone());
             let Ok(certificate) = PathCertificate::new(&solution, &task) else { return };
             let mut certificate = certificate.with_search(mesh);
             while output.is_wanted() {

@@ -35,13 +35,39 @@ pub(super) struct KnownPlanner {
     pub planner: Planner,
     pub plan: Arc<PathPlan>,
     risk: RiskField,
+    /// The triangles in the area of paths, and those with smaller ones for the places of the plan, which the
+    /// planner was made with.
+    meshes: [Arc<PathMesh>; 2],
     corridor: Option<Corridor>,
 }
 
 impl KnownPlanner {
-    /// Returns whether its paths stay out of the regions of a plan, and of no others.
-    pub fn avoids_those_of(&self, plan: &PathPlan) -> bool {
-        Arc::ptr_eq(&self.plan.keep_out, &plan.keep_out)
+    /// Returns whether its paths may go where those of a plan may.
+    pub fn has_area_of(&self, plan: &PathPlan) -> bool {
+        Arc::ptr_eq(&self.plan.keep_out, &plan.keep_out) && self.plan.clearance == plan.clearance
+    }
+
+    /// Follows another plan with the same area, where the cost changed in some rectangles.
+    fn follow(
+        &mut self,
+        plan: Arc<PathPlan>,
+        density: &dyn CostDensity,
+        areas: &[Rect],
+        is_live: bool,
+    ) -> Result<(), PathError> {
+        let before = std::mem::replace(&mut self.plan, plan);
+        if is_live {
+            return self.planner.follow(density, areas);
+        }
+        let [mesh, detailed] = &mut self.meshes;
+        let has_same_places = before.routes == self.plan.routes;
+        let wanted = if has_same_places { Arc::clone(detailed) } else { mesh.detailed(&self.plan.routes) };
+        if Arc::ptr_eq(&wanted, detailed) {
+            return self.planner.update(density, areas);
+        }
+        self.planner = Planner::new(Arc::clone(&wanted), density)?;
+        *detailed = wanted;
+        Ok(())
     }
 }
 
@@ -107,25 +133,24 @@ impl PlannedMesh {
         self,
         density: &Arc<dyn CostDensity>,
         (plan, risk): (Arc<PathPlan>, RiskField),
-        bounds: Rect,
+        domain: &Domain,
         is_live: bool,
     ) -> Result<KnownPlanner, PathError> {
-        let around = |view| PathMesh::with_keep_out(view, &plan.keep_out_masks());
-        let planner = match self {
+        let mesh = match self {
             Self::Planner(mut known) => {
                 let same_cost = plan.cost == known.plan.cost;
                 let areas = if same_cost { risk.areas_that_differ(&known.risk) } else { None };
-                let areas = areas.unwrap_or_else(|| vec![bounds]);
-                match is_live {
-                    true => known.planner.follow(&**density, &areas)?,
-                    false => known.planner.update(&**density, &areas)?,
-                }
-                known.planner
+                let areas = areas.unwrap_or_else(|| vec![domain.bounds]);
+                known.follow(plan, &**density, &areas, is_live)?;
+                return Ok(KnownPlanner { risk, corridor: None, ..*known });
             }
-            Self::Mesh(mesh) => Planner::new(around(mesh.view()), &**density)?,
-            Self::Extract(extract) => Planner::new(around(extract.view()), &**density)?,
+            Self::Mesh(mesh) => PathMesh::in_area(mesh.view(), &plan.area(domain)?),
+            Self::Extract(extract) => PathMesh::in_area(extract.view(), &plan.area(domain)?),
         };
-        Ok(KnownPlanner { planner, plan, risk, corridor: None })
+        let mesh = Arc::new(mesh);
+        let detailed = mesh.detailed(&plan.routes);
+        let planner = Planner::new(Arc::clone(&detailed), &**density)?;
+        Ok(KnownPlanner { planner, plan, risk, meshes: [mesh, detailed], corridor: None })
     }
 }
 

@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use crate::domain::{BoundaryTreatment, Domain, DomainOnLattice};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{Coverage, Mask};
+use crate::layers::Mask;
 use crate::mesh::Element;
-use crate::path::{CostDensity, PathError, Waypoint};
+use crate::path::{CostDensity, Passage, PathArea, PathError, Waypoint};
 
 /// Coarse cells along the longer side of the domain, unless the task says otherwise.
 const CELLS: f64 = 8.0;
@@ -159,15 +159,23 @@ impl CertificateTask {
 
     /// Restricts the paths of this task to points outside some regions, besides earlier restrictions.
     pub fn outside_of(self, keep_out: Vec<Mask>) -> Self {
+        self.in_area(PathArea::outside_of(&keep_out))
+    }
+
+    /// Restricts the paths of this task to an area, besides earlier restrictions. Triangles that its rim
+    /// crosses count: the bound is one for a little more than the area, and so for the area.
+    pub fn in_area(self, area: PathArea) -> Self {
         let before = self.placement;
         let placement: PlacementTest = Arc::new(move |element| {
-            let rectangle = element.world_rectangle();
-            let placements = keep_out.iter().map(|mask| match mask.classify(&rectangle) {
-                Coverage::Inside => Placement::Outside,
-                Coverage::Mixed => Placement::Cut,
-                Coverage::Outside => Placement::Inside,
-            });
-            placements.fold(before(element), Placement::max)
+            let [a, b, c] = element.world_corners();
+            let is_anticlockwise = (b - a).perp_dot(c - a) > 0.0;
+            let corners = if is_anticlockwise { [a, b, c] } else { [a, c, b] };
+            let of_area = match area.passage(&corners) {
+                Passage::Closed => Placement::Outside,
+                Passage::Partly => Placement::Cut,
+                Passage::Open => Placement::Inside,
+            };
+            before(element).max(of_area)
         });
         Self { placement, ..self }
     }

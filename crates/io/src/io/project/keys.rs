@@ -53,7 +53,7 @@ cleaning: parts keep_pinches
 cleaning.parts: all largest with_share
 boundary_marks: splits names
 boundary_marks.names: at name
-paths: routes names cost keep_out
+paths: routes names cost keep_out clearance
 paths.cost: weights formula
 paths.cost.weights: length risk
 paths.keep_out: name polygons

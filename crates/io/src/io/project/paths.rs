@@ -27,6 +27,13 @@ pub(super) struct SavedPaths {
     cost: Option<SavedCost>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     keep_out: Vec<SavedKeepOut>,
+    /// Since version 7: the least distance from the outline and from keep-out regions.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    clearance: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -58,11 +65,12 @@ impl SavedPaths {
             names: paths.names.clone(),
             cost: (!is_usual).then_some(cost),
             keep_out: paths.keep_out.iter().map(SavedKeepOut::of).collect(),
+            clearance: paths.clearance,
         }
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.routes.is_empty() && self.cost.is_none() && self.keep_out.is_empty()
+        self.routes.is_empty() && self.cost.is_none() && self.keep_out.is_empty() && self.clearance == 0.0
     }
 
     /// Returns the paths; their places and weights are checked with all settings.
@@ -82,7 +90,7 @@ impl SavedPaths {
         };
         let keep_out = self.keep_out.into_iter().map(SavedKeepOut::load).collect::<Result<_, _>>()?;
         let routes = self.routes.into_iter().map(route).collect();
-        let plan = PathPlan { routes, names: Vec::new(), cost, keep_out };
+        let plan = PathPlan { routes, names: Vec::new(), cost, keep_out, clearance: self.clearance };
         Ok(Arc::new(plan.with_names(self.names)))
     }
 }

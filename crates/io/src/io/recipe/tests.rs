@@ -71,6 +71,7 @@ file = "harbour.meshbrush"
 routes = [[[23, 36], [24.5, 38], [26, 39]], [[22, 35], [28, 41]]]
 length_weight = 2
 risk_weight = 7.5
+clearance = 0.125
 
 [[keep_out]]
 name = "Minefield"
@@ -127,6 +128,7 @@ fn a_recipe_with_everything_is_read() {
     assert_eq!(paths.routes[0][1], [24.5, 38.0]);
     assert_eq!((paths.routes.len(), settings.pins.at.len()), (2, 2));
     assert_eq!((paths.length_weight, paths.risk_weight), (Some(2.0), Some(7.5)));
+    assert_eq!(paths.clearance, Some(0.125));
     let regions: Vec<&str> = settings.keep_out.iter().filter_map(|region| region.name.as_deref()).collect();
     assert_eq!(regions, ["Minefield", "closed.geojson"]);
     assert!(settings.files().any(|file| file == Path::new("zones/closed.geojson")));
@@ -228,6 +230,7 @@ fn paths_keep_out_regions_and_pins_that_cannot_be_used_are_named_with_line_and_c
             "there is no key `route` here; did you mean `routes`?",
         ),
         ("[paths]\nrisk_weight = -1", [2, 15], "The weights 1 for length and -1 for risk make no cost"),
+        ("[paths]\nclearance = -1", [2, 13], "A clearance of -1 is no distance"),
         ("[paths]\nlength_weight = nan", [2, 17], "The weights NaN for length and 10 for risk"),
         (
             "[paths]\ncost = \"1 + rsk\"",

@@ -30,6 +30,7 @@ impl<L> SavedSettings<L> {
         self.limits.check().map_err(in_table("limits"))?;
         self.paths.routes().map_err(in_table("paths"))?;
         self.paths.checked_cost().map_err(in_table("paths"))?;
+        self.paths.checked_clearance().map_err(in_table("paths"))?;
         for (index, region) in self.keep_out.iter().enumerate() {
             region.check().map_err(|fault| fault.within(index).within("keep_out"))?;
         }

@@ -135,6 +135,7 @@ impl<L> SavedSettings<L> {
             routes: self.paths.routes()?,
             names: Vec::new(),
             cost: self.paths.checked_cost()?,
+            clearance: self.paths.checked_clearance()?,
         };
         let paths = paths.with_names(self.paths.names.iter().cloned());
         // The values of the text take the place of these.

@@ -22,7 +22,8 @@ impl SavedPaths {
     pub(super) fn of(plan: &PathPlan) -> Self {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
         let routes = plan.routes.iter().map(route).collect();
-        let usual = Self { routes, names: plan.names.clone(), ..Self::default() };
+        let clearance = Some(plan.clearance).filter(|&clearance| clearance != 0.0);
+        let usual = Self { routes, names: plan.names.clone(), clearance, ..Self::default() };
         match &plan.cost {
             cost if *cost == PathCost::default() => usual,
             PathCost::Weighted(Weights { length, risk }) => {
@@ -41,6 +42,14 @@ impl SavedPaths {
             ));
         }
         each("routes", &self.routes, |places: &Vec<[f64; 2]>| points(places, 2, "a path"))
+    }
+
+    /// Returns the clearance of paths, in world units.
+    pub(super) fn checked_clearance(&self) -> Result<f64, KeyFault> {
+        let clearance = self.clearance.unwrap_or(0.0);
+        let plan = PathPlan { clearance, ..PathPlan::default() };
+        plan.check().map_err(|error| KeyFault::value("clearance", error.to_string()))?;
+        Ok(clearance)
     }
 
     /// Returns the cost of paths.

@@ -159,6 +159,9 @@ pub struct SavedPaths {
     /// A formula of x, y and the risk in place of the weights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cost: Option<String>,
+    /// The least distance from the outline of the domain and from keep-out regions, in world units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
 }
 
 /// `[[keep_out]]`

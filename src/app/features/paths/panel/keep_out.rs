@@ -1,4 +1,4 @@
-//! The regions that paths stay out of, in the panel of the paths.
+//! The regions that paths stay out of, and their clearance, in the panel of the paths.
 
 use eframe::egui::Ui;
 
@@ -6,9 +6,24 @@ use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::features::paths::KeepOutCommand;
 use crate::app::features::paths::OPEN_KEEP_OUT;
 use crate::app::features::paths::PathCommand;
-use crate::app::kit::{FrameState, button_rows};
+use crate::app::kit::{FrameState, button_rows, end_gesture_when_released};
 use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, ToolButton, ValueRow, format};
+use crate::app::widgets::{Icon, NumberRow, ToolButton, ValueRow, format};
+
+/// How far paths stay from the outline and from the regions.
+pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let settings = state.session.document().settings();
+    let mut clearance = settings.paths.clearance;
+    let most = settings.domain.bounds.size().max_element();
+    let row = NumberRow::new("Clearance", &mut clearance).range(0.0..=most).default(0.0);
+    let help = "Paths stay so far from the outline, where polygons give the domain, and from keep-out regions. Sides of \
+                the rectangle around the domain do not count.";
+    let response = row.unit(state.unit().symbol()).help(help).show(ui);
+    if response.changed() {
+        commands.push(Command::Path(PathCommand::Clearance(clearance)));
+    }
+    end_gesture_when_released(&response, commands);
+}
 
 /// The regions with their areas, and what adds and removes them.
 pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

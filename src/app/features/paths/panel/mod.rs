@@ -80,6 +80,7 @@ fn show_cost(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let plan = &state.session.document().settings().paths;
     Section::new("Cost, regions and files").id("cost of paths").show(ui, |ui| {
         cost::rows(ui, state, &plan.cost, commands);
+        keep_out::clearance_row(ui, state, commands);
         keep_out::rows(ui, state, commands);
         if plan.routes.is_empty() {
             return;
@@ -142,20 +143,6 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
     if state.unit() == LengthUnit::Degree {
         remark(ui, "Lengths and costs are measured in degrees of the plane, not in metres on the earth.");
     }
-    if let Some(diameter) = boundary_diameter(state) {
-        let diameter = format::length(diameter, state.unit());
-        remark(
-            ui,
-            &format!("Along the outline the path can cut capes by up to {diameter}, the boundary diameter."),
-        );
-    }
-}
-
-/// Returns the diameter along the outline of a domain of polygons.
-fn boundary_diameter(state: &FrameState<'_>) -> Option<f64> {
-    let settings = state.session.document().settings();
-    settings.domain.region()?;
-    settings.boundary.diameter()
 }
 
 /// Shows the path before its proof found a better one, if there was one.

@@ -14,11 +14,12 @@ use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
-    TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, settings,
+    TALL, Window, click_button, folder, key, move_to, notice, open_menu, press, release, send, set, settings,
     type_into, wait_for_notice, wait_until, window_of,
 };
-use meshbrush_core::document::PathCost;
+use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::path::{Solution, Weights};
+use meshbrush_mesh::text::LengthUnit;
 
 fn solution(window: &Window) -> Solution {
     shown(window)[0].found.as_ref().unwrap().solution.clone()
@@ -134,9 +135,16 @@ fn an_outdated_path_is_not_exported() {
 fn a_file_of_another_kind_is_refused_and_a_document_without_path_has_nothing_to_export() {
     let (mut window, folder) = (window_with_path(), folder("app-path-export", "kinds"));
     let sentence = refused(&mut window, &folder.join("path.vtu"));
-    assert!(sentence.ends_with("use .geojson, .csv, .svg or .png."), "{sentence}");
+    assert!(sentence.ends_with("use .geojson, .csv, .gpx, .kml, .svg or .png."), "{sentence}");
     let sentence = refused(&mut window, &folder.join("no such folder/path.csv"));
     assert!(sentence.contains("could not be written: there is no folder"), "{sentence}");
+    let sentence = refused(&mut window, &folder.join("path.gpx"));
+    assert!(sentence.contains("GPX and KML have longitudes and latitudes"), "{sentence}");
+    set(&mut window, Setting::LengthUnit(LengthUnit::Degree));
+    wait_for_paths(&mut window);
+    let file = folder.join("path.kml");
+    exported(&mut window, &file);
+    assert!(fs::read_to_string(&file).unwrap().contains("<Placemark><name>Path 1</name>"));
     open_menu(&mut window, "File");
     // The panel has one as well, farther down.
     let entries = window.get_all_by_role_and_label(Role::Button, "Export path…");

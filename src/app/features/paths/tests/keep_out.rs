@@ -98,7 +98,7 @@ fn a_certificate_knows_the_regions() {
     let domain = Domain::of_polygons(&[square]).unwrap();
     let keep_out = [KeepOut { name: String::new(), mask: wall() }].into();
     let cost = PathCost::Weighted(Weights { length: 1.0, risk: 0.0 });
-    let paths = Arc::new(PathPlan { routes: vec![vec![START, GOAL]], names: Vec::new(), cost, keep_out });
+    let paths = Arc::new(PathPlan { routes: vec![vec![START, GOAL]], cost, keep_out, ..PathPlan::default() });
     let settings = Settings { paths, ..Settings::for_domain("Wall".into(), domain) };
     let mut window = window_of(TALL);
     send(&mut window, Command::Path(PathCommand::Width(0.15)));

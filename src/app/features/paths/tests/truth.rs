@@ -4,19 +4,20 @@ use std::sync::Arc;
 
 use eframe::egui::Modifiers;
 use egui_kittest::kittest::Queryable as _;
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
 use super::{GOAL, Window, row, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::PathCommand;
+use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
-    click, click_button, entries, move_to, notice, press, release, send, set, settings, wait_until,
+    click, click_button, entries, move_to, notice, press, release, send, set, settings, type_into, wait_until,
 };
 use crate::app::widgets::format;
-use meshbrush_core::document::Setting;
+use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
-use meshbrush_core::path::Solution;
-use meshbrush_mesh::geometry::Rect;
+use meshbrush_core::path::{Solution, Weights};
+use meshbrush_mesh::geometry::{Rect, nearest_on_segment};
 
 fn says(window: &Window, text: &str) -> bool {
     window.query_by_label_contains(text).is_some()
@@ -92,18 +93,40 @@ fn a_proof_that_exchanges_the_path_says_so_and_the_former_one_can_be_kept() {
 }
 
 #[test]
-fn on_a_coast_the_panel_says_how_far_the_path_can_cut_capes() {
+fn on_a_coast_the_path_keeps_the_clearance_that_is_typed() {
     let mut window = window_with_path();
-    assert!(!says(&window, "capes"));
-    let ring = vec![dvec2(0.01, 0.01), dvec2(0.99, 0.02), dvec2(0.98, 0.99), dvec2(0.02, 0.98)];
-    let region = Arc::new(Region::new(&[vec![ring]], Rect::UNIT));
+    let shortest = PathCost::Weighted(Weights { length: 1.0, risk: 0.0 });
+    send(&mut window, Command::Path(PathCommand::Cost(shortest)));
+    // A cape on the straight way, which large triangles would cut.
+    let cape = [dvec2(1.0, 0.0), dvec2(1.0, 0.1), dvec2(0.48, 0.52), dvec2(0.9, 0.0)];
+    let ring = [dvec2(0.0, 0.0), cape[3], cape[2], cape[1], dvec2(1.0, 1.0), dvec2(0.0, 1.0)];
+    let region = Arc::new(Region::new(&[vec![ring.to_vec()]], Rect::UNIT));
     set(
         &mut window,
         Setting::Domain(Domain { bounds: Rect::UNIT, shape: DomainShape::Region(region), projection: None }),
     );
-    set(&mut window, Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 0.04 }));
+    set(&mut window, Setting::Boundary(BoundaryTreatment::OnOutline { diameter: 0.1 }));
     wait_for_paths(&mut window);
-    assert!(says(&window, "Along the outline the path can cut capes by up to 0.04, the boundary diameter."));
+    let from_tip = |window: &Window| {
+        let points = &shown(window)[0].found.as_ref().unwrap().solution.points;
+        let distance = |pair: &[DVec2]| cape[2].distance(nearest_on_segment(cape[2], [pair[0], pair[1]]));
+        points.windows(2).map(distance).fold(f64::INFINITY, f64::min)
+    };
+    assert!((0.0..0.03).contains(&from_tip(&window)), "{}", from_tip(&window));
+    type_into(&mut window, "Clearance", "0.1");
+    assert_eq!(settings(&window).paths.clearance, 0.1);
+    assert_eq!(unexplained(&window), [""; 0]);
+    wait_for_paths(&mut window);
+    assert!((0.1..0.13).contains(&from_tip(&window)), "{}", from_tip(&window));
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    assert_eq!(settings(&window).paths.clearance, 0.0);
+    wait_for_paths(&mut window);
+    assert!(from_tip(&window) < 0.03, "{}", from_tip(&window));
+    // Within the clearance the start is refused, and the sentence says how far it is.
+    type_into(&mut window, "Clearance", "0.9");
+    wait_until(&mut window, |window| shown(window)[0].problem.is_some());
+    window.run();
+    assert!(says(&window, "and the clearance of paths is 0.9."));
 }
 
 #[test]
