@@ -8,9 +8,11 @@ mod choice;
 mod cone;
 mod ellipsoid;
 mod extent;
+mod length;
 mod outline;
 mod plane;
 mod route;
+mod speed;
 mod text;
 mod transverse;
 
@@ -22,9 +24,11 @@ use transverse::Transverse;
 
 pub use choice::{ProjectionChoice, ProjectionError};
 pub use extent::GeographicExtent;
+pub use length::metres_along;
 pub use outline::{projected_line, projected_polygons};
 pub use plane::EarthPlane;
 pub use route::RoutePoint;
+pub use speed::{Speed, SpeedError, hours_and_minutes};
 pub use text::ProjectionTextError;
 
 /// A family of conformal projections.
