@@ -21,7 +21,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// Returns the length of the geodesic between two points that are near each other. The straight line through
 /// the Earth is shorter by s³ / 24 R², and R is at least 6,335 km anywhere.
-fn on_the_ellipsoid(a: [f64; 2], b: [f64; 2]) -> f64 {
+pub fn on_the_ellipsoid(a: [f64; 2], b: [f64; 2]) -> f64 {
     let chord = distance(in_space(a), in_space(b));
     chord + chord.powi(3) / (24.0 * 6.335e6_f64.powi(2))
 }

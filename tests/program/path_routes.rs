@@ -1,9 +1,10 @@
-//! Paths as routes on the Earth: `.gpx` and `.kml`, read by a parser of its own, and drawn as navigation
-//! programs do.
+//! Paths on the Earth: `.gpx` and `.kml`, read by a parser of its own and drawn as navigation programs do;
+//! lengths and times.
 
 use std::f64::consts::FRAC_PI_4;
 use std::fs;
 
+use crate::earth::on_the_ellipsoid;
 use crate::folder::Folder;
 use glam::{DVec2, DVec3, dvec2, dvec3};
 use meshbrush_core::earth::Projection;
@@ -187,5 +188,78 @@ fn a_route_needs_a_place_on_the_earth() {
         let expected = format!("-o {file}: GPX and KML have longitudes and latitudes");
         assert!(ran.status == 2 && ran.err.contains(&expected), "{}", ran.err);
         assert!(!folder.0.join(file).exists());
+    }
+}
+
+/// The length of a line in metres, by pieces of the plane of 1 km at most.
+fn length_by_pieces(line: &[DVec2], geographic: impl Fn(DVec2) -> DVec2, longest: f64) -> f64 {
+    let piece = |pair: &[DVec2]| {
+        let count = (pair[0].distance(pair[1]) / longest).ceil().max(1.0);
+        let place = |n: u32| geographic(pair[0].lerp(pair[1], f64::from(n) / count)).to_array();
+        (0..count as u32).map(|n| on_the_ellipsoid(place(n), place(n + 1))).sum::<f64>()
+    };
+    line.windows(2).map(piece).sum()
+}
+
+#[test]
+fn lengths_and_times_are_those_on_the_ellipsoid() {
+    let folder = Folder::new("lengths");
+    write_sea(&folder);
+    let line = format!("--region sea.geojson --projection '{PLANE}' {ROUTE} --speed '12 kn'");
+    let answer = folder.json("path", format!("{line} -o c.csv -o c.geojson"));
+    let number = |name: &str| answer[name].as_f64().unwrap_or_else(|| panic!("{name}"));
+    let projection: Projection = PLANE.parse().unwrap();
+    let expected = length_by_pieces(&points(&answer), |at| projection.geographic_from_plane(at), 1e3);
+    assert!((number("length") / expected - 1.0).abs() < 1e-9, "{} {expected}", number("length"));
+    let stretched = number("length_in_plane") / number("length") - 1.0;
+    assert!(
+        (2e-4..3e-3).contains(&stretched),
+        "up to 400 km from the meridian that is true to scale: {stretched}"
+    );
+    assert!((number("travel_seconds") - expected / (12.0 * 1852.0 / 3600.0)).abs() < 1e-3);
+    let table = fs::read_to_string(folder.0.join("c.csv")).unwrap();
+    let last: f64 = table.lines().last().unwrap().split(',').nth(2).unwrap().parse().unwrap();
+    assert!((last / expected - 1.0).abs() < 1e-9);
+    let text = fs::read_to_string(folder.0.join("c.geojson")).unwrap();
+    let feature: Value = serde_json::from_str(&text).unwrap();
+    for name in ["length", "length_in_plane", "travel_seconds", "cost"] {
+        assert_eq!(feature["properties"][name], answer[name], "{name}");
+    }
+    let ran = folder.run(format!("path {line}"));
+    let minutes = (number("travel_seconds") / 60.0).round() as u32;
+    let time = format!(" m on the ellipsoid, {} h {} min on the way, ", minutes / 60, minutes % 60);
+    assert!(ran.out.contains(&time), "{} {time}", ran.out);
+}
+
+#[test]
+fn a_time_needs_metres() {
+    let folder = Folder::new("times");
+    let recipe = |unit: &str| {
+        let text = format!(
+            "[domain]\nbounds = [0, 40, 20, 60]\nunit = \"{unit}\"\n[mesh]\nspacing = 5\n\
+            [paths]\nroutes = [[[2, 42], [18, 58]]]\n"
+        );
+        fs::write(folder.0.join("r.toml"), text).unwrap();
+    };
+    for (unit, metres) in
+        [("m", 512.0_f64.sqrt()), ("km", 512e3_f64.sqrt() * 1e3_f64.sqrt()), ("degrees", 0.0)]
+    {
+        recipe(unit);
+        let answer = folder.json("path", "r.toml --speed '10 m/s'");
+        let expected = match unit {
+            "degrees" => length_by_pieces(&points(&answer), |at| at, 0.002),
+            _ => metres,
+        };
+        let seconds = answer["travel_seconds"].as_f64().unwrap();
+        assert!((10.0 * seconds / expected - 1.0).abs() < 1e-9, "{unit}: {seconds} {expected}");
+        assert!((answer["length"].as_f64().unwrap() - 512.0_f64.sqrt()).abs() < 1e-9);
+    }
+    recipe("none");
+    for (options, message) in [
+        ("--speed '10 m/s'", "--speed 10 m/s: the time of a path needs lengths in metres"),
+        ("--speed 10", "--speed: 10 is no speed: write a number above 0 with its unit"),
+    ] {
+        let ran = folder.run(format!("path r.toml {options}"));
+        assert!(ran.status == 2 && ran.err.contains(message), "{}", ran.err);
     }
 }

@@ -21,16 +21,17 @@ use super::terminal::Terminal;
 use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::earth::EarthPlane;
+use meshbrush_core::earth::{EarthPlane, Speed, hours_and_minutes, metres_along};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathArea, PathCertificate, PathError, PathMesh,
-    PathRequest, PathSample, Planner, Solution, Weights,
+    PathRequest, Planner, Solution, Weights,
 };
+use meshbrush_io::io::path::PathLengths;
 use meshbrush_io::io::{self as files, DocumentPlane, Interruption, Meter, Provenance};
 use meshbrush_mesh::mesh::MeshView;
-use meshbrush_mesh::text::{Grouped, Number, percent_above, rounded};
+use meshbrush_mesh::text::{Grouped, LengthUnit, Number, percent_above, rounded};
 use meshbrush_render::render::path_export::{MeshOfPath, NotOnEarth, PathExport, PathFormat};
 
 /// Runs the command. `line` is how it was typed, and `out` is standard output.
@@ -45,6 +46,7 @@ pub fn run(
 ) -> Result<(), Failure> {
     let within = typed.within.as_deref().map(share).transpose()?;
     let formula = typed.cost.as_deref().map(cost_formula).transpose()?;
+    let speed = typed.speed.as_deref().map(speed).transpose()?;
     let places = places(typed)?;
     let look = RequestedLook::new(&typed.picture)?;
     let outputs = typed.output.iter().map(|path| PathOutput::new(path)).collect::<Result<Vec<_>, _>>()?;
@@ -55,7 +57,8 @@ pub fn run(
     let ask =
         |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, places, formula, saved, plane);
     let (read, asked) = read_and_ask(&input, terminal, ask)?;
-    let plane = EarthPlane::new(read.spec.domain.projection, read.unit);
+    let (plane, unit) = (EarthPlane::new(read.spec.domain.projection, read.unit), read.unit);
+    check_times(typed, plane, unit)?;
     outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
@@ -74,11 +77,12 @@ pub fn run(
     }
     let seconds = start.elapsed().as_secs_f64();
     let export = PathExport::new(&solution, &*density, typed.simplify)?.named(asked.name.clone(), plane);
+    let export = export.at_speed(speed, unit);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(finished.mesh());
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
-    let answer = Answer::new(export.solution(), export.samples(), extract.triangles().len(), seconds);
+    let answer = Answer::new(&export, extract.triangles().len(), seconds);
     match typed.json {
         true => {
             let json = serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?;
@@ -164,6 +168,21 @@ fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
 /// Returns the number, from 0, of the path of the project or the recipe that is asked for.
 fn route_index(typed: &PathArguments) -> usize {
     typed.route.unwrap_or(1).saturating_sub(1)
+}
+
+fn speed(text: &str) -> Result<Speed, Failure> {
+    text.parse().map_err(|error| Failure::Usage(format!("--speed: {error}")))
+}
+
+/// Checks that lengths in metres are known where a time is asked for.
+fn check_times(typed: &PathArguments, plane: Option<EarthPlane>, unit: LengthUnit) -> Result<(), Failure> {
+    match &typed.speed {
+        Some(speed) if metres_along(plane, unit, &[]).is_none() => Err(Failure::Usage(format!(
+            "--speed {speed}: the time of a path needs lengths in metres, and the unit of the coordinates is not \
+             known. They need a projection, or the unit m, km or degrees in the recipe or project."
+        ))),
+        _ => Ok(()),
+    }
 }
 
 fn usage(error: NotOnEarth) -> Failure {
@@ -337,8 +356,15 @@ struct Answer {
     lower: f64,
     /// The best path costs no more.
     upper: f64,
-    /// The length of the path, in world units.
+    /// The length of the path: in metres on the ellipsoid in the plane of a projection, otherwise in world
+    /// units.
     length: f64,
+    /// The length in the plane of a projection, in metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_in_plane: Option<f64>,
+    /// The time of the path at the speed that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    travel_seconds: Option<f64>,
     /// The integral of the risk.
     risk: f64,
     highest_risk: f64,
@@ -350,10 +376,22 @@ struct Answer {
 }
 
 impl Answer {
-    fn new(solution: &Solution, samples: &[PathSample], triangles: usize, seconds: f64) -> Self {
-        let Solution { cost, lower, upper, length, risk, highest_risk, .. } = *solution;
-        let points = samples.iter().map(|sample| sample.point.to_array()).collect();
-        Self { cost, lower, upper, length, risk, highest_risk, points, triangles, seconds }
+    fn new(export: &PathExport<'_>, triangles: usize, seconds: f64) -> Self {
+        let Solution { cost, lower, upper, risk, highest_risk, .. } = *export.solution();
+        let PathLengths { length, in_plane: length_in_plane, seconds: travel_seconds } = *export.lengths();
+        Self {
+            cost,
+            lower,
+            upper,
+            length,
+            length_in_plane,
+            travel_seconds,
+            risk,
+            highest_risk,
+            points: export.samples().iter().map(|sample| sample.point.to_array()).collect(),
+            triangles,
+            seconds,
+        }
     }
 
     fn for_people(&self, gap: f64) -> String {
@@ -370,12 +408,15 @@ impl Answer {
                     .to_owned()
             }
         };
+        let on_the_ellipsoid = if self.length_in_plane.is_some() { " m on the ellipsoid" } else { "" };
+        let time = self.travel_seconds.map(|seconds| format!(", {} on the way", hours_and_minutes(seconds)));
         format!(
             "cost {}, {bound}\n\
-             length {}, accumulated risk {}, highest risk {}\n\
+             length {}{on_the_ellipsoid}{}, accumulated risk {}, highest risk {}\n\
              {} triangles, {:.2} s",
             short(self.cost),
             short(self.length),
+            time.unwrap_or_default(),
             short(self.risk),
             short(self.highest_risk),
             Grouped(self.triangles),

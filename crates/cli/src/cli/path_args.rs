@@ -70,6 +70,13 @@ pub struct PathArguments {
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, help_heading = "Path")]
     pub within: Option<String>,
 
+    /// Say how long the path takes at this speed, as in '12 kn', '6 m/s' or '20 km/h'
+    ///
+    /// In the plane of a projection, and for longitudes and latitudes, lengths are those on the ellipsoid;
+    /// otherwise coordinates must be known to be in m or km.
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, help_heading = "Output")]
+    pub speed: Option<String>,
+
     /// Leave out points that are no farther than this from the path
     ///
     /// Points without which the path would leave the domain or enter a keep-out region stay, and so do those

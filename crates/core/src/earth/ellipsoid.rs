@@ -41,6 +41,12 @@ impl Latitude {
         self.cosine / self.flattened
     }
 
+    /// The radii, in metres, of a small arc of the meridian and of the parallel.
+    pub(super) fn radii(self) -> [f64; 2] {
+        let cubed = self.flattened * self.flattened * self.flattened;
+        [A * (1.0 - E2) / cubed, A * self.parallel()]
+    }
+
     /// The tangent of half the conformal colatitude, t(φ) = tan(π/4 − χ/2): 0 at the north pole.
     pub(super) fn colatitude(self) -> f64 {
         let secant = libm::hypot(1.0, self.conformal);

@@ -9,11 +9,13 @@ mod cone;
 mod coordinates;
 mod ellipsoid;
 mod extent;
+mod length;
 mod outline;
 mod plane;
 mod register;
 mod reprojection;
 mod route;
+mod speed;
 mod text;
 mod transverse;
 
@@ -26,10 +28,12 @@ use transverse::Transverse;
 pub use choice::{ProjectionChoice, ProjectionError};
 pub use coordinates::{Coordinates, CoordinatesTextError};
 pub use extent::GeographicExtent;
+pub use length::metres_along;
 pub use outline::{projected_line, projected_polygons};
 pub use plane::EarthPlane;
 pub use reprojection::Reprojection;
 pub use route::RoutePoint;
+pub use speed::{Speed, SpeedError, hours_and_minutes};
 pub use text::ProjectionTextError;
 
 /// A family of conformal projections.

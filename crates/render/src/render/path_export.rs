@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::export::{ExportFormat, Look};
-use meshbrush_core::earth::{Coordinates, EarthPlane};
+use meshbrush_core::earth::{Coordinates, EarthPlane, Speed, metres_along};
 use meshbrush_core::path::{CostDensity, PathError, PathSample, Solution};
 use meshbrush_io::io::gpx::write_gpx;
 use meshbrush_io::io::kml::write_kml;
-use meshbrush_io::io::path::{write_csv, write_geojson};
+use meshbrush_io::io::path::{PathLengths, write_csv, write_geojson};
 use meshbrush_io::io::{Meter, Provenance, RouteOnEarth, write_file_metered};
 use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::text::LengthUnit;
 
 /// A file format for paths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,6 +84,7 @@ pub struct PathExport<'a> {
     samples: Vec<PathSample>,
     name: String,
     plane: Option<EarthPlane>,
+    lengths: PathLengths,
 }
 
 /// The mesh of a path, and its appearance in pictures.
@@ -111,13 +113,44 @@ impl<'a> PathExport<'a> {
             None => Cow::Borrowed(solution),
         };
         let samples = solution.samples(density);
-        Ok(Self { solution, samples, name: "Path".into(), plane: None })
+        let lengths = PathLengths { length: solution.length, ..PathLengths::default() };
+        Ok(Self { solution, samples, name: "Path".into(), plane: None, lengths })
     }
 
-    /// Gives the path a name, and says how its plane lies on the Earth, if it does.
+    /// Gives the path a name, and says how its plane lies on the Earth, if it does: in the plane of a
+    /// projection lengths are then those on the ellipsoid.
     #[must_use]
-    pub fn named(self, name: String, plane: Option<EarthPlane>) -> Self {
-        Self { name, plane, ..self }
+    pub fn named(mut self, name: String, plane: Option<EarthPlane>) -> Self {
+        (self.name, self.plane) = (name, plane);
+        if let Some(plane @ EarthPlane::Projected(_)) = plane {
+            let distances = plane.distances(&self.line());
+            for (sample, &distance) in self.samples.iter_mut().zip(&distances) {
+                sample.distance = distance;
+            }
+            self.lengths.length = distances.last().copied().unwrap_or(0.0);
+            self.lengths.in_plane = Some(self.solution.length);
+        }
+        self
+    }
+
+    /// Says how long the path takes at a speed, where lengths in metres are known: on the Earth, and from the
+    /// unit of coordinates.
+    #[must_use]
+    pub fn at_speed(mut self, speed: Option<Speed>, unit: LengthUnit) -> Self {
+        let seconds =
+            |speed: Speed| metres_along(self.plane, unit, &self.line()).map(|metres| speed.seconds(metres));
+        self.lengths.seconds = speed.and_then(seconds);
+        self
+    }
+
+    /// Returns the lengths of the path that is written, and its time. Distances of [`Self::samples`] are in
+    /// the same unit.
+    pub fn lengths(&self) -> &PathLengths {
+        &self.lengths
+    }
+
+    fn line(&self) -> Vec<DVec2> {
+        self.samples.iter().map(|sample| sample.point).collect()
     }
 
     /// Returns the path that is written, with its figures.
@@ -144,12 +177,14 @@ impl<'a> PathExport<'a> {
         meter: &Meter,
     ) -> io::Result<()> {
         write_file_metered(file, meter, |out: &mut dyn Write| match format {
-            PathFormat::GeoJson => write_geojson(out, &self.solution, &self.samples, provenance),
+            PathFormat::GeoJson => {
+                write_geojson(out, &self.solution, &self.samples, &self.lengths, provenance)
+            }
             PathFormat::Csv => write_csv(out, &self.samples),
             PathFormat::Gpx => write_gpx(out, &self.route(file)?, &self.of_route(provenance)),
             PathFormat::Kml => write_kml(out, &self.route(file)?, &self.of_route(provenance)),
             PathFormat::Picture(format) => {
-                let points: Vec<DVec2> = self.samples.iter().map(|sample| sample.point).collect();
+                let points = self.line();
                 let MeshOfPath { mesh, extract, look } = *over;
                 format.write_path_to(out, (mesh, extract), &points, look, provenance, meter)
             }

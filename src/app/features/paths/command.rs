@@ -46,6 +46,8 @@ pub enum PathCommand {
     KeepFormer(usize),
     /// Makes the start the goal of the path that is shown.
     Swap,
+    /// Sets the speed for the time of the path, in knots; 0 asks for no time.
+    Speed(f64),
     /// Sets how far paths stay from the outline and from keep-out regions. Further changes join this gesture.
     Clearance(f64),
     /// Sets what paths cost. Further changes join this gesture.

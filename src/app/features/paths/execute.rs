@@ -58,6 +58,7 @@ impl Feature for Paths {
             PathCommand::AddCorridor => self.add_corridor(ctx),
             PathCommand::MoveCorridor(id) => self.take_paths(id, ctx),
             PathCommand::Cost(cost) => self.set_paths(|plan| plan.cost = cost, ctx),
+            PathCommand::Speed(knots) => self.tool.speed = knots,
             PathCommand::Clearance(clearance) => self.set_paths(|plan| plan.clearance = clearance, ctx),
             PathCommand::CostBy(kind) => self.give_cost_by(kind, ctx),
             PathCommand::ShowDistance(distance) => self.tool.shown_distance = distance,

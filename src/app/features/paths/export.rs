@@ -8,7 +8,7 @@ use crate::app::derivation::Derived;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::widgets::format;
-use meshbrush_core::earth::EarthPlane;
+use meshbrush_core::earth::{EarthPlane, Speed};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::Solution;
 use meshbrush_io::io::{self, MeshSource, Provenance};
@@ -38,13 +38,14 @@ pub fn export(
     }
     let risk = RiskField::new(&settings.layers, session.document().paint()).within(&settings.domain.bounds);
     let (mesh, derived) = (session.follower().shared_mesh(), session.derived().map(Derived::shared_extract));
+    let speed = Speed::from_knots(tool.speed);
     let tolerance = Some(tool.export_tolerance).filter(|&tolerance| tolerance > 0.0);
     let (look, file) = (view.picture(&settings), path.to_owned());
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<usize> {
             let density = settings.paths.cost.density(risk).map_err(std::io::Error::other)?;
             let export = PathExport::new(&solution, &*density, tolerance).map_err(std::io::Error::other)?;
-            let export = export.named(name, plane);
+            let export = export.named(name, plane).at_speed(speed, settings.unit);
             let whole = derived.is_none().then(|| mesh.extract());
             let extract = whole.as_ref().or(derived.as_deref()).expect("one of the two");
             let source = MeshSource::Document(&settings.name);

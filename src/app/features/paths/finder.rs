@@ -178,13 +178,13 @@ impl PathFinder {
                 None => PlannedMesh::Mesh(session.follower().shared_mesh()),
             },
         };
-        let domain = document.settings().domain.clone();
+        let (domain, unit) = (settings.domain.clone(), settings.unit);
         self.work.start(
             key,
             move || {
                 let density = plan.cost.density(risk.clone()).ok()?;
                 let planner = mesh.planner(&density, (plan.clone(), risk), &domain, is_live);
-                Some(find(planner, density, (&plan.routes, &domain), is_live))
+                Some(find(planner, density, (&plan.routes, &domain, unit), is_live))
             },
             jobs,
         );

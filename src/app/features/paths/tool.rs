@@ -65,6 +65,8 @@ pub struct PathTool {
     pub shown_distance: Option<f64>,
     /// How far points that files leave out are from the path, in world units; 0 leaves out none.
     pub export_tolerance: f64,
+    /// The speed for the time of the path, in knots; 0 asks for no time.
+    pub speed: f64,
 }
 
 impl PathTool {

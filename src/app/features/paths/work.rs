@@ -6,12 +6,14 @@ use glam::DVec2;
 
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::domain::Domain;
+use meshbrush_core::earth::{EarthPlane, metres_along};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
     CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, Planner, Solution,
 };
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::text::LengthUnit;
 
 /// Places on a path at which its profile is known.
 const PROFILE_SAMPLES: usize = 200;
@@ -82,12 +84,25 @@ pub struct FoundPath {
     pub end: Option<CertificateEnd>,
     /// The path that was shown before its certificate found a better one.
     pub former: Option<Box<Solution>>,
+    /// How its plane lies on the Earth, if it does, and the unit of coordinates.
+    place: PlaceOfPlane,
+    /// The length in metres: on the ellipsoid, or from the unit; `None` where neither is known.
+    pub metres: Option<f64>,
 }
 
+/// How a plane lies on the Earth, if it does, and the unit of coordinates.
+pub(super) type PlaceOfPlane = (Option<EarthPlane>, LengthUnit);
+
 impl FoundPath {
-    fn new(solution: Solution, density: &dyn CostDensity) -> Self {
+    fn new(solution: Solution, density: &dyn CostDensity, place: PlaceOfPlane) -> Self {
         let profile = solution.profile(density, PROFILE_SAMPLES);
-        Self { solution, profile, end: None, former: None }
+        let metres = metres_along(place.0, place.1, &solution.points);
+        Self { solution, profile, end: None, former: None, place, metres }
+    }
+
+    /// Returns the length on the ellipsoid in metres, in the plane of a projection.
+    pub fn length_on_the_ellipsoid(&self) -> Option<f64> {
+        self.metres.filter(|_| matches!(self.place.0, Some(EarthPlane::Projected(_))))
     }
 
     /// Takes what a certificate found out. The path that a person saw first is kept.
@@ -95,6 +110,7 @@ impl FoundPath {
         let former = self.solution.clone();
         if self.solution.take(proved) {
             self.profile = self.solution.profile(density, PROFILE_SAMPLES);
+            self.metres = metres_along(self.place.0, self.place.1, &self.solution.points);
             self.former.get_or_insert_with(|| Box::new(former));
         }
     }
@@ -158,7 +174,7 @@ impl PlannedMesh {
 pub(super) fn find(
     planner: Result<KnownPlanner, PathError>,
     density: Arc<dyn CostDensity>,
-    (routes, domain): (&[Vec<DVec2>], &Domain),
+    (routes, domain, unit): (&[Vec<DVec2>], &Domain, LengthUnit),
     is_live: bool,
 ) -> Work {
     let mut known = match planner {
@@ -172,7 +188,7 @@ pub(super) fn find(
     let routes = routes.iter().map(|places| {
         let found = known.planner.solve(&*density, places, request);
         let solution = found.map_err(|problem| problem.in_domain(domain, places))?;
-        Ok(FoundPath::new(solution, &*density))
+        Ok(FoundPath::new(solution, &*density, (EarthPlane::new(domain.projection, unit), unit)))
     });
     let routes = routes.collect();
     Work { planner: Some(known), result: WorkResult::Paths { density: Some(density), routes } }

@@ -11,8 +11,11 @@ use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{FoundPath, PathCommand, ShownPath};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
 use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Icon, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view};
+use crate::app::widgets::{
+    Icon, NumberRow, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view,
+};
 use meshbrush_core::document::PathPlan;
+use meshbrush_core::earth::{Speed, hours_and_minutes};
 use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
 
@@ -22,6 +25,8 @@ pub use others::OTHER_PATHS;
 /// The path of the selected place, or else the first.
 pub static PATH_PANEL: Panel = Panel { name: "path", tab: Tab::Paths, place: 0, show };
 
+/// The highest speed, in knots.
+const MOST_KNOTS: f64 = 1000.0;
 /// Height of the profile, in points.
 const HEIGHT: f32 = 120.0;
 /// The text for a certificate that has no triangle for the path.
@@ -37,6 +42,8 @@ const LEAST_POSSIBLE: &str = "Two proved bounds of the cost of the best path: no
                               the first number, and one that was found costs the second.";
 const IN_THE_PLANE: &str =
     "The length in the plane, in the unit of the document. Costs are summed up over this length.";
+const ON_THE_ELLIPSOID: &str = "The length in metres on the ellipsoid WGS 84. Costs are summed up over the length in the \
+                                plane of the projection.";
 const IN_DEGREES: &str = "The length in degrees, as if one of longitude were as long as one of latitude. Costs are summed \
                           up over this length, so a path of least cost is not the shortest in metres.";
 
@@ -63,6 +70,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         match &shown.found {
             Some(found) => {
                 figures(ui, state, found);
+                time_rows(ui, state, found, commands);
                 former_row(ui, state, (route, found), commands);
                 proof(ui, state, shown, commands);
                 profile_view(ui, state, found, commands);
@@ -120,12 +128,18 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
         false => "…".to_owned(),
     };
     let optimum = format::interval(solution.lower, solution.upper);
-    let metric = if state.unit() == LengthUnit::Degree { IN_DEGREES } else { IN_THE_PLANE };
+    let (length, metric) = match found.length_on_the_ellipsoid() {
+        Some(metres) => (format::length(metres, LengthUnit::Metre), ON_THE_ELLIPSOID),
+        None if state.unit() == LengthUnit::Degree => {
+            (format::length(solution.length, state.unit()), IN_DEGREES)
+        }
+        None => (format::length(solution.length, state.unit()), IN_THE_PLANE),
+    };
     let rows = [
         ("Cost", number(solution.cost), "The integral of the cost per length along the path that is shown."),
         ("Proved", gap, PROVED),
         ("Least possible cost", optimum, LEAST_POSSIBLE),
-        ("Length", format::length(solution.length, state.unit()), metric),
+        ("Length", length, metric),
         ("Accumulated risk", number(solution.risk), "The risk, summed up along the path."),
         (
             "Highest risk",
@@ -142,6 +156,20 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
     });
     if state.unit() == LengthUnit::Degree {
         remark(ui, "Lengths and costs are measured in degrees of the plane, not in metres on the earth.");
+    }
+}
+
+/// Asks for a speed, and shows the time of the path, where lengths in metres are known.
+fn time_rows(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut Vec<Command>) {
+    let Some(metres) = found.metres else { return };
+    let mut knots = state.features.paths.tool.speed;
+    let row = NumberRow::new("Speed", &mut knots).range(0.0..=MOST_KNOTS).default(0.0).unit("kn");
+    if row.help("The speed for the time of the path, in knots; 0: no time is shown.").show(ui).changed() {
+        commands.push(Command::Path(PathCommand::Speed(knots)));
+    }
+    if let Some(speed) = Speed::from_knots(knots) {
+        let help = "The time that the path takes at this speed, in hours and minutes.";
+        ValueRow::new("Time", &hours_and_minutes(speed.seconds(metres))).help(help).show(ui);
     }
 }
 

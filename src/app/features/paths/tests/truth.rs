@@ -18,6 +18,7 @@ use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
 use meshbrush_core::path::{Solution, Weights};
 use meshbrush_mesh::geometry::{Rect, nearest_on_segment};
+use meshbrush_mesh::text::LengthUnit;
 
 fn says(window: &Window, text: &str) -> bool {
     window.query_by_label_contains(text).is_some()
@@ -127,6 +128,28 @@ fn on_a_coast_the_path_keeps_the_clearance_that_is_typed() {
     wait_until(&mut window, |window| shown(window)[0].problem.is_some());
     window.run();
     assert!(says(&window, "and the clearance of paths is 0.9."));
+}
+
+#[test]
+fn a_speed_gives_the_time_and_a_projection_the_length_on_the_ellipsoid() {
+    let mut window = window_with_path();
+    assert!(!says(&window, "Speed"), "without a unit there is no time");
+    set(&mut window, Setting::LengthUnit(LengthUnit::Kilometre));
+    wait_for_paths(&mut window);
+    type_into(&mut window, "Speed", "1");
+    let found = |window: &Window| shown(window)[0].found.clone().unwrap();
+    let minutes = found(&window).solution.length * 60.0 / 1.852;
+    assert_eq!(row(&window, "Time"), format!("{minutes:.0} min"));
+    assert_eq!(unexplained(&window), [""; 0]);
+    assert_eq!(found(&window).length_on_the_ellipsoid(), None);
+    // In this plane, lengths are 0.04 % shorter than on the ellipsoid.
+    let projection = "+proj=tmerc +lon_0=15 +k_0=0.9996 +ellps=WGS84 +units=m".parse().ok();
+    set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
+    set(&mut window, Setting::Domain(Domain { projection, ..Domain::rectangle(Rect::UNIT) }));
+    wait_for_paths(&mut window);
+    let ratio = found(&window).length_on_the_ellipsoid().unwrap() / found(&window).solution.length;
+    assert!((ratio * 0.9996 - 1.0).abs() < 1e-9, "{ratio}");
+    assert_eq!(row(&window, "Time"), "0 min");
 }
 
 #[test]
