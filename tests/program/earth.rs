@@ -380,3 +380,48 @@ fn a_length_with_a_unit_puts_a_region_into_metres() {
     }
     assert_eq!(folder.run("mesh --region sea.geojson --spacing 0.1°").status, 0);
 }
+
+/// A ship goes around a cape in the north of a chart in Mercator, where lengths are drawn much longer than in the
+/// south.
+#[test]
+fn a_ship_keeps_its_clearance_on_the_earth() {
+    let folder = Folder::new("earth-ship");
+    let cape = [20.5, 65.3];
+    let ring = [[18.0, 58.0], [23.0, 58.0], [23.0, 66.0], [20.6, 66.0], cape, [20.4, 66.0], [18.0, 66.0]];
+    folder.file("sea.geojson", polygon(&[ring.to_vec()]));
+    let ship = "--region sea.geojson --projection merc --spacing 60000 --target 15000 --from 18.9°,65.7° \
+                --to 22.1°,65.7°";
+    let route = |options: &str| -> Vec<[f64; 2]> {
+        folder.json("path", format!("{ship} {options} -o ship.gpx"));
+        let text = folder.read("ship.gpx");
+        let number = |point: &str, key: &str| {
+            point.split_once(key).unwrap().1.split('"').next().unwrap().parse().unwrap()
+        };
+        let points = text.split("<rtept ").skip(1);
+        points.map(|point| [number(point, "lon=\""), number(point, "lat=\"")]).collect()
+    };
+    let nearest = |route: &[[f64; 2]]| {
+        let share = |n: u32| f64::from(n) / 100.0;
+        let along = route.windows(2).flat_map(|ends| {
+            (0..=100)
+                .map(move |n| [0, 1].map(|axis| ends[0][axis] + share(n) * (ends[1][axis] - ends[0][axis])))
+        });
+        along.map(|at| on_the_ellipsoid(at, cape)).fold(f64::MAX, f64::min)
+    };
+    let close = route("");
+    assert!(on_the_ellipsoid(close[0], [18.9, 65.7]) < 1e-3, "{:?}", close[0]);
+    assert!(nearest(&close) < 4_000.0, "{} m", nearest(&close));
+    let wide = nearest(&route("--clearance 10km"));
+    assert!((10_000.0..14_000.0).contains(&wide), "{wide} m");
+    for (options, sentence) in [
+        ("--clearance 1°", "--clearance 1°: lengths of this domain are in metres"),
+        ("--clearance 90km", "and the clearance of paths is 90000"),
+    ] {
+        let ran = folder.run(format!("path {ship} {options}"));
+        assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+    let plain = folder.run("path --target 0.1 --from 24°,37° --to 25°,37°");
+    assert!(plain.err.contains("24°,37°: the coordinates of this domain are no longitudes"), "{}", plain.err);
+    let mixed = folder.run("path --target 0.1 --from 24°,37 --to 25°,37°");
+    assert!(mixed.err.contains("“24°,37” is no point"), "{}", mixed.err);
+}

@@ -422,7 +422,7 @@ pub struct LocateArguments {
 /// `meshbrush why`.
 #[derive(Debug, Args)]
 pub struct WhyArguments {
-    /// A point of the domain, in its coordinates
+    /// A point of the domain, in its coordinates, or as longitude and latitude, as in 24.5°,37.9°
     #[arg(value_name = "X,Y", allow_hyphen_values = true)]
     pub point: String,
 

@@ -32,6 +32,19 @@ impl FromStr for Length {
     }
 }
 
+impl Length {
+    /// Checks that the unit has a meaning in a document.
+    ///
+    /// # Errors
+    /// Fails with the option where lengths of the document are in another unit.
+    pub fn check(&self, option: &str, of_document: LengthUnit) -> Result<(), Failure> {
+        if self.unit == LengthUnit::None {
+            return Ok(());
+        }
+        LengthWithUnit { option: format!("{option} {self}"), unit: self.unit }.check(of_document)
+    }
+}
+
 impl fmt::Display for Length {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.text)

@@ -20,6 +20,7 @@ mod options;
 mod output;
 mod path;
 mod path_args;
+mod points;
 mod quantities;
 mod recipe;
 mod replay;

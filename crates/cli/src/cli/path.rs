@@ -17,8 +17,8 @@ use super::input::{Input, ToMesh};
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
+use super::points::TypedPoint;
 use super::terminal::Terminal;
-use super::why::point;
 use meshbrush_core::document::{PathCost, PathPlan};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, Speed, hours_and_minutes, metres_along};
@@ -54,10 +54,17 @@ pub fn run(
     let inputs = [input.files(), typed.keep_out.clone()].concat();
     outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let ask =
-        |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, places, formula, saved, plane);
-    let (read, asked) = read_and_ask(&input, terminal, ask)?;
-    let (plane, unit) = (EarthPlane::new(read.spec.domain.projection, read.unit), read.unit);
+    let ask = |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, formula, saved, plane);
+    let (read, mut asked) = read_and_ask(&input, terminal, ask)?;
+    let (projection, unit) = (read.spec.domain.projection, read.unit);
+    if let Some(places) = places {
+        asked.places =
+            places.iter().map(|place| place.in_domain(projection, unit)).collect::<Result<_, _>>()?;
+    }
+    if let Some(clearance) = &typed.clearance {
+        clearance.check("--clearance", unit)?;
+    }
+    let plane = EarthPlane::new(projection, unit);
     check_times(typed, plane, unit)?;
     outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
     let finished = build_from(read, terminal)?;
@@ -102,11 +109,10 @@ struct Asked {
 }
 
 impl Asked {
-    /// Reads the keep-out regions, in the plane of the domain if it lies in one. `places` are those of the
-    /// options, `saved` what the file says.
+    /// Reads the keep-out regions, in the plane of the domain if it lies in one. `saved` is what the file
+    /// says; its places stay out where the options have some.
     fn new(
         typed: &PathArguments,
-        places: Option<Vec<DVec2>>,
         formula: Option<CostFormula>,
         saved: &PathPlan,
         plane: Option<&DocumentPlane>,
@@ -115,9 +121,11 @@ impl Asked {
             true => saved.keep_out_masks(),
             false => typed.keep_out.iter().map(|path| mask(path, plane)).collect::<Result<_, _>>()?,
         };
-        let name = if places.is_some() { "Path".to_owned() } else { saved.name(route_index(typed)) };
-        let places = places.map_or_else(|| saved_places(typed, saved), Ok)?;
-        let clearance = typed.clearance.unwrap_or(saved.clearance);
+        let (name, places) = match typed.from {
+            Some(_) => ("Path".to_owned(), Vec::new()),
+            None => (saved.name(route_index(typed)), saved_places(typed, saved)?),
+        };
+        let clearance = typed.clearance.as_ref().map_or(saved.clearance, |clearance| clearance.value);
         Ok(Self { places, cost: cost(typed, formula, &saved.cost), keep_out, clearance, name })
     }
 
@@ -159,10 +167,10 @@ fn read_and_ask(
 }
 
 /// Returns the start, the via points and the goal, where they are given.
-fn places(typed: &PathArguments) -> Result<Option<Vec<DVec2>>, Failure> {
+fn places(typed: &PathArguments) -> Result<Option<Vec<TypedPoint>>, Failure> {
     let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
     let texts = std::iter::once(from).chain(&typed.via).chain([to]);
-    texts.map(|text| point(text)).collect::<Result<_, _>>().map(Some)
+    texts.map(|text| TypedPoint::parse(text)).collect::<Result<_, _>>().map(Some)
 }
 
 /// Returns the number, from 0, of the path of the project or the recipe that is asked for.

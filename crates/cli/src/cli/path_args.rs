@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::args::{InputArguments, PictureArguments};
+use super::lengths::Length;
 
 /// `meshbrush path`.
 #[derive(Debug, Args)]
@@ -13,6 +14,8 @@ pub struct PathArguments {
     pub input: InputArguments,
 
     /// Where the path begins [default: where that of the project or recipe does]
+    ///
+    /// In world units, as in 0.5,0.25, or as longitude and latitude, as in 24.5°,37.9°.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "to", help_heading = "Path")]
     pub from: Option<String>,
 
@@ -36,10 +39,10 @@ pub struct PathArguments {
     /// Keep paths at least this far from the outline of the domain, where polygons give it, and from keep-out
     /// regions [default: that of the project or recipe, or 0]
     ///
-    /// A length in the unit of the domain. Triangles that are nearer are left out; along them the mesh is
-    /// divided for the path. Sides of the rectangle around the domain do not count.
+    /// In the plane of a projection, this is a length on the Earth. Triangles that are nearer are left out;
+    /// along them the mesh is divided for the path. Sides of the rectangle around the domain do not count.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Path")]
-    pub clearance: Option<f64>,
+    pub clearance: Option<Length>,
 
     /// Cost per unit of length as a formula of x, y and risk, in place of the weights
     ///

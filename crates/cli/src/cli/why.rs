@@ -2,7 +2,6 @@
 
 use std::io::Write;
 
-use glam::DVec2;
 use serde::Serialize;
 
 use super::args::WhyArguments;
@@ -10,6 +9,7 @@ use super::build::{FinishedMesh, build};
 use super::failure::Failure;
 use super::input::Input;
 use super::mesh::note_capped;
+use super::points::TypedPoint;
 use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
 use meshbrush_core::layers::DiameterLimit;
@@ -20,13 +20,13 @@ use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bise
 /// # Errors
 /// Fails with the reason, when the arguments make no sense, the work failed, or no triangle is at the point.
 pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -> Result<(), Failure> {
-    let point = point(&typed.point)?;
+    let point = TypedPoint::parse(&typed.point)?;
     let input = Input::new(&typed.input)?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let finished = build(&input, terminal)?;
     note_capped(&finished, terminal);
     let mesh = finished.mesh();
-    let location = mesh.locate(point);
+    let location = mesh.locate(point.in_domain(finished.domain().projection, finished.unit)?);
     let id = location.triangle().ok_or_else(|| nowhere(&typed.point, &location, mesh))?;
     let explanation = terminal.while_working("looking for the cause", || finished.explanation(id));
     let text = if typed.json {
@@ -36,20 +36,6 @@ pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -
         sentences(&finished, id, &explanation)
     };
     writeln!(out, "{text}").map_err(Failure::Print)
-}
-
-/// Reads "X,Y".
-///
-/// # Errors
-/// Fails when these are not two finite numbers.
-pub fn point(text: &str) -> Result<DVec2, Failure> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[x, y]) if x.is_finite() && y.is_finite() => Ok(DVec2::new(x, y)),
-        _ => Err(Failure::Usage(format!(
-            "“{text}” is no point. Write two numbers and a comma, as in 0.5,0.25."
-        ))),
-    }
 }
 
 fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {

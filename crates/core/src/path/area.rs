@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::path_mesh::contains;
 use super::{Passage, PathError, Waypoint};
 use crate::domain::{Domain, Outline};
+use crate::earth::GeographicExtent;
 use crate::geometry::{Rect, Side, nearest_on_segment, side_of_points};
 use crate::layers::{Coverage, Mask};
 
@@ -15,12 +16,20 @@ use crate::layers::{Coverage, Mask};
 /// the clearance to what is not covered by the polygons and to the regions.
 ///
 /// Beyond the rectangle of the domain there is no land: a path may follow its sides. Clones share their data.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct PathArea {
     keep_out: Arc<[Mask]>,
     outline: Option<Arc<Outline>>,
-    /// In world units.
+    /// In the plane, in world units.
     clearance: f64,
+    /// How many world units a unit of the asked clearance has in the plane, at most.
+    scale: f64,
+}
+
+impl Default for PathArea {
+    fn default() -> Self {
+        Self::outside_of(&[])
+    }
 }
 
 /// Distances are taken to be shorter by this share, and by this share of the largest coordinate: rounding
@@ -28,25 +37,22 @@ pub struct PathArea {
 const ROUNDING: [f64; 2] = [1e-12, 1e-14];
 
 impl PathArea {
-    /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units.
-    /// Only polygons limit it: a domain given by a formula is known by the triangles of its mesh alone.
+    /// Returns the area of paths through a domain that stay out of regions, with a clearance in world units:
+    /// in the plane of a projection, in metres on the Earth. Only polygons limit it: a domain given by a
+    /// formula is known by the triangles of its mesh alone.
     ///
     /// # Errors
     /// Fails when the clearance is negative, NaN or infinite.
     pub fn new(domain: &Domain, keep_out: Vec<Mask>, clearance: f64) -> Result<Self, PathError> {
         check_clearance(clearance)?;
         let outline = domain.region().and_then(|region| Outline::new(region)).map(Arc::new);
-        Ok(Self { keep_out: keep_out.into(), outline, clearance })
+        let scale = greatest_scale(domain);
+        Ok(Self { keep_out: keep_out.into(), outline, clearance: scale * clearance, scale })
     }
 
     /// Returns the area of all points that are in none of the regions.
     pub fn outside_of(keep_out: &[Mask]) -> Self {
-        Self { keep_out: keep_out.into(), ..Self::default() }
-    }
-
-    /// Returns the clearance in world units.
-    pub fn clearance(&self) -> f64 {
-        self.clearance
+        Self { keep_out: keep_out.into(), outline: None, clearance: 0.0, scale: 1.0 }
     }
 
     /// Returns whether paths may go everywhere.
@@ -144,8 +150,17 @@ impl PathArea {
         let distances =
             regions.map(|mask| mask.distance(at)).chain(outline.map(|outline| outline.distance(at)));
         let distance = distances.fold(f64::INFINITY, f64::min);
-        Some(PathError::TooClose { which, at, distance, clearance: self.clearance })
+        let [distance, clearance] = [distance, self.clearance].map(|length| length / self.scale);
+        Some(PathError::TooClose { which, at, distance, clearance })
     }
+}
+
+/// Returns how many times longer than on the Earth a length can be in the plane of a domain.
+fn greatest_scale(domain: &Domain) -> f64 {
+    let Some(projection) = domain.projection else { return 1.0 };
+    let extent = GeographicExtent::of_plane(&projection, domain.bounds);
+    // The scale has no greatest value but on the rim.
+    extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
 }
 
 /// Checks a clearance.

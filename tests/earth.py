@@ -1,0 +1,140 @@
+"""Checks meshes of seas against PROJ: where their nodes lie, and how long their edges are on the ellipsoid.
+
+Usage: earth.py PROGRAM
+"""
+
+import json
+import math
+import random
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from pyproj import CRS, Geod, Transformer
+
+PROGRAM = Path(sys.argv[1]).resolve()
+GEOD = Geod(ellps="WGS84")
+# West, south, degrees of longitude and of latitude: from 75° S to 80° N, one across the antimeridian.
+COASTS = {
+    "Ross Sea": (170, -76, 15, 5),
+    "Chile": (-76, -46, 4, 8),
+    "Fiji": (176, -19, 7, 4),
+    "Java Sea": (106, -7, 8, 4),
+    "Guinea": (-2, -2, 9, 6),
+    "Florida": (-83, 24, 5, 4),
+    "Aegean": (22, 35, 6, 6),
+    "Baltic": (16, 54, 8, 6),
+    "Lofoten": (9, 66, 10, 4),
+    "Svalbard": (10, 76, 20, 4),
+}
+PROJECTIONS = ["auto", "merc", "tmerc", "lcc", "stere"]
+# Codes of the EPSG register in which a coast is exported.
+CODES = {
+    "Ross Sea": [3031, 32759],
+    "Fiji": [32760, 32701],
+    "Florida": [32617, 26917, 3395, 3857],
+    "Aegean": [32635, 25835],
+    "Baltic": [3034, 3006, 3067],
+    "Svalbard": [3413, 3995, 25833],
+}
+SPACING_M = 32_000
+# A power of two less: triangles of that diameter stay, so that their edges are as long as they may be.
+TARGET_M = 4000
+
+
+def ring(name, west, south, width, height):
+    """A ragged ring in degrees."""
+    rng = random.Random(name)
+    points = []
+    for n in range(120):
+        angle = 2 * math.pi * n / 120
+        radius = 0.32 + 0.13 * rng.random()
+        lon, lat = west + width * (0.5 + radius * math.cos(angle)), south + height * (0.5 + radius * math.sin(angle))
+        points.append([lon - 360 if lon > 180 else lon, lat])
+    return points + points[:1]
+
+
+def run(folder, *arguments):
+    ran = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True)
+    return ran.returncode, ran.stderr
+
+
+def table(path, columns):
+    lines = path.read_text().splitlines()
+    rows = [line for line in lines if line.strip() and not line.startswith("#")]
+    count = int(rows[0].split()[0])
+    return np.array([row.split()[1 : 1 + columns] for row in rows[1 : 1 + count]], dtype=float)
+
+
+def mesh_of(folder, projection, *output):
+    mesh = ["mesh", "--region", "coast.geojson", "--projection", projection, "--spacing", f"{SPACING_M} m"]
+    return run(folder, *mesh, "--target", f"{TARGET_M} m", "--boundary", "fitted", *output)
+
+
+def compare(name, system, degrees, plane, tolerance_m):
+    """Fails where points of a plane are not where PROJ says."""
+    to_plane = Transformer.from_crs(system.geodetic_crs, system, always_xy=True)
+    off = np.abs(np.column_stack(to_plane.transform(degrees[:, 0], degrees[:, 1])) - plane).max()
+    assert off < tolerance_m, f"{name} in {system.to_string()}: a node is {off} m from its place"
+    return off
+
+
+def check_mesh(folder, name, projection, known):
+    """Compares a mesh with PROJ, unless it is in a plane that is known, and returns its nodes and edges."""
+    status, text = mesh_of(folder, projection, "-o", "m.node")
+    if status != 0:
+        # Some places do not suit some projections; one of `auto` does.
+        assert projection != "auto", f"{name}: {text}"
+        return 0, 0
+    plane = re.search(r"in the plane (\+proj=.*? \+units=m)", text).group(1)
+    if plane in known:
+        return 0, 0
+    known.add(plane)
+    degrees, triangles = table(folder / "m.node", 2), table(folder / "m.ele", 3).astype(int)
+    status, text = mesh_of(folder, projection, "--out-crs", "plane", "-o", "p.node")
+    assert status == 0, text
+    off = compare(name, CRS.from_proj4(plane), degrees, table(folder / "p.node", 2), 1e-6)
+    sides = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    a, b = (degrees[end - triangles.min()] for end in np.unique(np.sort(sides), axis=0).T)
+    lengths = GEOD.inv(a[:, 0], a[:, 1], b[:, 0], b[:, 1])[2]
+    over = int((lengths > TARGET_M).sum())
+    print(f"{name:10} {projection:5} {len(degrees):7} nodes within {off:.0e} m, longest edge {lengths.max():.1f} m")
+    assert over == 0, f"{name} in {plane}: {over} edges are longer than {TARGET_M} m on the ellipsoid"
+    return len(degrees), len(lengths)
+
+
+def check_codes(folder, name):
+    """Compares exports in systems of the EPSG register with PROJ, and returns the number of nodes."""
+    nodes = 0
+    for code in CODES.get(name, []):
+        for crs, file in [("lonlat", "m.node"), (f"EPSG:{code}", "p.node")]:
+            status, text = mesh_of(folder, "auto", "--out-crs", crs, "-o", file)
+            assert status == 0, text
+        degrees = table(folder / "m.node", 2)
+        # The ellipsoids of ETRS89 and NAD83 differ by a tenth of a millimetre from WGS 84.
+        off = compare(name, CRS.from_epsg(code), degrees, table(folder / "p.node", 2), 1e-3)
+        print(f"{name:10} EPSG:{code} {len(degrees):5} nodes within {off:.0e} m")
+        nodes += len(degrees)
+    return nodes
+
+
+def main():
+    nodes = edges = 0
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        for name, place in COASTS.items():
+            polygon = {"type": "Polygon", "coordinates": [ring(name, *place)]}
+            (folder / "coast.geojson").write_text(json.dumps(polygon))
+            known = set()
+            for projection in PROJECTIONS:
+                counted = check_mesh(folder, name, projection, known)
+                nodes, edges = nodes + counted[0], edges + counted[1]
+            nodes += check_codes(folder, name)
+    print(f"{nodes} nodes and {edges} edges agree with PROJ")
+    assert nodes >= 1_000_000, "too few nodes were compared"
+
+
+main()
