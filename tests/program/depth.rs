@@ -297,6 +297,13 @@ fn the_first_grid_with_a_value_counts_and_nodes_without_any_are_refused() {
         let is_surveyed = (1000.0..=2000.0).contains(&x) && y <= 1000.0;
         assert_eq!(depth, if is_surveyed { 3.0 } else { 50.0 }, "{x}, {y}");
     }
+    // Each file has its own zero, heights and depths alike.
+    let both = format!("{mesh} --depth survey.asc --depth chart.asc --depth-offset 1.5 --depth-offset -2");
+    assert_eq!(folder.run(both).status, 0);
+    for [x, y, depth] in fort14(&folder.read("m.14")).0 {
+        let is_surveyed = (1000.0..=2000.0).contains(&x) && y <= 1000.0;
+        assert_eq!(depth, if is_surveyed { 4.5 } else { 48.0 }, "{x}, {y}");
+    }
     assert_eq!(folder.run(format!("{mesh} --depth down.asc --depth-positive down")).status, 0);
     assert!(fort14(&folder.read("m.14")).0.iter().all(|node| node[2] == 50.0));
     let far = folder.run(format!("{} --depth survey.asc", mesh.replace("4000,4000", "40000,40000")));

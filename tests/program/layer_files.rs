@@ -102,6 +102,7 @@ fn kinds() -> Vec<LayerKind> {
             source("depth.asc", &shared),
             DepthSizes {
                 positive: PositiveDepth::Down,
+                offset: -0.25,
                 between: [0.3, f64::INFINITY],
                 rule: DepthRule::Wavelength { period: 12.0, triangles: 80.0 },
             },
@@ -110,6 +111,7 @@ fn kinds() -> Vec<LayerKind> {
             source("depth.asc", &shared),
             DepthSizes {
                 positive: PositiveDepth::Up,
+                offset: 0.0,
                 between: DepthSizes::ALL_WATER,
                 rule: DepthRule::Nothing,
             },

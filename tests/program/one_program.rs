@@ -168,7 +168,8 @@ fn depths(random: &mut fastrand::Rng) -> Depths {
     };
     let positive = [PositiveDepth::Up, PositiveDepth::Down][random.usize(..2)];
     let between = [DepthSizes::ALL_WATER, [2.0, 20.0], [3.0, f64::INFINITY]][random.usize(..3)];
-    Depths::new(source, DepthSizes { positive, between, rule })
+    let offset = [0.0, 1.5, -2.0][random.usize(..3)];
+    Depths::new(source, DepthSizes { positive, offset, between, rule })
 }
 
 fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {

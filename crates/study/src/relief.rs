@@ -175,6 +175,7 @@ mod tests {
         let source = RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) };
         let sizes = DepthSizes {
             positive: PositiveDepth::Down,
+            offset: 0.0,
             rule: DepthRule::Nothing,
             between: DepthSizes::ALL_WATER,
         };

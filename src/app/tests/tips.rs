@@ -94,7 +94,7 @@ fn every_control_of_the_panels_has_a_sentence() {
     let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
     let straits = LayerKind::straits(&transfer);
     let depths = [DepthRule::Nothing, DepthRule::USUAL_WAVELENGTH, SLOPE, COURANT].map(|rule| {
-        let sizes = DepthSizes { positive: PositiveDepth::Up, between: [0.0, 9.0], rule };
+        let sizes = DepthSizes { positive: PositiveDepth::Up, offset: 0.0, between: [0.0, 9.0], rule };
         LayerKind::Depth(Depths::new(raster(), sizes))
     });
     for kind in [formula, risk, distance, corridor, curve, band, straits].into_iter().chain(depths) {

@@ -25,6 +25,11 @@ pub struct WaterArguments {
     #[arg(long, value_name = "up|down", requires = "depth")]
     pub depth_positive: Option<PositiveArgument>,
 
+    /// Metres that are added to the depths of each file of --depth, in their order: for charts of depths
+    /// below low water; the last counts for further files [default: 0]
+    #[arg(long, value_name = "METRES", requires = "depth", allow_hyphen_values = true)]
+    pub depth_offset: Vec<f64>,
+
     /// At least this many triangles in the length of a wave with the period --period
     ///
     /// The length follows from the depth, by the dispersion relation. Land asks for nothing.
@@ -95,13 +100,15 @@ impl WaterArguments {
             // A floor counts for all layers below it.
             self.max_courant.map(|number| ("--max-courant", self.courant(number, SavedCombine::Floor))),
         ];
-        let files = || self.depth.iter().rev();
-        let of_file = |layer: &SavedLayer, file: &PathBuf| SavedLayer {
+        let files = || self.depth.iter().enumerate().rev();
+        let offset = |number: usize| self.depth_offset.get(number).or(self.depth_offset.last()).copied();
+        let of_file = |layer: &SavedLayer, (number, file): (usize, &PathBuf)| SavedLayer {
             file: Some(file.clone()),
             positive: self.depth_positive.map(Into::into),
+            offset: offset(number),
             ..layer.clone()
         };
-        let nodes = files().map(|file| (format!("--depth {}", file.display()), of_file(&depths(), file)));
+        let nodes = files().map(|file| (format!("--depth {}", file.1.display()), of_file(&depths(), file)));
         let sizes = rules.iter().flatten();
         let sizes = sizes.flat_map(|(option, layer)| {
             files().map(move |file| ((*option).to_owned(), of_file(layer, file)))

@@ -61,6 +61,9 @@ pub enum DepthRule {
 pub struct DepthSizes {
     /// The direction in which the values of the raster grow.
     pub positive: PositiveDepth,
+    /// What is added to depths, in metres: where the zero of the values is not that of the others, as in a
+    /// chart of depths below low water.
+    pub offset: f64,
     /// The least and the greatest depth at which something is asked for, in metres. Land asks for nothing.
     pub between: [f64; 2],
     /// How the depth decides the target diameter.
@@ -133,6 +136,9 @@ impl DepthSizes {
                 positive("Courant number", number)?;
             }
         }
+        if !self.offset.is_finite() {
+            return Err(DepthError { name: "offset", value: self.offset, rule: "a finite number" });
+        }
         let [least, greatest] = self.between;
         if !(least >= 0.0 && least.is_finite()) {
             return Err(DepthError { name: "least depth", value: least, rule: "0 or a finite depth" });
@@ -149,10 +155,11 @@ impl DepthSizes {
 
     /// Returns the depth of a value of the raster.
     pub fn depth_of(&self, value: f64) -> f64 {
-        match self.positive {
+        let depth = match self.positive {
             PositiveDepth::Up => -value,
             PositiveDepth::Down => value,
-        }
+        };
+        depth + self.offset
     }
 
     /// Returns the target diameter at a depth of water above 0; infinite where nothing is asked for, and NaN
@@ -223,7 +230,7 @@ impl Depths {
             DepthRule::Slope { smoothing, .. } => Some(smoothing),
             _ => None,
         };
-        let key = |sizes: &DepthSizes| (sizes.positive, sizes.between, smoothing(sizes));
+        let key = |sizes: &DepthSizes| (sizes.positive, sizes.offset, sizes.between, smoothing(sizes));
         match key(&self.sizes) == key(&sizes) {
             true => Self { sizes, ..self.clone() },
             false => Self::new(self.source.clone(), sizes),
@@ -367,7 +374,7 @@ mod tests {
     }
 
     fn sizes(positive: PositiveDepth, rule: DepthRule) -> DepthSizes {
-        DepthSizes { positive, between: DepthSizes::ALL_WATER, rule }
+        DepthSizes { positive, offset: 0.0, between: DepthSizes::ALL_WATER, rule }
     }
 
     #[test]
@@ -398,7 +405,8 @@ mod tests {
         for round in 0..4000 {
             let positive = if random.bool() { PositiveDepth::Up } else { PositiveDepth::Down };
             let between = if random.bool() { DepthSizes::ALL_WATER } else { [5.0, 30.0] };
-            let sizes = DepthSizes { between, ..sizes(positive, rules[round % 4]) };
+            let offset = [0.0, 3.5, -8.0][round % 3];
+            let sizes = DepthSizes { offset, between, ..sizes(positive, rules[round % 4]) };
             let depths = depths(vec![0.0], [1, 1], sizes);
             let low = 80.0 * random.f64() - 40.0;
             let high = low + [0.0, 1e-6, 5.0, 60.0][random.usize(..4)] * random.f64();
@@ -407,7 +415,7 @@ mod tests {
             for n in 0..=50 {
                 let value = (low + (high - low) * f64::from(n) / 50.0).clamp(low, high);
                 let one = depths.asked(value, value);
-                let depth = if positive == PositiveDepth::Up { -value } else { value };
+                let depth = offset + if positive == PositiveDepth::Up { -value } else { value };
                 let is_asked = depth > 0.0 && depth >= between[0] && depth <= between[1];
                 assert_eq!(one.any, is_asked && rules[round % 4] != DepthRule::Nothing);
                 assert_eq!(one.any, one.all);

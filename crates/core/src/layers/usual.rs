@@ -41,7 +41,7 @@ impl LayerKind {
     fn depths(source: RasterSource, rule: DepthRule) -> Option<Self> {
         let has_heights = source.raster.finite_range()?.least < 0.0;
         let positive = if has_heights { PositiveDepth::Up } else { PositiveDepth::Down };
-        let sizes = DepthSizes { positive, between: DepthSizes::ALL_WATER, rule };
+        let sizes = DepthSizes { positive, offset: 0.0, between: DepthSizes::ALL_WATER, rule };
         Some(Self::Depth(Depths::new(source, sizes)))
     }
 

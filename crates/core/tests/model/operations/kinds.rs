@@ -145,7 +145,8 @@ fn depth_sizes(choices: &mut impl Choices, diameter: f64) -> DepthSizes {
     let positive = [PositiveDepth::Up, PositiveDepth::Down][choices.below(2)];
     let between =
         if choices.below(2) == 0 { DepthSizes::ALL_WATER } else { [1.0, 9.0 * choices.share() + 2.0] };
-    DepthSizes { positive, between, rule }
+    let offset = [0.0, 0.4 * choices.share() - 0.2][choices.below(2)];
+    DepthSizes { positive, offset, between, rule }
 }
 
 fn threat(choices: &mut impl Choices, scale: Scale) -> Threat {

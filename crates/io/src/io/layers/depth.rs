@@ -8,9 +8,10 @@ use meshbrush_core::layers::{DepthRule, DepthSizes, PositiveDepth};
 impl SavedLayer {
     /// Returns a layer that asks this of its depths, without a file.
     pub(super) fn of_depths(sizes: &DepthSizes) -> Self {
-        let DepthSizes { positive, between: [least, greatest], rule } = *sizes;
+        let DepthSizes { positive, offset, between: [least, greatest], rule } = *sizes;
         let layer = Self {
             positive: Some(positive.into()),
+            offset: (offset != 0.0).then_some(offset),
             depth_from: (least > 0.0).then_some(least),
             depth_to: greatest.is_finite().then_some(greatest),
             ..Self::of_kind(SavedKind::Depth)
@@ -78,7 +79,9 @@ impl SavedLayer {
             number_where(greatest, greatest > least, "it must be finite, and above depth_from")
                 .map_err(|fault| fault.within("depth_to"))?;
         }
+        let offset = self.offset.unwrap_or(0.0);
+        number_where(offset, true, "it must be finite").map_err(|fault| fault.within("offset"))?;
         let positive = self.positive.map_or(PositiveDepth::Up, Into::into);
-        Ok(DepthSizes { positive, between: [least, greatest], rule })
+        Ok(DepthSizes { positive, offset, between: [least, greatest], rule })
     }
 }

@@ -88,6 +88,9 @@ pub struct SavedLayer {
     /// Whether values are heights or depths.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub positive: Option<SavedPositive>,
+    /// What is added to depths, in metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset: Option<f64>,
     /// How the depth decides the target diameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<SavedDepthSize>,
@@ -184,6 +187,7 @@ impl SavedLayer {
             between: None,
             diameter: None,
             positive: None,
+            offset: None,
             size: None,
             depth_from: None,
             depth_to: None,
@@ -328,6 +332,7 @@ impl SavedLayer {
             ("between", self.between.is_some()),
             ("diameter", self.diameter.is_some()),
             ("positive", self.positive.is_some()),
+            ("offset", self.offset.is_some()),
             ("size", self.size.is_some()),
             ("depth_from", self.depth_from.is_some()),
             ("depth_to", self.depth_to.is_some()),

@@ -49,12 +49,12 @@ fn every_kind_is_read_from_its_keys() {
         ),
         (
             r#"{ "kind": "depth", "file": "depth.asc" }"#,
-            "Depth(DepthSizes { positive: Up, between: [0.0, inf], rule: Nothing })",
+            "Depth(DepthSizes { positive: Up, offset: 0.0, between: [0.0, inf], rule: Nothing })",
         ),
         (
             r#"{ "kind": "depth", "file": "d.asc", "positive": "down", "size": "wavelength", "period": 10, "triangles": 8,
-                 "depth_to": 50 }"#,
-            "Depth(DepthSizes { positive: Down, between: [0.0, 50.0], rule: Wavelength { period: 10.0, triangles: 8.0 } })",
+                 "offset": -1.5, "depth_to": 50 }"#,
+            "Depth(DepthSizes { positive: Down, offset: -1.5, between: [0.0, 50.0], rule: Wavelength { period: 10.0, triangles: 8.0 } })",
         ),
     ] {
         assert_eq!(format!("{:?}", checked(json).unwrap()), expected, "{json}");

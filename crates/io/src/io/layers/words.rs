@@ -207,6 +207,7 @@ impl SavedKind {
                 "file",
                 "bounds",
                 "positive",
+                "offset",
                 "size",
                 "depth_from",
                 "depth_to",

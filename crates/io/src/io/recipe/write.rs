@@ -14,7 +14,7 @@ const HEADER: &str =
 const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
 
 /// The order of keys. Others follow in the order of their letters.
-const ORDER: [&str; 38] = [
+const ORDER: [&str; 39] = [
     "region",
     "bounds",
     "inside",
@@ -52,6 +52,7 @@ const ORDER: [&str; 38] = [
     "slope",
     "between",
     "positive",
+    "offset",
     "size",
 ];
 

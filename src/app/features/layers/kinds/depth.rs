@@ -68,6 +68,10 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let mut sizes = before;
     let choices = [(PositiveDepth::Up, "Heights"), (PositiveDepth::Down, "Depths")];
     segmented(ui, "Values are", &mut sizes.positive, &choices);
+    let row = NumberRow::new("Offset", &mut sizes.offset).range(f64::MIN..=f64::MAX).unit("m");
+    let help =
+        "Added to the depths: for charts whose zero is not that of the other depths, such as low water.";
+    row.help(help).show(ui);
     let mut size = Size::of(&sizes.rule);
     let is_in_metres = state.unit().may_be_metres();
     if choice_rows(ui, "Size by", &mut size, &Size::CHOICES).changed() && is_in_metres {
