@@ -114,11 +114,11 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
     Shapes::new(list, true).unwrap()
 }
 
-/// Returns a layer of any kind. The distance to the outline needs a domain that has one.
+/// Returns a layer of any kind. Straits and the distance to the outline need a domain that has one.
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
-    match random.u8(..if has_outline { 15 } else { 14 }) {
+    match random.u8(..if has_outline { 15 } else { 13 }) {
         0 => LayerKind::constant(between(random, 0.1, 1.0)),
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
@@ -146,14 +146,14 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             LayerKind::Distance { to, at_zero, slope, range }
         }
         11 => LayerKind::Depth(depths(random)),
-        12 => LayerKind::Straits(Straits {
-            across: between(random, 1.0, 5.0),
-            found: StraitDiscs::unknown([0.3, 1.5]),
-        }),
-        13 => {
+        12 => {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
+        13 => LayerKind::Straits(Straits {
+            across: between(random, 1.0, 5.0),
+            found: StraitDiscs::unknown([0.3, 1.5]),
+        }),
         _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
 }

@@ -124,7 +124,11 @@ fn every_crossing_of_random_coasts_has_enough_triangles() {
              --widest-strait 4 -o m.node"
         );
         let summary = folder.json("mesh", command);
-        assert_eq!(summary["straits"]["below"], 0, "{}", summary["straits"]);
+        // Only where an island almost touches another coast, --h-min leaves fewer triangles.
+        for place in summary["straits"]["places"].as_array().unwrap() {
+            let width = place["width"].as_f64().unwrap();
+            assert!(width < f64::from(across) * h_min, "seed {seed}: {place}");
+        }
         assert!(summary["straits"]["crossings"].as_u64().unwrap() > 50);
         let (nodes, triangles) = mesh_in(&folder);
         for _ in 0..300 {
