@@ -162,12 +162,14 @@ fn a_continent_around_a_pole_is_meshed() {
     assert!((1.0..1.08).contains(&(area / cap)), "{area} of {cap}");
 }
 
+/// A rectangle as GeoJSON: west, south, east and north.
+fn frame([west, south, east, north]: [f64; 4]) -> String {
+    polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
+}
+
 #[test]
 fn what_cannot_be_projected_is_refused_with_the_reason() {
     let folder = Folder::new("earth-refused");
-    let frame = |[west, south, east, north]: [f64; 4]| {
-        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
-    };
     folder.file("globe.geojson", frame([-180.0, -75.0, 180.0, 75.0]));
     folder.file("plane.geojson", frame([0.0, 0.0, 5000.0, 3000.0]));
     folder.file("far.geojson", frame([0.0, 0.0, 5.0, 84.0]));
@@ -234,9 +236,6 @@ fn files_in_the_plane_make_the_same_mesh() {
 #[test]
 fn keep_out_regions_in_degrees_lie_in_the_plane_of_the_domain() {
     let folder = Folder::new("earth-keep-out");
-    let frame = |[west, south, east, north]: [f64; 4]| {
-        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
-    };
     folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
     folder.file("zone.geojson", frame([2.2, 51.8, 2.8, 52.2]));
     // The middle of the domain is the origin of the plane.
@@ -245,6 +244,14 @@ fn keep_out_regions_in_degrees_lie_in_the_plane_of_the_domain() {
     let length = |options: &str| folder.json("path", format!("{path} {options}"))["length"].as_f64().unwrap();
     let (straight, around) = (length(""), length("--keep-out zone.geojson"));
     assert!((straight - 200_000.0).abs() < 1.0 && around > 204_000.0, "{straight} m and {around} m");
+    // So do those in the system that an option says for all files that name none.
+    folder.file("utm.geojson", frame([440_000.0, 6_430_000.0, 560_000.0, 6_540_000.0]));
+    folder.file("zone-utm.geojson", frame([490_000.0, 6_475_000.0, 510_000.0, 6_495_000.0]));
+    let path = "--region utm.geojson --crs EPSG:32633 --projection lcc --boundary-diameter 4000 --spacing 8000 \
+                --target 2000 --from 14.3°,58.5° --to 15.7°,58.5°";
+    let length = |options: &str| folder.json("path", format!("{path} {options}"))["length"].as_f64().unwrap();
+    let (straight, around) = (length(""), length("--keep-out zone-utm.geojson"));
+    assert!(around > 1.01 * straight, "{straight} m and {around} m");
 }
 
 /// Diameters of 2 km west of 2° W and of 20 km east of there, in pixels of a tenth of a degree.
@@ -346,9 +353,6 @@ fn files_of_a_zone_of_utm_lie_where_they_do_on_the_earth() {
 #[test]
 fn a_length_with_a_unit_puts_a_region_into_metres() {
     let folder = Folder::new("earth-units");
-    let frame = |[west, south, east, north]: [f64; 4]| {
-        polygon(&[vec![[west, south], [east, south], [east, north], [west, north]]])
-    };
     folder.file("sea.geojson", frame([14.0, 58.0, 16.0, 59.0]));
     folder.file("utm.geojson", frame([440_000.0, 6_430_000.0, 560_000.0, 6_540_000.0]));
     folder.file("local.geojson", frame([0.0, 0.0, 5_000.0, 3_000.0]));

@@ -161,7 +161,9 @@ fn read_and_ask(
         return Ok((input.read(terminal)?, asked));
     }
     let read = input.read(terminal)?;
-    let plane = read.spec.domain.projection.map(DocumentPlane::from);
+    // The text was read with the settings.
+    let assumed = input.settings.domain.crs.as_deref().and_then(|text| text.parse().ok());
+    let plane = read.spec.domain.projection.map(|projection| DocumentPlane { projection, assumed });
     let asked = ask(&read.paths, plane.as_ref())?;
     Ok((read, asked))
 }
