@@ -101,9 +101,7 @@ fn depth_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayP
         (0..=steps).map(|step| palette.water(share(step))),
         ["0".into(), format::significant(0.25 * deepest, 3), metres(deepest)],
     );
-    let every = format!("isobaths every {}", metres(isobath_interval(deepest)));
-    let below = place.left_top() + vec2(0.0, 32.0);
-    ui.painter().text(below, Align2::LEFT_TOP, every, font::axis(), tokens(ui).label);
+    below_scale(ui, place, format!("isobaths every {}", metres(isobath_interval(deepest))));
     place
 }
 
@@ -118,11 +116,15 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
     let steps = 8_i8;
     let color = |step: i8| palette.depth_error(MOST_ERROR * f32::from(step) / f32::from(steps));
     let ends = [format!("−{percent} %"), "0".into(), format!("{percent} %")];
-    scale(ui, place, (-steps..=steps).map(color).collect::<Vec<_>>().into_iter(), ends);
-    let below = place.left_top() + vec2(0.0, 32.0);
-    let text = "shallower, deeper";
-    ui.painter().text(below, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
+    scale(ui, place, (-steps..=steps).map(color), ends);
+    below_scale(ui, place, "shallower, deeper".into());
     place
+}
+
+/// Shows a row of text below a scale.
+fn below_scale(ui: &Ui, place: Rect, text: String) {
+    let at = place.left_top() + vec2(0.0, 32.0);
+    ui.painter().text(at, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
 }
 
 /// Says that there is no layer of depths.

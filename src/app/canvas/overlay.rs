@@ -10,7 +10,7 @@ use super::super::session::Session;
 use super::super::view::FieldOverlay;
 use super::overlay_palette::{OverlayPalette, lit};
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::layers::{DepthSurface, Layer, NodeDepths, PaintLayers, SettledSquares, SizeField};
+use meshbrush_core::layers::{DepthSurface, Layer, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
@@ -27,8 +27,9 @@ const MOST_LIGHT: f32 = 1.25;
 struct OverlayState {
     kind: FieldOverlay,
     document: u64,
+    /// The revision of the mesh; 0 for the depths, which do not depend on it.
     mesh: u64,
-    /// Whether the nodes along the outline of this mesh are known.
+    /// Whether the nodes along the outline of this mesh are known, where they are compared with depths.
     is_derived: bool,
     /// The rectangle of the domain, in world units.
     domain: Rect,
@@ -42,7 +43,12 @@ struct OverlayState {
 impl OverlayState {
     /// Returns whether colours are found pixel by pixel of the screen, so that they are exact at any zoom.
     fn is_of_screen(kind: FieldOverlay) -> bool {
-        Self::is_of_triangles(kind) || matches!(kind, FieldOverlay::Depth | FieldOverlay::DepthError)
+        Self::needs_mesh(kind) || kind == FieldOverlay::Depth
+    }
+
+    /// Returns whether colours depend on the triangles.
+    fn needs_mesh(kind: FieldOverlay) -> bool {
+        Self::is_of_triangles(kind) || kind == FieldOverlay::DepthError
     }
 
     /// Returns whether each triangle has one colour.
@@ -57,8 +63,9 @@ impl OverlayState {
             true => (camera.visible_world(), camera.size_px()),
             false => (domain, pixels_over(&domain)),
         };
-        let (document, mesh) = (document.revision(), follower.revision());
-        let is_derived = session.derived().is_some();
+        let mesh = if kind == FieldOverlay::Depth { 0 } else { follower.revision() };
+        let document = document.revision();
+        let is_derived = kind == FieldOverlay::DepthError && session.derived().is_some();
         Self { kind, document, mesh, is_derived, domain, bounds, size, palette }
     }
 }
@@ -137,8 +144,9 @@ fn colors_of(
     let (document, follower) = (session.document(), session.follower());
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
-    let mesh = OverlayState::is_of_screen(state.kind).then(|| follower.shared_mesh());
-    let derived = session.derived().map(Derived::shared_extract);
+    let mesh = OverlayState::needs_mesh(state.kind).then(|| follower.shared_mesh());
+    let is_compared = state.kind == FieldOverlay::DepthError;
+    let derived = session.derived().filter(|_| is_compared).map(Derived::shared_extract);
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
@@ -221,11 +229,10 @@ fn depth_error_colors(
     OverlayState { bounds, size, palette, .. }: &OverlayState,
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Vec<[u8; 4]>> {
-    let at_nodes = NodeDepths::of(layers, mesh.view()).and_then(Result::ok);
-    let (Some(surface), Some(at_nodes)) = (DepthSurface::of(layers), at_nodes) else {
-        return Some(neutral(*size, palette));
-    };
-    let differences = depth_differences(mesh.view(), &at_nodes.depths, &surface, (*bounds, *size), goes_on)?;
+    let surface = DepthSurface::of(layers);
+    let depths = surface.as_ref().and_then(|surface| surface.depths_at_nodes(mesh.view()).ok());
+    let Some((surface, depths)) = surface.zip(depths) else { return Some(neutral(*size, palette)) };
+    let differences = depth_differences(mesh.view(), &depths, &surface, (*bounds, *size), goes_on)?;
     Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
 }
 

@@ -152,30 +152,29 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
         (Some(value), Some(_)) => format!("{option} {value}"),
         _ => option.to_owned(),
     };
-    let length = |option: &str, value: &Option<Length>| with(option, value.as_ref().map(Length::to_string));
+    let length = |option: &str, value: Option<&Length>| with(option, value.map(Length::to_string));
     let option = match &fault.path[..] {
         [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
-            "at_zero" => length(
-                "--distance-at-zero",
-                if typed.distance_at_zero.is_some() { &typed.distance_at_zero } else { &typed.h_min },
-            ),
+            "at_zero" => {
+                length("--distance-at-zero", typed.distance_at_zero.as_ref().or(typed.h_min.as_ref()))
+            }
             "slope" => with("--distance-slope", typed.distance_slope.map(|slope| slope.to_string())),
-            "range" => length("--distance-range", &typed.distance_range),
-            "width_to" => length("--widest-strait", &typed.water.widest_strait),
+            "range" => length("--distance-range", typed.distance_range.as_ref()),
+            "width_to" => length("--widest-strait", typed.water.widest_strait.as_ref()),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
             "projection" => "--projection".to_owned(),
             "crs" => "--crs".to_owned(),
-            "boundary_diameter" => length("--boundary-diameter", &typed.boundary_diameter),
-            "spacing" => length("--spacing", &typed.spacing),
-            "h_min" => length("--h-min", &typed.h_min),
-            "h_risk" if fault.given.is_some() => length("--h-risk", &typed.h_risk),
+            "boundary_diameter" => length("--boundary-diameter", typed.boundary_diameter.as_ref()),
+            "spacing" => length("--spacing", typed.spacing.as_ref()),
+            "h_min" => length("--h-min", typed.h_min.as_ref()),
+            "h_risk" if fault.given.is_some() => length("--h-risk", typed.h_risk.as_ref()),
             "gradation" => "--gradation".to_owned(),
             "max_triangles" => format!("--max-triangles {}", typed.max_triangles.unwrap_or_default()),
             "max_memory" => format!("--max-memory {}", typed.max_memory.as_deref().unwrap_or_default()),
-            "h_max" if fault.given.is_some() => length("--h-max", &typed.h_max),
+            "h_max" if fault.given.is_some() => length("--h-max", typed.h_max.as_ref()),
             // The sentences about the curve name its numbers.
             _ => return Failure::Usage(fault.full_sentence()),
         },

@@ -79,25 +79,36 @@ impl NodeDepths {
 
 impl DepthSurface<'_> {
     fn at_nodes(&self, mesh: MeshView) -> Result<NodeDepths, NoDepth> {
-        let lattice = mesh.lattice();
-        let nodes: Vec<DVec2> =
-            mesh.nodes().par_iter().map(|&node| lattice.world_from_lattice(node)).collect();
-        let sides = mean_sides(mesh, &nodes);
+        let nodes = places(mesh);
+        let found = self.found_at(mesh, &nodes)?;
+        let distances = || found.iter().filter_map(|found| found.distance);
+        let depths: Vec<f64> = found.iter().map(|found| found.depth).collect();
+        let fit = self.fit(mesh, &nodes, &depths);
+        Ok(NodeDepths { depths, filled: distances().count(), farthest: distances().fold(0.0, f64::max), fit })
+    }
+
+    /// Returns the depth at each node of a mesh, as [`NodeDepths::depths`].
+    ///
+    /// # Errors
+    /// Fails when nodes are far from every pixel with a value.
+    pub fn depths_at_nodes(&self, mesh: MeshView) -> Result<Vec<f64>, NoDepth> {
+        let found = self.found_at(mesh, &places(mesh))?;
+        Ok(found.iter().map(|found| found.depth).collect())
+    }
+
+    fn found_at(&self, mesh: MeshView, nodes: &[DVec2]) -> Result<Vec<Found>, NoDepth> {
+        let sides = mean_sides(mesh, nodes);
         let found: Vec<Option<Found>> = nodes
             .par_iter()
             .zip(&sides)
             .with_min_len(GRAIN)
             .map(|(&node, &side)| self.around(node, side))
             .collect();
-        let lost = || found.iter().zip(&nodes).filter(|(found, _)| found.is_none());
+        let lost = || found.iter().zip(nodes).filter(|(found, _)| found.is_none());
         if let Some((_, &at)) = lost().next() {
             return Err(NoDepth { nodes: lost().count(), at });
         }
-        let found: Vec<Found> = found.into_iter().flatten().collect();
-        let distances = || found.iter().filter_map(|found| found.distance);
-        let depths: Vec<f64> = found.iter().map(|found| found.depth).collect();
-        let fit = self.fit(mesh, &nodes, &depths);
-        Ok(NodeDepths { depths, filled: distances().count(), farthest: distances().fold(0.0, f64::max), fit })
+        Ok(found.into_iter().flatten().collect())
     }
 
     /// Returns the depth for a node whose triangles have sides of about `side`, in world units; `None` far
@@ -149,6 +160,11 @@ impl DepthSurface<'_> {
         }
         sums
     }
+}
+
+/// Returns the places of the nodes, in world units.
+fn places(mesh: MeshView) -> Vec<DVec2> {
+    mesh.nodes().par_iter().map(|&node| mesh.lattice().world_from_lattice(node)).collect()
 }
 
 /// Returns the weights of the corners at a point in a triangle. A point on an edge that runs up, or to the

@@ -73,7 +73,7 @@ impl PathTriangle {
 impl PathMesh {
     /// All triangles of the domain are open.
     pub fn new(view: MeshView) -> Self {
-        Self::with_passages(view, |_, is_outside| if is_outside { Passage::Closed } else { Passage::Open })
+        Self::in_area(view, &PathArea::default())
     }
 
     /// Keep-out regions close the triangles within and leave out those that they touch.
@@ -84,11 +84,13 @@ impl PathMesh {
     /// The triangles outside an area are closed, and those through which its rim passes are left out. Along
     /// the outline of a domain, and with a clearance, these are bisected first.
     pub fn in_area(view: MeshView, area: &PathArea) -> Self {
-        let mut mesh = Self { area: area.clone(), ..Self::new(view) };
+        let passage = |_: &[DVec2; 3], is_outside| if is_outside { Passage::Closed } else { Passage::Open };
+        let mut mesh = Self { area: area.clone(), ..Self::unconnected(view, passage) };
         if !area.is_everything() {
             mesh.close_outside_area();
-            mesh.divide_along_area();
         }
+        mesh.connect();
+        mesh.divide_along_area();
         mesh
     }
 
@@ -110,12 +112,18 @@ impl PathMesh {
             triangle.passage = passage;
         }
         self.has_obtuse = self.triangles.iter().any(|triangle| triangle.obtuse < 3 && triangle.is_passable());
-        self.connect();
     }
 
     /// `passage` says for each triangle, by its corners and whether it is marked as outside the domain,
     /// whether paths go there.
     pub fn with_passages(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
+        let mut mesh = Self::unconnected(view, passage);
+        mesh.connect();
+        mesh
+    }
+
+    /// Returns the mesh without the rows of triangles around its nodes.
+    fn unconnected(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
         let lattice = view.lattice();
         let nodes: Vec<DVec2> = view.nodes().iter().map(|&node| lattice.world_from_lattice(node)).collect();
         let mut mesh = Self { nodes, ..Self::default() };
@@ -134,7 +142,6 @@ impl PathMesh {
         let extent = lattice.extent();
         mesh.covers_domain = covered == 2 * i128::from(extent.x) * i128::from(extent.y);
         mesh.sort_along_curve();
-        mesh.connect();
         mesh
     }
 

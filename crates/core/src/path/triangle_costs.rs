@@ -131,8 +131,7 @@ impl TriangleCost {
 
 impl PathMesh {
     /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
-    /// where it is not. One through which the rim of the area of paths
-    /// passes has a jump of the cost.
+    /// where it is not. One through which the rim of the area of paths passes has a jump of the cost.
     fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
         let variation = match self.passage(triangle) {
             Passage::Closed => 0.0,

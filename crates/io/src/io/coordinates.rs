@@ -44,6 +44,11 @@ impl FileCoordinates {
         }
     }
 
+    /// Returns the same, where the coordinates of a file that does not name a known system are `assumed`.
+    pub(super) fn assuming(self, assumed: Option<Coordinates>) -> Self {
+        self.on_earth(assumed).map_or(self, Self::Known)
+    }
+
     /// Returns what the coordinates are on the Earth. Those of a file that does not name a known system are
     /// `assumed`, or else degrees if it says nothing and they can be.
     pub fn on_earth(&self, assumed: Option<Coordinates>) -> Option<Coordinates> {
@@ -76,6 +81,21 @@ impl DocumentPlane {
         let from = coordinates.on_earth(self.assumed)?;
         Some(Reprojection { from, to: self.projection })
     }
+
+    /// Returns the way of shapes to the plane. `None` where nobody says what their coordinates are, and they
+    /// are no longitudes and latitudes: then they are in the plane already.
+    ///
+    /// # Errors
+    /// Fails where the file names a system that is not known.
+    pub(super) fn way_of_shapes(&self, coordinates: &FileCoordinates) -> Result<Option<Reprojection>, Flaw> {
+        let way = self.reprojection(coordinates);
+        if way.is_none() && matches!(coordinates, FileCoordinates::Foreign(_)) {
+            let problem = "it names a coordinate system that is not known here, so its shapes cannot be placed in the \
+                           plane of the document. Convert it to EPSG:4326 first.";
+            return Err(Flaw::Syntax(problem.into()));
+        }
+        Ok(way)
+    }
 }
 
 /// Returns what coordinates are in a system `crs`, which is named as in `urn:ogc:def:crs:EPSG::4326`,
@@ -98,15 +118,6 @@ pub fn named(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> Fil
 pub fn of_epsg(code: u32) -> FileCoordinates {
     let unit = || UNITS.iter().find(|(known, _)| *known == code).map_or(LengthUnit::None, |&(_, unit)| unit);
     Coordinates::of_epsg(code).map_or_else(|| FileCoordinates::Foreign(unit()), FileCoordinates::Known)
-}
-
-/// Why a file of another system is of no use for a document in the plane of a projection.
-pub(super) fn foreign() -> Flaw {
-    Flaw::Syntax(
-        "it names a coordinate system that is not known here, so its shapes cannot be placed in the plane of the \
-         document. Convert it to EPSG:4326 first."
-            .into(),
-    )
 }
 
 /// Returns whether rings have edges along the longitudes 180° and −180° whose latitudes overlap.

@@ -70,14 +70,12 @@ impl Outline {
     /// Returns the polygons in the plane of a document.
     ///
     /// # Errors
-    /// Fails where the file names a system that is not known. Coordinates that nobody names, and that are no
-    /// longitudes and latitudes, are in the plane already.
+    /// Fails where the file names a system that is not known.
     pub(super) fn in_plane(self, plane: &DocumentPlane) -> Result<Self, Flaw> {
-        match (plane.reprojection(&self.coordinates), self.coordinates) {
-            (Some(reprojection), _) => Ok(self.reprojected(&reprojection)),
-            (None, FileCoordinates::Foreign(_)) => Err(coordinates::foreign()),
-            (None, _) => Ok(self),
-        }
+        Ok(match plane.way_of_shapes(&self.coordinates)? {
+            Some(reprojection) => self.reprojected(&reprojection),
+            None => self,
+        })
     }
 
     fn reprojected(self, reprojection: &Reprojection) -> Self {

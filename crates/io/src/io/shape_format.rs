@@ -8,7 +8,7 @@ use std::path::Path;
 use super::error::PlacedFlaw;
 use super::geojson::Outline;
 use super::shapes::ShapeFile;
-use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS, coordinates};
+use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS};
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::earth::Coordinates;
 
@@ -65,14 +65,14 @@ pub fn read_shapes(
 ) -> Result<ShapeFile, ReadError> {
     let file = (format_of(path).read_shapes)(path, meter)?;
     let Some(plane) = plane else { return Ok(file) };
-    match (plane.reprojection(&file.coordinates), file.coordinates) {
-        (Some(reprojection), _) => Ok(ShapeFile {
+    let way = plane.way_of_shapes(&file.coordinates);
+    Ok(match way.map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))? {
+        Some(reprojection) => ShapeFile {
             shapes: file.shapes.projected(&reprojection),
             coordinates: FileCoordinates::Known(Coordinates::Plane(plane.projection)),
-        }),
-        (None, FileCoordinates::Foreign(_)) => Err(PlacedFlaw::from(coordinates::foreign()).in_file(path)),
-        (None, _) => Ok(file),
-    }
+        },
+        None => file,
+    })
 }
 
 fn format_of(path: &Path) -> &'static ShapeFormatSpec {

@@ -10,9 +10,7 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
-use super::super::{
-    DocumentPlane, FileCoordinates, KeyFault, Meter, ReadError, project, shape_format, threats,
-};
+use super::super::{DocumentPlane, KeyFault, Meter, ReadError, project, shape_format, threats};
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
@@ -164,11 +162,7 @@ impl Storage for Files<'_> {
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
-            let unit = match outline.coordinates.on_earth(assumed) {
-                Some(known) => FileCoordinates::Known(known).unit(),
-                None => outline.coordinates.unit(),
-            };
-            return Ok(ReadRegion { domain, marks, unit });
+            return Ok(ReadRegion { domain, marks, unit: outline.coordinates.assuming(assumed).unit() });
         };
         let (outline, projection) = outline.projected(choice, assumed).map_err(|error| unsuited(&error))?;
         self.note = Some(in_the_plane(&outline, &projection));
