@@ -14,17 +14,17 @@ pub struct EarthArguments {
     /// All lengths are then in metres, and no edge of the mesh is longer on the Earth than in the plane. auto
     /// chooses what suits the region: merc (Mercator), tmerc (transverse Mercator), stere (polar
     /// stereographic) or lcc (Lambert). EPSG:N is the projection of a code, such as EPSG:32633 for a zone of
-    /// UTM. A projection as PROJ writes it, with all its numbers, is the plane of files that name no
-    /// coordinate system, too. metres is the plane of the region's file if that is known, or else
-    /// auto. none takes degrees for lengths in a plane [default: metres where a length has a unit, as in
-    /// 2 km; or else none]
+    /// UTM. A projection written as PROJ does, with all its numbers, is also the coordinate system of files
+    /// that name none. metres keeps the plane of the region's file if it is known, and is auto otherwise.
+    /// none takes degrees for lengths in a plane [default: metres if a length has a unit, as in 2 km;
+    /// otherwise none]
     #[arg(long, value_name = "auto|metres|none|merc|tmerc|stere|lcc|EPSG:N|PROJ")]
     pub projection: Option<String>,
 
-    /// What coordinates are in files that do not name a coordinate system that is known: lonlat, EPSG:N, or a
-    /// projection as PROJ writes it
+    /// Coordinate system of files that do not name a known one: lonlat, EPSG:N, or a projection written as
+    /// PROJ does
     ///
-    /// Without it, coordinates that can be longitudes and latitudes are that.
+    /// Without it, coordinates within the range of longitudes and latitudes are taken as degrees.
     #[arg(long, value_name = "lonlat|EPSG:N|PROJ")]
     pub crs: Option<String>,
 }

@@ -60,7 +60,7 @@ pub struct LengthWithUnit {
 }
 
 impl LengthWithUnit {
-    /// Returns those of the options on what to mesh.
+    /// Returns the lengths with a unit among the options on what to mesh.
     pub fn all(typed: &InputArguments) -> Vec<Self> {
         let lengths = [
             ("--boundary-diameter", &typed.boundary_diameter),
@@ -99,7 +99,7 @@ impl LengthWithUnit {
             LengthUnit::None => "plain numbers",
             LengthUnit::Metre => "in metres",
             LengthUnit::Kilometre => "in kilometres",
-            LengthUnit::Degree => "in degrees, which are no lengths on the Earth",
+            LengthUnit::Degree => "in degrees, which are not lengths on the Earth",
         };
         let advice = match (of_document, self.unit) {
             (LengthUnit::Degree, _) => {
@@ -141,7 +141,7 @@ mod tests {
         }
         assert!("x".parse::<Length>().unwrap_err().contains("is not a number"));
         assert!("2 apples".parse::<Length>().unwrap_err().contains("cannot be converted to m"));
-        // A formula is no length.
+        // A formula is not a length.
         assert_eq!(
             ["3*x", "x", "2", "2m*x", "2 m"].map(|text| length_with_unit(text).is_some()),
             [false, false, false, false, true]

@@ -110,7 +110,7 @@ struct Asked {
 
 impl Asked {
     /// Reads the keep-out regions, in the plane of the domain if it lies in one. `saved` is what the file
-    /// says; its places stay out where the options have some.
+    /// says; its places are ignored if the options give some.
     fn new(
         typed: &PathArguments,
         formula: Option<CostFormula>,
