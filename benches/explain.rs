@@ -29,6 +29,7 @@ fn built(level: u32, limits: Limits) -> BuiltMesh {
         unasked: 20.0,
         outline: None,
         gradation: None,
+        projection: None,
     };
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, 1.0, 1_000_000).expect("a square has a grid"),

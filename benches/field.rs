@@ -41,6 +41,7 @@ fn of_pixels(target_diameter: impl Fn(f64) -> f64) -> SizeField {
         unasked: 20.0,
         outline: None,
         gradation: None,
+        projection: None,
     };
     SizeField::new(spec, diamond::coarse().lattice())
 }

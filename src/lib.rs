@@ -94,8 +94,8 @@ pub use meshbrush_study::levels::{Bisections, LevelFigures};
 // Read and write files.
 #[doc(inline)]
 pub use meshbrush_core::earth::{
-    Coordinates, CoordinatesTextError, GeographicExtent, Projection, ProjectionChoice, ProjectionError,
-    ProjectionKind, ProjectionTextError, Reprojection, projected_polygons,
+    Coordinates, CoordinatesTextError, EdgeLengths, GeographicExtent, Projection, ProjectionChoice,
+    ProjectionError, ProjectionKind, ProjectionTextError, Reprojection, projected_polygons,
 };
 #[doc(inline)]
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};

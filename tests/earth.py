@@ -40,9 +40,11 @@ CODES = {
     "Baltic": [3034, 3006, 3067],
     "Svalbard": [3413, 3995, 25833],
 }
+# Those of them in which no mesh is made: not conformal on the ellipsoid.
+NO_PLANES = [3857]
 SPACING_M = 32_000
-# A power of two less: triangles of that diameter stay, so that their edges are as long as they may be.
-TARGET_M = 4000
+# Triangles of this share of the spacing of a coarse grid stay, so that their edges are as long as they may be.
+TARGET_SHARE = 1 / 8
 
 
 def ring(name, west, south, width, height):
@@ -59,7 +61,7 @@ def ring(name, west, south, width, height):
 
 def run(folder, *arguments):
     ran = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True)
-    return ran.returncode, ran.stderr
+    return ran.returncode, ran.stderr, ran.stdout
 
 
 def table(path, columns):
@@ -69,9 +71,15 @@ def table(path, columns):
     return np.array([row.split()[1 : 1 + columns] for row in rows[1 : 1 + count]], dtype=float)
 
 
-def mesh_of(folder, projection, *output):
+def mesh_of(folder, projection, target_m, *output):
     mesh = ["mesh", "--region", "coast.geojson", "--projection", projection, "--spacing", f"{SPACING_M} m"]
-    return run(folder, *mesh, "--target", f"{TARGET_M} m", "--boundary", "fitted", *output)
+    return run(folder, *mesh, "--target", f"{target_m!r} m", "--boundary", "fitted", *output)
+
+
+def target_of(folder, projection):
+    """Returns a target in metres that triangles in the plane of a projection have, or why there is no such mesh."""
+    status, text, summary = mesh_of(folder, projection, 1e6, "--boundary-diameter", "1000 km", "--json")
+    return (TARGET_SHARE * json.loads(summary)["spacing"], text) if status == 0 else (None, text)
 
 
 def compare(name, system, degrees, plane, tolerance_m):
@@ -84,8 +92,8 @@ def compare(name, system, degrees, plane, tolerance_m):
 
 def check_mesh(folder, name, projection, known):
     """Compares a mesh with PROJ, unless it is in a plane that is known, and returns its nodes and edges."""
-    status, text = mesh_of(folder, projection, "-o", "m.node")
-    if status != 0:
+    target_m, text = target_of(folder, projection)
+    if target_m is None:
         # Some places do not suit some projections; one of `auto` does.
         assert projection != "auto", f"{name}: {text}"
         return 0, 0
@@ -93,27 +101,35 @@ def check_mesh(folder, name, projection, known):
     if plane in known:
         return 0, 0
     known.add(plane)
-    degrees, triangles = table(folder / "m.node", 2), table(folder / "m.ele", 3).astype(int)
-    status, text = mesh_of(folder, projection, "--out-crs", "plane", "-o", "p.node")
+    status, text, _ = mesh_of(folder, projection, target_m, "-o", "m.node")
     assert status == 0, text
-    off = compare(name, CRS.from_proj4(plane), degrees, table(folder / "p.node", 2), 1e-6)
+    degrees, triangles = table(folder / "m.node", 2), table(folder / "m.ele", 3).astype(int)
+    status, text, _ = mesh_of(folder, projection, target_m, "--out-crs", "plane", "-o", "p.node")
+    assert status == 0, text
+    is_code = projection.startswith("EPSG:")
+    system, tolerance_m = (CRS.from_string(projection), 1e-3) if is_code else (CRS.from_proj4(plane), 1e-6)
+    off = compare(name, system, degrees, table(folder / "p.node", 2), tolerance_m)
     sides = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     a, b = (degrees[end - triangles.min()] for end in np.unique(np.sort(sides), axis=0).T)
     lengths = GEOD.inv(a[:, 0], a[:, 1], b[:, 0], b[:, 1])[2]
-    over = int((lengths > TARGET_M).sum())
-    print(f"{name:10} {projection:5} {len(degrees):7} nodes within {off:.0e} m, longest edge {lengths.max():.1f} m")
-    assert over == 0, f"{name} in {plane}: {over} edges are longer than {TARGET_M} m on the ellipsoid"
+    # Where the plane is true to scale, edges are as long as the target, but for rounding.
+    over = int((lengths > target_m * (1 + 1e-9)).sum())
+    print(f"{name:10} {projection:5} {len(degrees):7} nodes within {off:.0e} m, longest edge {lengths.max() / target_m:.6f} of its target")
+    assert over == 0, f"{name} in {plane}: {over} edges are longer than {target_m} m on the ellipsoid"
     return len(degrees), len(lengths)
 
 
 def check_codes(folder, name):
     """Compares exports in systems of the EPSG register with PROJ, and returns the number of nodes."""
     nodes = 0
+    degrees = None
     for code in CODES.get(name, []):
-        for crs, file in [("lonlat", "m.node"), (f"EPSG:{code}", "p.node")]:
-            status, text = mesh_of(folder, "auto", "--out-crs", crs, "-o", file)
-            assert status == 0, text
-        degrees = table(folder / "m.node", 2)
+        if degrees is None:
+            target_m, _ = target_of(folder, "auto")
+            mesh_of(folder, "auto", target_m, "--out-crs", "lonlat", "-o", "m.node")
+            degrees = table(folder / "m.node", 2)
+        status, text, _ = mesh_of(folder, "auto", target_m, "--out-crs", f"EPSG:{code}", "-o", "p.node")
+        assert status == 0, text
         # The ellipsoids of ETRS89 and NAD83 differ by a tenth of a millimetre from WGS 84.
         off = compare(name, CRS.from_epsg(code), degrees, table(folder / "p.node", 2), 1e-3)
         print(f"{name:10} EPSG:{code} {len(degrees):5} nodes within {off:.0e} m")
@@ -129,7 +145,8 @@ def main():
             polygon = {"type": "Polygon", "coordinates": [ring(name, *place)]}
             (folder / "coast.geojson").write_text(json.dumps(polygon))
             known = set()
-            for projection in PROJECTIONS:
+            codes = [f"EPSG:{code}" for code in CODES.get(name, []) if code not in NO_PLANES]
+            for projection in PROJECTIONS + codes:
                 counted = check_mesh(folder, name, projection, known)
                 nodes, edges = nodes + counted[0], edges + counted[1]
             nodes += check_codes(folder, name)

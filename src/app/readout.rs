@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::session::Session;
 use meshbrush_core::document::{Document, Follower};
+use meshbrush_core::earth::EarthPlane;
 use meshbrush_core::layers::Decision;
 use meshbrush_mesh::mesh::{
     Location, MeshView, Neighbour, NodeId, Orientation, TriangleId, barycentric, interpolate,
@@ -40,7 +41,7 @@ pub struct TriangleReadout {
     pub level: u32,
     /// Which way its vertices run in the report's order.
     pub orientation: Orientation,
-    /// The longest edge of the triangle, in world units.
+    /// The longest edge of the triangle, in world units, or in metres on the Earth.
     pub diameter: f64,
     /// Ids and world coordinates, as files list them: anticlockwise, the first two the ends of the bisection
     /// edge.
@@ -74,7 +75,17 @@ impl Readout {
 
 fn triangle_with(id: TriangleId, point: DVec2, session: &Session, quantity: Quantity) -> TriangleReadout {
     let value = |p: DVec2| value_at(p, session.document(), session.follower(), quantity);
-    read_triangle(session.view(), id, point, value)
+    let mut triangle = read_triangle(session.view(), id, point, value);
+    if let Some(projection) = session.document().settings().domain.projection {
+        triangle.diameter =
+            longest_side(EarthPlane::Projected(projection), triangle.vertices.map(|(_, at)| at));
+    }
+    triangle
+}
+
+/// Returns the length of the longest side of a triangle on the Earth, in metres.
+fn longest_side(plane: EarthPlane, [a, b, c]: [DVec2; 3]) -> f64 {
+    [[a, b], [b, c], [c, a]].map(|side| plane.length(&side)).into_iter().fold(0.0, f64::max)
 }
 
 fn read_triangle(

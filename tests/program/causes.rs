@@ -32,7 +32,8 @@ impl Case {
         let transfer = Transfer::between(0.002 + 0.01 * random.f64(), 0.5);
         let gradation = random.bool().then(|| 0.2 + random.f64());
         let layers = Layer::stack([disc(&mut random), threats(&mut random), strip(&mut random)]);
-        let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation };
+        let spec =
+            SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation, projection: None };
         let field = SizeField::new(spec, &lattice);
         let mut mesh = coarse.clone();
         mesh.refine(&Limits::default(), |element| field.exceeds(PaintLayers::blank(), element)).unwrap();

@@ -16,6 +16,7 @@ pub fn built(target: &str, rule: RefinementRule, limits: Limits) -> BuiltMesh {
         unasked: 1.0,
         outline: None,
         gradation: None,
+        projection: None,
     };
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, 0.1, 100_000).unwrap(),

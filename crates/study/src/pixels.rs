@@ -61,10 +61,12 @@ impl<'a> PixelTriangles<'a> {
         paint: &PaintLayers,
         squares: &mut SettledSquares,
     ) -> f32 {
-        let corners = self.mesh.corners(id).map(|corner| self.mesh.lattice().world_from_lattice(corner));
+        let corners = self.mesh.corners(id);
+        let diameter = field.edge_lengths().of(corners, self.mesh.triangle(id).level());
+        let corners = corners.map(|corner| self.mesh.lattice().world_from_lattice(corner));
         let middle = corners.iter().sum::<DVec2>() / 3.0;
         let target = field.quick_decision_at(squares, paint, middle).target;
-        libm::log2(target / self.mesh.diameter(self.mesh.triangle(id).level())).max(0.0) as f32
+        libm::log2(target / diameter).max(0.0) as f32
     }
 
     /// Returns whether a triangle is there for compatibility only: its parent does not exceed its target.

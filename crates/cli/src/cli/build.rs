@@ -10,6 +10,7 @@ use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
 use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
+use meshbrush_core::earth::EdgeLengths;
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
@@ -113,6 +114,11 @@ impl FinishedMesh {
         let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
         let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.paint));
         Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.limits)
+    }
+
+    /// Returns the diameters of triangles, which targets are compared with.
+    pub fn edge_lengths(&self) -> &EdgeLengths {
+        self.built.field.edge_lengths()
     }
 
     /// Returns the layers of the size field, from the bottom to the top.

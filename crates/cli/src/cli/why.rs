@@ -13,7 +13,7 @@ use super::points::TypedPoint;
 use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
 use meshbrush_core::layers::DiameterLimit;
-use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId, bisection_edge_length};
+use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId};
 
 /// Runs the command. `out` is standard output.
 ///
@@ -52,7 +52,12 @@ fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
 }
 
 fn sentences(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
-    let words = Words { mesh: finished.mesh(), layers: finished.layers(), unit: finished.unit };
+    let words = Words {
+        mesh: finished.mesh(),
+        edge_lengths: finished.edge_lengths(),
+        layers: finished.layers(),
+        unit: finished.unit,
+    };
     let level = explanation.triangle.level();
     let mut lines = vec![match number(finished, id) {
         Some(number) => format!("Triangle {number} is of level {level}."),
@@ -110,12 +115,11 @@ enum SavedDemand<'a> {
 
 impl<'a> Answer<'a> {
     fn new(finished: &'a FinishedMesh, id: TriangleId, explanation: &Explanation) -> Self {
-        let mesh = finished.mesh();
         let (cause, chain) = match &explanation.cause {
             Cause::Coarse => ("coarse", Vec::new()),
-            Cause::OwnRule { parent } => ("rule", vec![Link::new(mesh, parent)]),
+            Cause::OwnRule { parent } => ("rule", vec![Link::new(finished, parent)]),
             Cause::Compatibility { chain } => {
-                ("compatibility", chain.iter().map(|triangle| Link::new(mesh, triangle)).collect())
+                ("compatibility", chain.iter().map(|triangle| Link::new(finished, triangle)).collect())
             }
             _ => ("unneeded", Vec::new()),
         };
@@ -134,17 +138,17 @@ impl<'a> Answer<'a> {
             },
         });
         let triangle = number(finished, id);
-        let Link { level, corners, .. } = Link::new(mesh, &explanation.triangle);
+        let Link { level, corners, .. } = Link::new(finished, &explanation.triangle);
         Self { triangle, level, corners, cause, chain, demand }
     }
 }
 
 impl Link {
-    fn new(mesh: &Mesh, triangle: &TreeTriangle) -> Self {
-        let world = |corner| mesh.lattice().world_from_lattice(corner).to_array();
+    fn new(finished: &FinishedMesh, triangle: &TreeTriangle) -> Self {
+        let world = |corner| finished.mesh().lattice().world_from_lattice(corner).to_array();
         Self {
             level: triangle.level(),
-            diameter: bisection_edge_length(mesh.lattice().spacing(), triangle.level()),
+            diameter: finished.edge_lengths().of(triangle.corners(), triangle.level()),
             corners: triangle.corners().map(world),
         }
     }

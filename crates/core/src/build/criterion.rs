@@ -5,7 +5,7 @@ use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
 use crate::layers::{Decision, LeastTarget, PaintLayers, SettledPool, SettledSquares, SizeField};
-use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule, bisection_edge_length};
+use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, combined
 /// with the condition of the boundary of the domain.
@@ -64,7 +64,8 @@ impl<'a> RefinementCriterion<'a> {
                 Ok(field.asks_for_more_nearby(squares, paint, corners, level))
             }
             RefinementRule::Vertex => {
-                vertex_rule.exceeds(element, |point| field.target_at_node(paint, point))
+                let diameter = field.edge_lengths().of(element.corners, element.triangle.level());
+                vertex_rule.exceeds(element, diameter, |point| field.target_at_node(paint, point))
             }
         })
     }
@@ -102,7 +103,7 @@ impl<'a> RefinementCriterion<'a> {
             return self.exceeds_at(corners, level);
         }
         let lattice = self.field.lattice();
-        let length = bisection_edge_length(lattice.spacing(), level);
+        let length = self.field.edge_lengths().of(corners, level);
         let by_vertices = || {
             let targets = corners
                 .map(|corner| self.field.target_at_node(self.paint, lattice.world_from_lattice(corner)));

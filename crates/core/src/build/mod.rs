@@ -23,6 +23,7 @@
 //!         unasked: 1.0,
 //!         outline: None,
 //!         gradation: None,
+//!         projection: None,
 //!     },
 //!     rule: RefinementRule::Vertex,
 //!     cleaning: Cleaning::NONE,

@@ -97,10 +97,10 @@ impl Settings {
     /// Returns whether the mesh can follow from another domain to this one in place: only where it is fitted,
     /// so that triangles outside stay in it, marked.
     fn can_follow_outline(&self, old: &Domain) -> bool {
-        // A projection gives coordinates their meaning, and changes none.
-        let Domain { bounds, shape: _, projection: _ } = &self.domain;
-        let Domain { bounds: old_bounds, shape: _, projection: _ } = old;
+        let Domain { bounds, shape: _, projection } = &self.domain;
+        let Domain { bounds: old_bounds, shape: _, projection: old_projection } = old;
         bounds == old_bounds
+            && projection == old_projection
             && [&self.domain, old].iter().all(|domain| domain.formula().is_none())
             && self.boundary.diameter().is_some()
             && self.rule == RefinementRule::Area
@@ -108,7 +108,8 @@ impl Settings {
 
     /// Returns whether the size field asks for the same everywhere.
     fn has_same_field(&self, old: &Self, paint: &PaintLayers) -> bool {
-        let circumstances = Circumstances { paint, longest: f64::INFINITY, outline_areas: None };
+        let circumstances =
+            Circumstances { paint, longest: f64::INFINITY, greatest_scale: 1.0, outline_areas: None };
         self.field_spec().difference(&old.field_spec(), &circumstances).is_empty()
     }
 }

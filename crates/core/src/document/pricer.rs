@@ -233,7 +233,7 @@ pub(super) fn price_of<E>(progress: Result<Progress, E>, forecast: &Forecast) ->
 /// Returns why a stroke that changes pixels changes no triangle, judged where it ends.
 fn why_nothing(question: Question, paint: &PaintLayers, follower: &Follower) -> NoChange {
     let decision = follower.field().decision_at(paint, question.plan.to);
-    if decision.target >= follower.mesh().diameter(0) {
+    if decision.target >= follower.field().longest() {
         return NoChange::CoarserThanGrid;
     }
     match decision.layer {

@@ -251,6 +251,7 @@ impl Settings {
             unasked: transfer.h_max,
             outline: self.outline_shapes(),
             gradation: *gradation,
+            projection: self.domain.projection,
         }
     }
 
@@ -301,7 +302,7 @@ impl Settings {
         let mut field = self.field_spec();
         // Without an upper limit, h̄ is the diameter of a coarse triangle where no layer asks for anything.
         if self.transfer.h_max == f64::MAX {
-            field.unasked = bisection_edge_length(lattice.spacing(), 0);
+            field.unasked = self.domain.longest_on_earth(bisection_edge_length(lattice.spacing(), 0));
         }
         MeshSpec {
             domain: self.domain.clone(),
@@ -341,9 +342,9 @@ impl Settings {
         let spacing = usual.spacing * extent;
         Self {
             name,
-            domain,
             spacing,
-            boundary: BoundaryTreatment::usual(spacing),
+            boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
+            domain,
             transfer: Transfer {
                 h_min: h_min * extent,
                 h_risk: h_risk * extent,

@@ -7,9 +7,10 @@ use glam::DVec2;
 
 use super::region_builder::RegionOnLatticeBuilder;
 use super::{Domain, RegionOnLattice};
+use crate::earth::EdgeLengths;
 use crate::field::Formula;
 use crate::geometry::{Lattice, LatticePoint, Rect};
-use crate::mesh::{Element, LevelsWithin, Progress, bisection_edge_length, level_for_diameter};
+use crate::mesh::{Element, LevelsWithin, Progress, bisection_edge_length};
 
 /// How the mesh meets the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +79,7 @@ impl DomainOnLatticeBuilder {
             formula,
             region: None,
             fitted: None,
+            edge_lengths: EdgeLengths::new(domain.projection.as_ref(), lattice),
             on_outline: false,
         };
         let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));
@@ -105,8 +107,9 @@ pub struct DomainOnLattice {
     formula: Option<Formula>,
     /// Shared, so that a copy costs nothing.
     region: Option<Arc<RegionOnLattice>>,
-    /// The level that triangles on the boundary must have, where the mesh is fitted to it.
-    fitted: Option<u32>,
+    /// The largest diameter of triangles on the boundary, where the mesh is fitted to it.
+    fitted: Option<f64>,
+    edge_lengths: EdgeLengths,
     /// Whether nodes along the boundary are moved onto it.
     on_outline: bool,
 }
@@ -120,8 +123,7 @@ impl DomainOnLattice {
 
     /// Returns this domain on this lattice, with another treatment of its boundary.
     pub fn with_boundary(&self, boundary: BoundaryTreatment) -> Self {
-        let level = |diameter| level_for_diameter(self.lattice.spacing(), diameter).unwrap_or(u32::MAX);
-        let fitted = boundary.diameter().filter(|_| self.region.is_some()).map(level);
+        let fitted = boundary.diameter().filter(|_| self.region.is_some());
         let on_outline = fitted.is_some() && matches!(boundary, BoundaryTreatment::OnOutline { .. });
         Self { fitted, on_outline, ..self.clone() }
     }
@@ -222,7 +224,7 @@ impl DomainOnLattice {
         by_field: impl FnOnce() -> Result<bool, E>,
     ) -> Result<bool, E> {
         let (Some(fitted), Some(region)) = (self.fitted, &self.region) else { return by_field() };
-        if level < fitted && region.outline_crosses(corners, level) {
+        if self.edge_lengths.of(corners, level) > fitted && region.outline_crosses(corners, level) {
             return Ok(true);
         }
         Ok(by_field()? && !region.lies_outside(corners, level))

@@ -22,7 +22,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::earth::{Coordinates, Projection, Reprojection};
+use crate::earth::{Coordinates, GeographicExtent, Projection, Reprojection};
 use crate::field::Formula;
 use crate::geometry::{LatticePoint, Rect};
 use crate::mesh::Extract;
@@ -43,6 +43,9 @@ pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::Outline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners, signed_area};
+
+/// Scales that differ from 1 by less than this are 1.
+const TRUE_TO_SCALE: f64 = 1e-9;
 
 /// A domain in world units.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,6 +179,26 @@ impl Domain {
         let reprojection = Reprojection { from: *coordinates, to: self.projection? };
         let place = |&node: &LatticePoint| reprojection.from_plane(mesh.lattice().world_from_lattice(node));
         Some(mesh.nodes().par_iter().map(place).collect())
+    }
+
+    /// Returns the longest that a length in the plane is on the Earth, anywhere in the bounds; the same
+    /// length without a projection.
+    pub fn longest_on_earth(&self, length: f64) -> f64 {
+        let least = self.least_scale();
+        if (least - 1.0).abs() < TRUE_TO_SCALE { length } else { length / least }
+    }
+
+    /// Returns a scale that is nowhere less in the bounds; 1 without a projection.
+    pub fn least_scale(&self) -> f64 {
+        self.projection.map_or(1.0, |projection| projection.least_scale_in(&self.bounds))
+    }
+
+    /// Returns about the greatest scale in the bounds; 1 without a projection.
+    pub fn greatest_scale(&self) -> f64 {
+        let Some(projection) = self.projection else { return 1.0 };
+        let extent = GeographicExtent::of_plane(&projection, self.bounds);
+        // The scale has no greatest value but on the rim.
+        extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
     }
 
     /// Returns the domain with other bounds. Polygons are clipped to them.

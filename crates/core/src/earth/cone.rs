@@ -4,6 +4,7 @@
 use glam::{DVec2, dvec2};
 
 use super::ellipsoid::{A, Latitude, degrees_from_conformal, eccentricity};
+use crate::geometry::Rect;
 
 /// A cone whose tip is at the north pole; mirrored for the south.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +59,22 @@ impl Cone {
         let (sine, cosine) = libm::sincos(self.n * east.to_radians());
         let at = dvec2(distance * sine, self.mirror * (self.origin - distance * cosine));
         (at, self.n * distance / (A * latitude.parallel()))
+    }
+
+    /// Returns the least scale in a rectangle of the plane. It depends on the distance from the tip, and
+    /// falls up to the parallel where sin φ = n.
+    pub(super) fn least_scale_in(&self, rect: &Rect) -> f64 {
+        let tip = dvec2(0.0, self.mirror * self.origin);
+        let nearest = tip.clamp(rect.min, rect.max).distance(tip);
+        let farthest = (rect.max - tip).abs().max((rect.min - tip).abs()).length();
+        let best = self.distance(Latitude::from_degrees(libm::asin(self.n).to_degrees()));
+        self.scale_at_distance(best.clamp(nearest, farthest))
+    }
+
+    /// Returns the scale at a distance from the tip, in metres.
+    fn scale_at_distance(&self, distance: f64) -> f64 {
+        let latitude = self.inverse(dvec2(0.0, self.mirror * (self.origin - distance))).y;
+        self.forward(0.0, latitude).1
     }
 
     /// Returns longitude from the central one and latitude, in degrees.

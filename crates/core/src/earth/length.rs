@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
+use super::EarthPlane;
 use super::ellipsoid::Latitude;
-use super::{EarthPlane, Projection};
 use crate::text::LengthUnit;
 
 /// Places of Gauss's rule with five points on a piece, as shares of its half from the middle, and weights.
@@ -67,15 +67,10 @@ impl EarthPlane {
         let (middle, half) = (from.midpoint(to), 0.5 * (to - from));
         let rate = |at: DVec2| match self {
             Self::Degrees => metres_of_degrees(at.y, half),
-            Self::Projected(projection) => half.length() / scale_in_plane(&projection, at),
+            Self::Projected(projection) => half.length() / projection.scale_in_plane(at),
         };
         GAUSS.iter().map(|&(place, weight)| weight * rate(middle + place * half)).sum()
     }
-}
-
-/// Returns the scale at a point of the plane.
-fn scale_in_plane(projection: &Projection, at: DVec2) -> f64 {
-    projection.scale_at(projection.geographic_from_plane(at))
 }
 
 /// Returns the length of a small step of degrees from a latitude.
@@ -89,6 +84,7 @@ mod tests {
     use glam::{DVec3, dvec2, dvec3};
 
     use super::*;
+    use crate::earth::Projection;
 
     /// The place in space of a longitude and latitude on the ellipsoid, in metres.
     fn in_space(at: DVec2) -> DVec3 {

@@ -1,12 +1,14 @@
 //! The Earth: conformal projections of the ellipsoid WGS 84 to a plane in metres.
 //!
-//! A mesh is made in a plane, and lengths on it are measured there. A conformal projection has a scale k at
-//! each point: lengths in the plane are k times those on the ellipsoid, in every direction. Those that are
-//! chosen here have k ≥ 1 all over an extent, so no edge is longer on the ellipsoid than in the plane.
+//! A mesh is made in a plane. A conformal projection has a scale k at each point: lengths in the plane are k
+//! times those on the ellipsoid, in every direction. A triangle whose diameter in the plane is at most its
+//! target diameter times the least scale in it has no edge that is longer than the target on the ellipsoid:
+//! the geodesic between two points is no longer than the line that is straight in the plane.
 
 mod choice;
 mod cone;
 mod coordinates;
+mod edge_lengths;
 mod ellipsoid;
 mod extent;
 mod length;
@@ -15,24 +17,28 @@ mod plane;
 mod register;
 mod reprojection;
 mod route;
+mod scale_map;
 mod speed;
 mod text;
 mod transverse;
 
 use glam::{DVec2, dvec2};
 
+use crate::geometry::Rect;
 use cone::Cone;
 use ellipsoid::{A, Latitude, degrees_from_conformal};
 use transverse::Transverse;
 
 pub use choice::{ProjectionChoice, ProjectionError};
 pub use coordinates::{Coordinates, CoordinatesTextError};
+pub use edge_lengths::{EdgeLengths, LEVELS};
 pub use extent::GeographicExtent;
 pub use length::metres_along;
 pub use outline::{projected_line, projected_polygons};
 pub use plane::EarthPlane;
 pub use reprojection::Reprojection;
 pub use route::RoutePoint;
+use scale_map::ScaleMap;
 pub use speed::{Speed, SpeedError, hours_and_minutes};
 pub use text::ProjectionTextError;
 
@@ -176,6 +182,25 @@ impl Projection {
     /// ellipsoid.
     pub fn scale_at(&self, at: DVec2) -> f64 {
         self.forward(at).1
+    }
+
+    /// Returns the scale k at a point in the plane.
+    pub fn scale_in_plane(&self, at: DVec2) -> f64 {
+        self.scale_at(self.geographic_from_plane(at))
+    }
+
+    /// Returns a scale that is nowhere less in a rectangle of the plane: the least one, but of a transverse
+    /// Mercator projection that on its central meridian.
+    pub(crate) fn least_scale_in(&self, rect: &Rect) -> f64 {
+        let nearest = DVec2::ZERO.clamp(rect.min - self.origin, rect.max - self.origin);
+        match (&self.plane, self.parameters) {
+            (Plane::Transverse(_), Parameters::TransverseMercator { scale }) => scale,
+            // Grows away from the equator.
+            (Plane::Cone(cone), _) => {
+                cone.least_scale_in(&Rect::new(rect.min - self.origin, rect.max - self.origin))
+            }
+            _ => self.scale_in_plane(nearest + self.origin),
+        }
     }
 
     /// Returns longitude (−180 to 180) and latitude of a point in the plane.

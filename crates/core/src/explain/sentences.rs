@@ -3,15 +3,18 @@
 use glam::DVec2;
 
 use super::{Demand, Explanation};
+use crate::earth::EdgeLengths;
 use crate::geometry::LatticePoint;
 use crate::layers::{DiameterLimit, Layer, LeastTarget};
-use crate::mesh::{Cause, Mesh, TreeTriangle, bisection_edge_length};
+use crate::mesh::{Cause, Mesh, TreeTriangle};
 use crate::text::{LengthUnit, short_name, significant};
 
 /// The names and units that sentences use.
 pub struct Words<'a> {
     /// The mesh of the explanation.
     pub mesh: &'a Mesh,
+    /// The diameters of triangles, which targets are compared with.
+    pub edge_lengths: &'a EdgeLengths,
     /// The layers of the size field.
     pub layers: &'a [Layer],
     /// The unit of lengths.
@@ -105,7 +108,7 @@ impl Words<'_> {
     }
 
     fn length(&self, triangle: &TreeTriangle) -> String {
-        self.with_unit(bisection_edge_length(self.mesh.lattice().spacing(), triangle.level()))
+        self.with_unit(self.edge_lengths.of(triangle.corners(), triangle.level()))
     }
 
     fn with_unit(&self, length: f64) -> String {

@@ -9,13 +9,13 @@ use crate::mesh::{Element, InvalidTarget};
 /// h̄ is evaluated once for each node and kept, as up to eight triangles at many levels share a node.
 #[derive(Clone, Debug, Default)]
 pub struct VertexRule {
-    /// h̄ by node in world units, NaN where it was not evaluated yet.
+    /// h̄ by node, NaN where it was not evaluated yet.
     target_of_node: Vec<f64>,
 }
 
 impl VertexRule {
-    /// Returns whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world
-    /// units; it must be the same function in every call.
+    /// Returns whether a diameter of the element exceeds its target. `target` is h̄ at a point, in the unit
+    /// of the diameter; it must be the same function in every call.
     ///
     /// # Errors
     /// Fails where h̄ is not a positive, finite length.
@@ -23,6 +23,7 @@ impl VertexRule {
     pub fn exceeds(
         &mut self,
         element: &Element,
+        diameter: f64,
         target: impl Fn(DVec2) -> f64,
     ) -> Result<bool, InvalidTarget> {
         let mut smallest = f64::INFINITY;
@@ -36,7 +37,7 @@ impl VertexRule {
             };
             smallest = smallest.min(target_of_node);
         }
-        Ok(element.diameter() > smallest)
+        Ok(diameter > smallest)
     }
 
     /// Evaluates h̄ at a node for the first time. Not inlined: most nodes are known.

@@ -71,11 +71,11 @@ impl SizeField {
         paint: &PaintLayers,
         outline_areas: Option<&[Rect]>,
     ) -> Vec<ChangedArea> {
-        let circumstances = Circumstances { paint, longest: self.longest(), outline_areas };
+        let circumstances = self.circumstances(paint, outline_areas);
         let mut changes = Vec::new();
         for step in self.spec().difference(old.spec(), &circumstances) {
             let rects = step.area.rects_within(self.lattice().bounds());
-            let rects = if old.spec().gradation.is_some() { near_joined(rects) } else { rects };
+            let rects = if old.slope().is_some() { near_joined(rects) } else { rects };
             for core in rects.iter().filter_map(|rect| self.core(rect)) {
                 let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
                 let least = self.least_diameter(asked[0].min(asked[1]), old);
@@ -87,6 +87,15 @@ impl SizeField {
         changes
     }
 
+    fn circumstances<'a>(
+        &self,
+        paint: &'a PaintLayers,
+        outline_areas: Option<&'a [Rect]>,
+    ) -> Circumstances<'a> {
+        let greatest_scale = self.edge_lengths().greatest_scale();
+        Circumstances { paint, longest: self.longest(), greatest_scale, outline_areas }
+    }
+
     /// Returns the layers that ask for smaller diameters than in an earlier field, if nothing else differs;
     /// see [`Self::of_layers_alone`].
     pub fn finer_layers_since(
@@ -95,7 +104,7 @@ impl SizeField {
         paint: &PaintLayers,
         outline_areas: Option<&[Rect]>,
     ) -> Option<Vec<LayerId>> {
-        let circumstances = Circumstances { paint, longest: self.longest(), outline_areas };
+        let circumstances = self.circumstances(paint, outline_areas);
         let steps = self.spec().difference(old.spec(), &circumstances);
         steps.iter().map(|step| step.layer.filter(|_| step.change == TargetChange::Finer)).collect()
     }
@@ -108,7 +117,7 @@ impl SizeField {
         painted: &[PaintChange],
         paint: &PaintLayers,
     ) -> Vec<ChangedArea> {
-        let changes = match self.spec().gradation {
+        let changes = match self.slope() {
             Some(_) => near_changes_joined(painted),
             None => painted.to_vec(),
         };
@@ -173,11 +182,6 @@ impl SizeField {
         asked.max(limits[0].min(limits[1]))
     }
 
-    /// Returns the diameter of a coarse triangle, in world units: nothing coarser matters to a mesh.
-    pub fn longest(&self) -> f64 {
-        self.lengths()[0]
-    }
-
     /// Returns the rectangles that an edit of some cells affects, before and after which no layer that
     /// changed asks for less than `least` there.
     fn reached(
@@ -189,13 +193,16 @@ impl SizeField {
         change: TargetChange,
     ) -> impl Iterator<Item = ChangedArea> + use<> {
         let extent = self.lattice().extent();
-        let cells = match self.spec().gradation {
+        let cells = match self.slope() {
             _ if least >= self.longest() => Vec::new(),
             None => vec![core],
             Some(slope) => Reach { fields, paint, slope, repainted }.of(core, least),
         };
         let closed = move |cells: Cells| LatticeRect::from(cells).expanded(1, extent);
-        let falloff = Falloff { core: closed(core), least, slope: self.spec().gradation.unwrap_or(0.0) };
+        // The updater compares it with diameters in the plane.
+        let scale = self.edge_lengths().least_scale();
+        let slope = scale * self.slope().unwrap_or(0.0);
+        let falloff = Falloff { core: closed(core), least: scale * least, slope };
         cells.into_iter().map(move |cells| ChangedArea {
             rect: closed(cells),
             change,
@@ -238,8 +245,9 @@ mod tests {
             unasked: 1.0,
             outline: None,
             gradation: None,
+            projection: None,
         };
-        let context = ExtentContext { spec: &spec, paint: &paint, longest: 1.0 };
+        let context = ExtentContext { spec: &spec, paint: &paint, longest: 1.0, greatest_scale: 1.0 };
         let Extent::Within(rects) = layer.extent(&context) else { panic!("it has an end") };
         let [extent] = rects[..] else { panic!("{rects:?}") };
         let field = SizeField::new(spec, &Lattice::covering(Rect::UNIT, 0.05, 1000).unwrap());
@@ -258,7 +266,8 @@ mod tests {
         let edited = Rect::around(dvec2(0.5, 0.5), 0.01);
         let side = |base: f64, gradation| {
             let layers = Layer::stack([LayerKind::constant(base)]);
-            let spec = SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation };
+            let spec =
+                SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation, projection: None };
             let field = SizeField::new(spec, &lattice);
             let (core, change) = (field.core(&edited).unwrap(), TargetChange::Any);
             let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], (&paint, None), change).collect();

@@ -45,6 +45,8 @@ pub(crate) struct Circumstances<'a> {
     pub paint: &'a PaintLayers,
     /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
     pub longest: f64,
+    /// How many times longer than on the Earth a length counts in the plane; 1 without a projection.
+    pub greatest_scale: f64,
     /// Rectangles in world units that hold every edge that only one of the two outlines has, if they are
     /// known.
     pub outline_areas: Option<&'a [Rect]>,
@@ -54,10 +56,11 @@ impl SizeFieldSpec {
     /// Returns the steps from an earlier specification to this one; none where the mesh is the same.
     pub(crate) fn difference(&self, old: &Self, circumstances: &Circumstances) -> Vec<SpecChange> {
         let new = self;
-        let Self { layers, transfer, unasked, outline, gradation } = new;
+        let Self { layers, transfer, unasked, outline, gradation, projection } = new;
         let now = limits(transfer, *unasked, circumstances.longest);
         let (layers_now, outline_now, slope_now) = (layers, outline, slope(*gradation));
-        let Self { layers, transfer, unasked, outline, gradation } = old;
+        let plane_now = projection;
+        let Self { layers, transfer, unasked, outline, gradation, projection } = old;
         let before = limits(transfer, *unasked, circumstances.longest);
 
         let mut steps = Steps {
@@ -72,6 +75,8 @@ impl SizeFieldSpec {
         steps.add_layers(layers_now, layers);
         steps.add_everywhere(direction(now.numbers(), before.numbers()));
         steps.add_everywhere(direction([slope_now], [slope(*gradation)]));
+        // Every length means another one.
+        steps.add_everywhere((plane_now != projection).then_some(Any));
         steps.changes
     }
 }
@@ -87,7 +92,8 @@ impl SizeFieldSpec {
 
 impl<'a> Circumstances<'a> {
     fn context(&self, spec: &'a SizeFieldSpec) -> ExtentContext<'a> {
-        ExtentContext { spec, paint: self.paint, longest: self.longest }
+        let Self { paint, longest, greatest_scale, outline_areas: _ } = *self;
+        ExtentContext { spec, paint, longest, greatest_scale }
     }
 }
 
@@ -303,7 +309,7 @@ impl Steps<'_> {
     fn add_distance_to_outline(&mut self, new: &Layer, old: &Layer) {
         let farthest = |layer: &Layer, context: &ExtentContext| match &layer.kind {
             LayerKind::Distance { to: DistanceTo::Outline, at_zero, slope, range } => {
-                range.min(layer.range_below_ceiling(*at_zero, *slope, context))
+                layer.farthest_in_plane([*at_zero, *slope, *range], context)
             }
             _ => f64::INFINITY,
         };

@@ -25,6 +25,8 @@ pub struct ExtentContext<'a> {
     pub paint: &'a PaintLayers,
     /// The diameter of a coarse triangle in world units: nothing coarser than this matters to a mesh.
     pub longest: f64,
+    /// How many times longer than on the Earth a length counts in the plane; 1 without a projection.
+    pub greatest_scale: f64,
 }
 
 /// Most rectangles of an extent; more are joined, those that are near to each other first.
@@ -133,14 +135,15 @@ impl Layer {
             LayerKind::Straits(straits) => Extent::of(straits.found.extent()),
             LayerKind::Threats(threats) => Extent::of(threats.reaches()),
             LayerKind::Distance { to, at_zero, slope, range } => {
-                let farthest = range.min(self.range_below_ceiling(*at_zero, *slope, context));
+                let farthest = self.farthest_in_plane([*at_zero, *slope, *range], context);
                 let shapes =
                     if *to == DistanceTo::Outline { context.spec.outline.as_ref() } else { to.shapes() };
                 match shapes {
                     None => Extent::Within(Vec::new()),
                     Some(_) if farthest < 0.0 => Extent::Within(Vec::new()),
                     Some(shapes) if farthest.is_finite() => {
-                        Extent::of([shapes.extent().expanded(to.reach() + farthest)])
+                        let reach = context.greatest_scale * to.reach();
+                        Extent::of([shapes.extent().expanded(reach + farthest)])
                     }
                     Some(_) => Extent::Everywhere,
                 }
@@ -148,15 +151,19 @@ impl Layer {
         }
     }
 
-    /// Returns the distance from which on the layer asks for too large a diameter to matter, in world units:
-    /// below zero where it never matters, infinite where it always can.
-    pub(super) fn range_below_ceiling(&self, at_zero: f64, slope: f64, context: &ExtentContext) -> f64 {
+    /// Returns the distance from which on a layer of the distance with these numbers asks for nothing, or for
+    /// too large a diameter to matter, in world units: below zero where it never matters, infinite where it
+    /// always can.
+    pub(super) fn farthest_in_plane(
+        &self,
+        [at_zero, slope, range]: [f64; 3],
+        context: &ExtentContext,
+    ) -> f64 {
         let ceiling = context.ceiling();
-        if self.combine != Combine::Finest || ceiling == f64::INFINITY || slope.is_nan() || slope <= 0.0 {
-            return f64::INFINITY;
-        }
+        let has_end = self.combine == Combine::Finest && ceiling != f64::INFINITY && slope > 0.0;
         // A little more, because the value at a distance is rounded.
-        (ceiling * (1.0 + 1e-9) - at_zero) / slope
+        let below_ceiling = if has_end { (ceiling * (1.0 + 1e-9) - at_zero) / slope } else { f64::INFINITY };
+        context.greatest_scale * (1.0 + 1e-9) * range.min(below_ceiling)
     }
 }
 

@@ -118,7 +118,8 @@ fn stack(random: &mut fastrand::Rng) -> Vec<Layer> {
 
 fn field(layers: Vec<Layer>, h_max: f64, lattice: &Lattice) -> SizeField {
     let transfer = Transfer::between(0.0005, h_max);
-    let spec = SizeFieldSpec { layers, transfer, unasked: h_max, outline: None, gradation: None };
+    let spec =
+        SizeFieldSpec { layers, transfer, unasked: h_max, outline: None, gradation: None, projection: None };
     SizeField::new(spec, lattice)
 }
 

@@ -38,7 +38,7 @@ impl SizeField {
             raster.set(x, y, target as f32);
             layers.push(layer);
         }
-        if let Some(slope) = self.spec().gradation {
+        if let Some(slope) = self.slope() {
             limit_slope(&mut raster, &mut layers, slope);
         }
         Some((raster, layers))

@@ -5,9 +5,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::engine::cells::Cells;
 use super::engine::gradation::{GradedBounds, graded_bounds};
 use super::engine::parts::{PartId, Square};
-use super::engine::{CompiledLayer, KnownParts, LEVELS};
+use super::engine::{CompiledLayer, KnownParts};
 use super::size_field::Nearby;
 use super::{PaintLayers, SizeField};
+use crate::earth::LEVELS;
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Rect};
 use crate::mesh::LevelsWithin;
@@ -112,7 +113,7 @@ impl SizeField {
     /// Returns how many questions to the field are worth another thread, as far as its kind says that: with
     /// gradation or formulas, a few.
     pub(crate) fn questions_per_thread(&self) -> usize {
-        match self.spec().gradation {
+        match self.slope() {
             Some(_) => 16,
             None if self.compiled().iter().all(CompiledLayer::has_pixels) => 8192,
             None => 512,
@@ -206,7 +207,7 @@ impl SizeField {
     #[cold]
     fn settle(&self, squares: &mut SettledSquares, paint: &PaintLayers, square: Square) {
         squares.make_room();
-        let found = match self.spec().gradation {
+        let found = match self.slope() {
             None => self.settle_from(&[], &mut squares.known, paint, square),
             Some(_) => {
                 let bits = square.bits + WIDER_BITS;
@@ -243,24 +244,23 @@ impl SizeField {
         let ([least, greatest], _) = self.asked_diameters(paint, &cells);
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
-        let bounds = match self.spec().gradation {
+        let lengths = self.edge_lengths();
+        let [band, last_band] = lengths.bands_in(bits, [column, row]);
+        let bounds = match self.slope() {
             None => GradedBounds { least, greatest, sources: Vec::new() },
             Some(slope) => {
-                let is_level =
-                    |[low, high]: [f64; 2]| self.first_level_within(low) == self.first_level_within(high);
+                let is_level = |bounds: [f64; 2]| {
+                    let [low, high] = bounds.map(|diameter| lengths.first_level_within(band, diameter));
+                    low == high
+                };
                 graded_bounds(self, paint, known, (&cells, sources), slope, [least, greatest], is_level)
             }
         };
         let levels = LevelsWithin {
-            exceed_below: self.first_level_within(bounds.greatest),
-            satisfied_from: self.first_level_within(bounds.least),
+            exceed_below: lengths.first_level_within(last_band, bounds.greatest),
+            satisfied_from: lengths.first_level_within(band, bounds.least),
         };
         Settled { square: Some(square), levels, least_asked: least, sources: bounds.sources }
-    }
-
-    /// Returns the first level whose triangles are no longer than a diameter in world units.
-    fn first_level_within(&self, diameter: f64) -> u32 {
-        self.lengths().partition_point(|&length| length > diameter) as u32
     }
 }
 

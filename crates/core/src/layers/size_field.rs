@@ -1,10 +1,11 @@
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::parts::PartId;
-use super::engine::reading::{Answer, lengths};
+use super::engine::reading::Answer;
 use super::engine::search::any_cell;
-use super::engine::{CompiledLayer, KnownParts, LEVELS, gradation};
+use super::engine::{CompiledLayer, CompiledPlane, KnownParts, gradation};
 use super::{Combine, Layer, LayerId, PaintLayers, Shapes, settled};
+use crate::earth::{EdgeLengths, LEVELS, Projection};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 use crate::mesh::Element;
@@ -22,6 +23,10 @@ pub struct SizeFieldSpec {
     pub outline: Option<Shapes>,
     /// Largest change of h̄ per unit of length: |h̄(x) − h̄(y)| ≤ g |x − y|. `None` for any change.
     pub gradation: Option<f64>,
+    /// The projection in whose plane the field is, if it is on the Earth. Then all diameters are lengths on
+    /// the ellipsoid, and world units are metres in the plane. Distances, also those of the gradation, count
+    /// as if the scale were the greatest one everywhere: h̄ is never larger than by lengths on the ellipsoid.
+    pub projection: Option<Projection>,
 }
 
 /// h̄ over a lattice, as a stack of layers asks for it.
@@ -38,8 +43,8 @@ pub struct SizeFieldSpec {
 pub struct SizeField {
     spec: SizeFieldSpec,
     lattice: Lattice,
-    /// ℓ_b of each level in world units, Eq. (1).
-    lengths: Box<[f64; LEVELS]>,
+    /// What targets are compared with.
+    edge_lengths: EdgeLengths,
     /// See [`settled::square_bits`].
     square_bits: Box<[u8; LEVELS]>,
     /// Visible layers, from the bottom to the top.
@@ -58,17 +63,21 @@ pub(super) struct Nearby<'a> {
 impl SizeField {
     /// Returns the field of a spec on a lattice.
     pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
+        let edge_lengths = EdgeLengths::new(spec.projection.as_ref(), lattice);
+        let SizeFieldSpec { transfer, outline, .. } = &spec;
+        let plane =
+            CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
         let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let mut layers: Vec<_> = visible
-            .map(|layer| CompiledLayer::new(layer, &spec.transfer, lattice, spec.outline.as_ref()))
-            .collect();
-        let is_minimum = layers.iter().all(CompiledLayer::is_plain);
-        if let (Some(gradation), true) = (spec.gradation, is_minimum) {
-            let most = spec.unasked.min(spec.transfer.h_max);
-            layers.iter_mut().for_each(|layer| layer.grade(gradation, spec.transfer.h_min, most, lattice));
+        let layers = visible.map(|layer| CompiledLayer::new(layer, &plane)).collect();
+        let square_bits = Box::new(settled::square_bits(lattice));
+        let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, spec };
+        let is_minimum = field.layers.iter().all(CompiledLayer::is_plain);
+        if let (Some(slope), true) = (field.slope(), is_minimum) {
+            let Transfer { h_min, h_max, .. } = field.spec.transfer;
+            let most = field.spec.unasked.min(h_max);
+            field.layers.iter_mut().for_each(|layer| layer.grade(slope, h_min, most, lattice));
         }
-        let (lengths, square_bits) = (lengths(lattice.spacing()), Box::new(settled::square_bits(lattice)));
-        Self { lattice: *lattice, lengths, square_bits, layers, spec }
+        field
     }
 
     /// Returns the field of some layers without the others that ask for smaller diameters.
@@ -94,8 +103,8 @@ impl SizeField {
             outline: self.spec.outline.clone(),
             ..self.spec
         };
-        let (lengths, square_bits) = (self.lengths.clone(), self.square_bits.clone());
-        Some(Self { lattice: self.lattice, lengths, square_bits, layers, spec })
+        let (edge_lengths, square_bits) = (self.edge_lengths.clone(), self.square_bits.clone());
+        Some(Self { lattice: self.lattice, edge_lengths, square_bits, layers, spec })
     }
 
     /// Returns this field without models of its functions: searches use bounds only.
@@ -151,28 +160,29 @@ impl SizeField {
         level: u32,
         nearby: Option<Nearby>,
     ) -> bool {
-        if let Some(asks) = self.limits_decide(level) {
+        let Some(limit) = self.edge_lengths.limit(corners, level) else { return false };
+        if let Some(asks) = self.limits_decide(limit) {
             return asks;
         }
-        let (level, length) = (level as usize, self.lengths[level as usize]);
+        let length = self.edge_lengths.table()[limit];
         let triangle = Octagon::triangle(corners);
         let around = Cells::around(&triangle, self.lattice.extent());
-        match self.spec.gradation {
-            None => self.any_below(paint, &triangle, around, level),
+        match self.slope() {
+            None => self.any_below(paint, &triangle, around, limit),
             Some(slope) => {
                 let sources = nearby.map(|nearby| nearby.sources);
                 let can_ask = nearby.is_none_or(|nearby| nearby.least_asked < length);
-                (can_ask && self.any_below(paint, &triangle, around, level))
+                (can_ask && self.any_below(paint, &triangle, around, limit))
                     || gradation::any_below(self, paint, known, corners, (slope, length), sources)
             }
         }
     }
 
-    /// Returns the answer for all triangles of a level that no layer can change: no point asks for less than
-    /// h_min or for more than h_max.
+    /// Returns the answer for all triangles with a limit that no layer can change: no point asks for less
+    /// than h_min or for more than h_max.
     #[inline]
-    pub(super) fn limits_decide(&self, level: u32) -> Option<bool> {
-        let Some(&length) = self.lengths.get(level as usize) else { return Some(false) };
+    fn limits_decide(&self, limit: usize) -> Option<bool> {
+        let length = self.edge_lengths.table()[limit];
         let Transfer { h_min, h_max, .. } = self.spec.transfer;
         if length <= h_min {
             return Some(false);
@@ -180,9 +190,19 @@ impl SizeField {
         (length > h_max).then_some(true)
     }
 
-    /// ℓ_b of each level in world units.
-    pub(super) fn lengths(&self) -> &[f64; LEVELS] {
-        &self.lengths
+    /// Returns the largest change of h̄ per unit of length in the plane; `None` for any change.
+    pub(super) fn slope(&self) -> Option<f64> {
+        self.spec.gradation.map(|gradation| gradation / self.edge_lengths.greatest_scale())
+    }
+
+    /// Returns the diameters of triangles, which h̄ is compared with.
+    pub fn edge_lengths(&self) -> &EdgeLengths {
+        &self.edge_lengths
+    }
+
+    /// Returns the diameter of the largest triangle: nothing coarser matters to a mesh.
+    pub fn longest(&self) -> f64 {
+        self.edge_lengths.longest()
     }
 
     /// See [`settled::square_bits`].
@@ -190,20 +210,20 @@ impl SizeField {
         &self.square_bits
     }
 
-    /// Returns whether a cell that touches the triangle asks for more than the level, before gradation.
+    /// Returns whether a cell that touches the triangle asks for less than a limit, before gradation.
     ///
     /// From the top down, a layer is tested alone as long as no floor and no replacement above it counts in
     /// the cells around the triangle: the search then divides them for this layer only. Those from the first
     /// floor or replacement that counts down to the bottom are tested together.
-    fn any_below(&self, paint: &PaintLayers, triangle: &Octagon, around: Cells, level: usize) -> bool {
+    fn any_below(&self, paint: &PaintLayers, triangle: &Octagon, around: Cells, limit: usize) -> bool {
         let mut count = self.layers.len();
         while let Some(layer) = count.checked_sub(1).map(|top| &self.layers[top]) {
             if layer.is_plain() {
-                if layer.any_below(paint, triangle, around, level, &self.lattice) {
+                if layer.any_below(paint, triangle, around, limit, &self.lattice) {
                     return true;
                 }
             } else if !layer.is_masked_out(&around, &self.lattice) {
-                let mut ask = |cells: &Cells| self.asks(count, paint, cells, level);
+                let mut ask = |cells: &Cells| self.asks(count, paint, cells, limit);
                 return any_cell(triangle, around, &mut ask);
             }
             count -= 1;
@@ -211,12 +231,12 @@ impl SizeField {
         false
     }
 
-    /// Returns the share of the cells in which the lowest `count` layers together require more than a level,
+    /// Returns the share of the cells in which the lowest `count` layers together ask for less than a limit,
     /// and the cut that divides them for a closer answer.
-    fn asks(&self, count: usize, paint: &PaintLayers, cells: &Cells, level: usize) -> (Share, Option<Cut>) {
+    fn asks(&self, count: usize, paint: &PaintLayers, cells: &Cells, limit: usize) -> (Share, Option<Cut>) {
         let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
         let layer = &self.layers[below];
-        let (Answer { asks, present }, cut) = layer.answer(paint, cells, level, &self.lattice);
+        let (Answer { asks, present }, cut) = layer.answer(paint, cells, limit, &self.lattice);
         let permits = present.not().or(asks);
         match layer.combine {
             Combine::Finest if asks == Share::All => return (Share::All, None),
@@ -224,7 +244,7 @@ impl SizeField {
             Combine::Replace if present == Share::All => return (asks, cut),
             _ => {}
         }
-        let (rest, rest_cut) = self.asks(below, paint, cells, level);
+        let (rest, rest_cut) = self.asks(below, paint, cells, limit);
         let share = match layer.combine {
             Combine::Finest => rest.or(asks),
             Combine::Floor => rest.and(permits),

@@ -95,7 +95,9 @@ pub struct StraitDiscs(Arc<Indexed>);
 struct Indexed {
     /// The outline that they were found for.
     region: Option<Arc<Region>>,
+    /// The least and the greatest width that are asked for, and both in the plane.
     between: [f64; 2],
+    in_plane: [f64; 2],
     discs: Vec<StraitDisc>,
     tree: BoxTree,
     /// The least width in each group of the tree, by level.
@@ -105,32 +107,40 @@ struct Indexed {
 impl PartialEq for StraitDiscs {
     fn eq(&self, other: &Self) -> bool {
         let (a, b) = (&*self.0, &*other.0);
-        Arc::ptr_eq(&self.0, &other.0) || (a.between == b.between && a.discs == b.discs)
+        Arc::ptr_eq(&self.0, &other.0)
+            || (a.between == b.between && a.in_plane == b.in_plane && a.discs == b.discs)
     }
 }
 
 impl StraitDiscs {
-    /// Finds the straits of a domain that are at most as wide as the second length, in world units. Those
-    /// narrower than the first one count as that wide. None in a domain without coasts.
+    /// Finds the straits of a domain that are at most as wide as the second length, in world units, or in
+    /// metres on the Earth. Those narrower than the first one count as that wide. None in a domain without
+    /// coasts.
     pub fn of(domain: &Domain, between: [f64; 2]) -> Self {
+        let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
         let coasts = Coasts::of(domain);
-        let finder = Finder::new(&coasts, domain.bounds, between);
+        let finder = Finder::new(&coasts, domain.bounds, in_plane);
         let found: Vec<Vec<StraitDisc>> =
             (0..coasts.edges.len()).into_par_iter().map(|edge| finder.along(edge)).collect();
-        Self::new(domain.region().cloned(), thinned(found.concat()), between)
+        Self::new(domain.region().cloned(), thinned(found.concat()), between, in_plane)
     }
 
-    fn new(region: Option<Arc<Region>>, discs: Vec<StraitDisc>, between: [f64; 2]) -> Self {
+    fn new(
+        region: Option<Arc<Region>>,
+        discs: Vec<StraitDisc>,
+        between: [f64; 2],
+        in_plane: [f64; 2],
+    ) -> Self {
         let boxes: Vec<Rect> =
-            discs.iter().map(|disc| Rect::around(disc.center, reach(disc, between))).collect();
+            discs.iter().map(|disc| Rect::around(disc.center, reach(disc, in_plane))).collect();
         let tree = BoxTree::new(&boxes);
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
-        Self(Arc::new(Indexed { region, between, discs, tree, least }))
+        Self(Arc::new(Indexed { region, between, in_plane, discs, tree, least }))
     }
 
     /// Returns straits that were not looked for yet: there are none.
     pub fn unknown(between: [f64; 2]) -> Self {
-        Self::new(None, Vec::new(), between)
+        Self::new(None, Vec::new(), between, between)
     }
 
     /// Returns whether they were found for this domain.
@@ -147,14 +157,15 @@ impl StraitDiscs {
         &self.0.discs
     }
 
-    /// Returns the least and the greatest width that were looked for, in world units.
+    /// Returns the least and the greatest width that are asked for, in world units, or in metres on the
+    /// Earth.
     pub fn between(&self) -> [f64; 2] {
         self.0.between
     }
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { discs, tree, least, region: _, between: _ } = &*self.0;
+        let Indexed { discs, tree, least, region: _, between: _, in_plane: _ } = &*self.0;
         let groups: usize = least.iter().map(|level| size_of_val(&**level)).sum();
         (Arc::as_ptr(&self.0).addr(), size_of_val(&**discs) + tree.bytes() + groups)
     }
@@ -169,7 +180,7 @@ impl StraitDiscs {
     pub fn width_at(&self, point: DVec2) -> f64 {
         let mut width = f64::INFINITY;
         self.visit(&Rect::new(point, point), |disc, counted| {
-            let is_within = disc.center.distance(point) <= reach(disc, self.0.between);
+            let is_within = disc.center.distance(point) <= reach(disc, self.0.in_plane);
             width = if is_within { width.min(counted) } else { width };
             width
         });
@@ -183,7 +194,7 @@ impl StraitDiscs {
             let nearest = disc.center.clamp(rect.min, rect.max);
             let far = (rect.max - disc.center).abs().max((rect.min - disc.center).abs());
             // A hair on both sides: rounding must not leave a point out.
-            let reach = reach(disc, self.0.between);
+            let reach = reach(disc, self.0.in_plane);
             if nearest.distance(disc.center) <= reach * (1.0 + 1e-12) {
                 least = least.min(counted);
             }
@@ -198,8 +209,8 @@ impl StraitDiscs {
     /// Visits discs near a rectangle, with the widths that count, until all others are wider than `visit`
     /// returns.
     fn visit(&self, rect: &Rect, mut visit: impl FnMut(&StraitDisc, f64) -> f64) {
-        let Indexed { between, discs, tree, least, region: _ } = &*self.0;
-        let counted = |width: f64| (WIDTH * width).max(between[0]);
+        let Indexed { in_plane, discs, tree, least, region: _, between: _ } = &*self.0;
+        let counted = |width: f64| (WIDTH * width).max(in_plane[0]);
         let limit = std::cell::Cell::new(f64::INFINITY);
         let meets = |bounds: &Rect| bounds.min.cmple(rect.max).all() && rect.min.cmple(bounds.max).all();
         let _ = tree.descend(
@@ -477,7 +488,7 @@ mod tests {
                 StraitDisc { center, shores: [center; 2], width: 0.02 + 0.3 * random.f64() }
             })
             .collect();
-        let straits = StraitDiscs::new(None, discs, [0.05, 1.0]);
+        let straits = StraitDiscs::new(None, discs, [0.05, 1.0], [0.05, 1.0]);
         let mut ones = 0;
         for _ in 0..2000 {
             let size = 0.4 * random.f64().powi(3);

@@ -62,7 +62,7 @@ impl SizeField {
     /// h̄ at a point in world units.
     pub fn target_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
         let before = self.ungraded_at(paint, point).target;
-        match self.spec().gradation {
+        match self.slope() {
             None => before,
             Some(slope) => {
                 let how = (slope, Accuracy::Close);
@@ -148,8 +148,7 @@ impl SizeField {
         let asked = asked.collect();
         let before = self.ungraded_at(paint, point);
         let Ungraded { target, layer, limit } = before;
-        let graded =
-            self.spec().gradation.map(|slope| self.graded(known, paint, point, (slope, accuracy), target));
+        let graded = self.slope().map(|slope| self.graded(known, paint, point, (slope, accuracy), target));
         match graded {
             Some((carried, from)) if carried < target => {
                 let source = self.ungraded_at(paint, from);

@@ -42,7 +42,7 @@ impl<'a> TargetsInOrder<'a> {
     fn valid_at(&mut self, point: DVec2) -> f64 {
         self.known.make_room();
         let before = self.field.ungraded_at(self.paint, point).target;
-        let Some(slope) = self.field.spec().gradation else { return before };
+        let Some(slope) = self.field.slope() else { return before };
         let bound =
             self.last.map_or(f64::INFINITY, |(last, target)| (target + slope * point.distance(last)) * SLACK);
         self.field.graded(&mut self.known, self.paint, point, (slope, Accuracy::Close), before.min(bound)).0
@@ -99,7 +99,14 @@ mod tests {
             .map(|text| LayerKind::target(Formula::parse(text).unwrap()));
         let transfer = Transfer::between(0.002, 0.5);
         let layers = Layer::stack(layers);
-        let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation: Some(0.4) };
+        let spec = SizeFieldSpec {
+            layers,
+            transfer,
+            unasked: 0.5,
+            outline: None,
+            gradation: Some(0.4),
+            projection: None,
+        };
         let (field, paint) = (SizeField::new(spec, &lattice), PaintLayers::blank());
         let mut targets = TargetsInOrder::new(&field, paint, RefinementRule::Area);
         let mut random = fastrand::Rng::with_seed(6);

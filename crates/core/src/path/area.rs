@@ -8,7 +8,6 @@ use glam::DVec2;
 use super::path_mesh::contains;
 use super::{Passage, PathError, Waypoint};
 use crate::domain::{Domain, Outline};
-use crate::earth::GeographicExtent;
 use crate::geometry::{Rect, Side, nearest_on_segment, side_of_points};
 use crate::layers::{Coverage, Mask};
 
@@ -46,7 +45,7 @@ impl PathArea {
     pub fn new(domain: &Domain, keep_out: Vec<Mask>, clearance: f64) -> Result<Self, PathError> {
         check_clearance(clearance)?;
         let outline = domain.region().and_then(|region| Outline::new(region)).map(Arc::new);
-        let scale = greatest_scale(domain);
+        let scale = domain.greatest_scale();
         Ok(Self { keep_out: keep_out.into(), outline, clearance: scale * clearance, scale })
     }
 
@@ -153,14 +152,6 @@ impl PathArea {
         let [distance, clearance] = [distance, self.clearance].map(|length| length / self.scale);
         Some(PathError::TooClose { which, at, distance, clearance })
     }
-}
-
-/// Returns how many times longer than on the Earth a length can be in the plane of a domain.
-fn greatest_scale(domain: &Domain) -> f64 {
-    let Some(projection) = domain.projection else { return 1.0 };
-    let extent = GeographicExtent::of_plane(&projection, domain.bounds);
-    // The scale has no greatest value but on the rim.
-    extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
 }
 
 /// Checks a clearance.

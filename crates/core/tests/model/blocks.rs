@@ -203,6 +203,7 @@ fn random_field(random: &mut fastrand::Rng, lattice: &Lattice) -> SizeField {
         unasked: 0.3,
         outline: None,
         gradation: random.bool().then_some(0.2),
+        projection: None,
     };
     SizeField::new(spec, lattice)
 }

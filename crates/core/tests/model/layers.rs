@@ -75,7 +75,14 @@ impl Case {
         let gradation = random.bool().then(|| 0.1 + random.f64());
         let bounds = Bounds { h_min, h_max, unasked, gradation };
         let mut case = Self {
-            spec: SizeFieldSpec { layers: Vec::new(), transfer, unasked, outline: None, gradation },
+            spec: SizeFieldSpec {
+                layers: Vec::new(),
+                transfer,
+                unasked,
+                outline: None,
+                gradation,
+                projection: None,
+            },
             paint: PaintLayers::default(),
             lattice,
             visible: Vec::new(),
@@ -391,7 +398,14 @@ fn smooth_formulas_are_asked_at_the_centres_of_cells() {
         let mut layers = Layer::stack([LayerKind::target(other.clone()), LayerKind::target(target.clone())]);
         layers[1].combine = combine;
         let field = SizeField::new(
-            SizeFieldSpec { layers, transfer, unasked: 0.4, outline: None, gradation: None },
+            SizeFieldSpec {
+                layers,
+                transfer,
+                unasked: 0.4,
+                outline: None,
+                gradation: None,
+                projection: None,
+            },
             &lattice,
         );
         let definition = |formula: &Formula, combine| {

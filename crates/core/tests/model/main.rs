@@ -7,6 +7,7 @@ mod cleaning;
 #[path = "../../../../tests/shared/closure/mod.rs"]
 mod closure;
 mod document;
+mod earth;
 mod edits;
 mod exact_paths;
 mod exact_segments;

@@ -20,7 +20,14 @@ use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 const TRANSFER: Transfer = Transfer::between(1e-4, 0.5);
 
 fn field_on(lattice: &Lattice, layers: Vec<Layer>, gradation: Option<f64>) -> SizeField {
-    let spec = SizeFieldSpec { layers, transfer: TRANSFER, unasked: 0.5, outline: None, gradation };
+    let spec = SizeFieldSpec {
+        layers,
+        transfer: TRANSFER,
+        unasked: 0.5,
+        outline: None,
+        gradation,
+        projection: None,
+    };
     SizeField::new(spec, lattice)
 }
 
@@ -138,6 +145,7 @@ fn a_mesh_around_a_point_is_the_smallest_that_meets_the_closed_form() {
                     unasked: 0.5,
                     outline: None,
                     gradation: Some(gradation),
+                    projection: None,
                 },
                 rule: RefinementRule::Area,
                 cleaning: Cleaning::NONE,
@@ -230,7 +238,14 @@ fn huge_pixels_far_from_the_domain_are_those_of_near_pixels() {
         let kind = LayerKind::Raster { source, reading: RasterReading::Diameter };
         let transfer = Transfer::between(1e-5, TRANSFER.h_max);
         let layers = Layer::stack([kind]);
-        let spec = SizeFieldSpec { layers, transfer, unasked: 0.5, outline: None, gradation: None };
+        let spec = SizeFieldSpec {
+            layers,
+            transfer,
+            unasked: 0.5,
+            outline: None,
+            gradation: None,
+            projection: None,
+        };
         SizeField::new(spec, &lattice)
     });
     let mut random = Rng::with_seed(4);
@@ -295,7 +310,14 @@ fn many_threats_that_lie_apart_ask_where_they_are_and_nowhere_else() {
         };
         let threats: Vec<Threat> = (0..60).map(|_| threat(&mut random)).collect();
         let layers = Layer::stack([LayerKind::Threats(Threats::new(threats.clone()).unwrap())]);
-        let spec = SizeFieldSpec { layers, transfer, unasked: 0.1, outline: None, gradation: None };
+        let spec = SizeFieldSpec {
+            layers,
+            transfer,
+            unasked: 0.1,
+            outline: None,
+            gradation: None,
+            projection: None,
+        };
         let field = SizeField::new(spec, &lattice);
         let mut asked = 0;
         for n in 0..200 {

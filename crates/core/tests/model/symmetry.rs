@@ -194,6 +194,7 @@ fn spec(seed: u64, map: &Map, domain: &Domain) -> SizeFieldSpec {
         unasked: 0.25 * s,
         outline: domain.as_region().and_then(|region| Shapes::outline(&region).ok()),
         gradation: (random.usize(..3) == 0).then(|| 0.25 + random.f64()),
+        projection: None,
     }
 }
 

@@ -52,6 +52,7 @@ fn built(seed: u64) -> (BuiltMesh, Cleaning) {
         unasked: 2.0 * spacing,
         outline: None,
         gradation: None,
+        projection: None,
     };
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, spacing, 1_000_000).unwrap(),

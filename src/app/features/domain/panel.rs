@@ -9,7 +9,7 @@ use crate::app::widgets::{
     ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
     value_row,
 };
-use meshbrush_core::document::Setting;
+use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
@@ -42,7 +42,7 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     let id = Id::unique("last diameter at the outline");
     let diameter = settings.boundary.diameter().unwrap_or_else(|| {
         let last = ui.data(|data| data.get_temp(id));
-        last.unwrap_or(BoundaryTreatment::usual_diameter(settings.spacing))
+        last.unwrap_or_else(|| usual_diameter(settings))
     });
     let mut chosen = settings.boundary;
     let choices = [
@@ -76,12 +76,17 @@ fn boundary_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
     }
 }
 
+/// Returns the diameter at the outline unless a person chooses one.
+fn usual_diameter(settings: &Settings) -> f64 {
+    BoundaryTreatment::usual_diameter(settings.domain.longest_on_earth(settings.spacing))
+}
+
 fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, mut diameter: f64, commands: &mut Vec<Command>) {
     let settings = state.session.document().settings();
     let extent = settings.domain.bounds.size().max_element();
     let row = SliderRow::new("At outline", &mut diameter, 1e-4 * extent..=0.1 * extent).logarithmic();
     let help = "Largest diameter of a triangle that the outline passes through.";
-    let usual = BoundaryTreatment::usual_diameter(settings.spacing);
+    let usual = usual_diameter(settings);
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(usual);
     let response = row.unit(state.unit().symbol()).help(help).show(ui);
     if response.changed() {
@@ -129,7 +134,7 @@ fn unit_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut unit = state.unit();
     if let Some(plane) = state.session.document().settings().domain.projection {
         let help = format!(
-            "The domain lies in the plane {plane}. Lengths there are metres on the Earth, or a little more."
+            "The domain lies in the plane {plane}. Target diameters and lengths of paths are metres on the Earth."
         );
         ValueRow::new("Plane", plane.kind().name()).help(&help).show(ui);
         value_row(ui, "Unit", unit_title(unit));

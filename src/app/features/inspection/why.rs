@@ -42,7 +42,12 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 
 fn sentences(ui: &mut Ui, state: &FrameState<'_>, explanation: &Explanation) {
     let follower = state.session.follower();
-    let words = Words { mesh: follower.mesh(), layers: &follower.settings().layers, unit: state.unit() };
+    let words = Words {
+        mesh: follower.mesh(),
+        edge_lengths: follower.field().edge_lengths(),
+        layers: &follower.settings().layers,
+        unit: state.unit(),
+    };
     for sentence in words.sentences(explanation) {
         ui.label(RichText::new(sentence).font(font::body()).color(tokens(ui).text));
         ui.add_space(3.0);

@@ -143,6 +143,7 @@ fn picture_of(
         layers: vec![alone],
         unasked: f64::INFINITY,
         gradation: None,
+        projection: None,
         ..settings.field_spec()
     };
     let (bounds, paint) = (settings.domain.bounds, document.paint().clone());

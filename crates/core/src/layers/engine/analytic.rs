@@ -32,8 +32,8 @@ pub enum Function {
         shapes: Shapes,
         profile: Profile,
     },
-    /// A part of the width of straits.
-    Straits(Straits),
+    /// A part of the width of straits, by the greatest scale.
+    Straits(Straits, f64),
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -114,7 +114,7 @@ impl Function {
             Self::Formula(formula) => formula.eval(point.x, point.y),
             Self::Threats(threats) => threats.risk_at(point),
             Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
-            Self::Straits(straits) => straits.diameter(straits.found.width_at(point)),
+            Self::Straits(straits, scale) => straits.diameter(straits.found.width_at(point)) / scale,
         }
     }
 
@@ -127,9 +127,9 @@ impl Function {
                 let [least, greatest] = [least, greatest].map(|distance| profile.at(distance));
                 Bounds { least, greatest, valid }
             }
-            Self::Straits(straits) => {
+            Self::Straits(straits, scale) => {
                 let Bounds { least, greatest, valid } = straits.found.bounds(rect);
-                let [least, greatest] = [least, greatest].map(|width| straits.diameter(width));
+                let [least, greatest] = [least, greatest].map(|width| straits.diameter(width) / scale);
                 Bounds { least, greatest, valid }
             }
         }
@@ -140,7 +140,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
-            Self::Distance { .. } | Self::Straits(_) => false,
+            Self::Distance { .. } | Self::Straits(..) => false,
         }
     }
 
@@ -148,7 +148,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.model(place.coordinates),
             Self::Threats(threats) => threats.model(place),
-            Self::Distance { .. } | Self::Straits(_) => Quadratic::UNKNOWN,
+            Self::Distance { .. } | Self::Straits(..) => Quadratic::UNKNOWN,
         }
     }
 
@@ -189,7 +189,7 @@ impl Function {
             }
             Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
             // The width jumps at the rims of the discs.
-            Self::Straits(_) => Slopes::UNKNOWN,
+            Self::Straits(..) => Slopes::UNKNOWN,
         }
     }
 }

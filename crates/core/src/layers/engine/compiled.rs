@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
+use crate::earth::EdgeLengths;
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Octagon};
 use crate::layers::{
@@ -15,7 +16,7 @@ use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
-use super::reading::{Answer, Diameters, Reading, lengths};
+use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
 
@@ -29,6 +30,16 @@ pub struct CompiledLayer {
     values: Values,
     /// The values with what gradation carries, where there is a closed form.
     graded: Option<Analytic>,
+}
+
+/// What the layers of a field are compiled for.
+#[derive(Clone, Copy)]
+pub struct CompiledPlane<'a> {
+    pub transfer: &'a Transfer,
+    pub lattice: &'a Lattice,
+    /// Without one, no point is near to it.
+    pub outline: Option<&'a Shapes>,
+    pub edge_lengths: &'a EdgeLengths,
 }
 
 /// The source of the values of a layer.
@@ -47,12 +58,13 @@ enum Values {
 }
 
 impl CompiledLayer {
-    /// Compiles a layer. Without an `outline`, no point is near to it.
-    pub fn new(layer: &Layer, transfer: &Transfer, lattice: &Lattice, outline: Option<&Shapes>) -> Self {
-        let spacing = lattice.spacing();
+    /// Compiles a layer.
+    pub fn new(layer: &Layer, plane: &CompiledPlane) -> Self {
+        let CompiledPlane { transfer, lattice, outline, edge_lengths } = *plane;
+        let (lengths, greatest_scale) = (edge_lengths.table(), edge_lengths.greatest_scale());
         let reading = |quantity, nothing| match quantity {
-            Quantity::Risk => Reading::risk(transfer, spacing, nothing),
-            Quantity::Diameter => Reading::diameter(spacing),
+            Quantity::Risk => Reading::risk(transfer, lengths, nothing),
+            Quantity::Diameter => Reading::diameter(lengths),
         };
         const NO_RISK: f32 = f32::NEG_INFINITY;
         let (reading, values) = match &layer.kind {
@@ -65,7 +77,7 @@ impl CompiledLayer {
                     RasterReading::Risk => (reading(Quantity::Risk, NO_RISK), NO_RISK),
                     RasterReading::Diameter => (reading(Quantity::Diameter, NO_RISK), f32::INFINITY),
                     RasterReading::Curve(curve) => {
-                        (Reading::Curve { curve: curve.clone(), lengths: lengths(spacing) }, f32::INFINITY)
+                        (Reading::Curve { curve: curve.clone(), lengths: lengths.clone() }, f32::INFINITY)
                     }
                 };
                 (reading, Values::of_raster(&source.raster, gap, lattice))
@@ -75,28 +87,29 @@ impl CompiledLayer {
                 (reading(Quantity::Risk, 0.0), Values::Analytic(Analytic::new(function, Quantity::Risk)))
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
+                // Lengths in the plane are at most so much longer than those on the Earth.
                 let growth = Profile {
-                    reach: to.reach(),
+                    reach: to.reach() * greatest_scale,
                     at_zero: *at_zero,
-                    slope: *slope,
-                    range: *range,
+                    slope: *slope / greatest_scale,
+                    range: *range * greatest_scale,
                     graded: None,
                 };
                 let values = Values::of_distance(to, growth, outline);
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
             LayerKind::Band { source, between, diameter } => {
-                let lengths = lengths(spacing);
+                let lengths = lengths.clone();
                 let reading = Reading::Band { between: *between, diameter: *diameter, lengths };
                 (reading, Values::of_raster(&source.raster, f32::INFINITY, lattice))
             }
             LayerKind::Straits(straits) => {
-                let function = Function::Straits(straits.clone());
+                let function = Function::Straits(straits.clone(), greatest_scale);
                 let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
             LayerKind::Depth(depths) => {
-                let reading = Reading::Depth { depths: depths.clone(), lengths: lengths(spacing) };
+                let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };
                 (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))
             }
         };
@@ -134,7 +147,7 @@ impl CompiledLayer {
         }
     }
 
-    /// Returns whether a cell that touches the triangle asks for more than the level. `around` are the cells
+    /// Returns whether a cell that touches the triangle asks for less than a limit. `around` are the cells
     /// around the triangle.
     #[inline]
     pub fn any_below(
@@ -142,28 +155,28 @@ impl CompiledLayer {
         paint: &PaintLayers,
         triangle: &Octagon,
         around: Cells,
-        level: usize,
+        limit: usize,
         lattice: &Lattice,
     ) -> bool {
         if self.mask.is_some() {
-            return self.any_below_in_mask(paint, triangle, around, level, lattice);
+            return self.any_below_in_mask(paint, triangle, around, limit, lattice);
         }
         match &self.values {
             Values::Constant(constant) => {
                 let value = ValueRange::one(constant.at(lattice.bounds().min));
-                self.reading.answer(value, level).asks == Share::All
+                self.reading.answer(value, limit).asks == Share::All
             }
             Values::Nothing => false,
             Values::Paint(grid) => paint.get(self.id).is_some_and(|raster| {
                 let grid = grid.on_lattice(raster.grid(), lattice);
-                let search = RasterSearch { raster, grid: &grid, question: self.reading.question(level) };
+                let search = RasterSearch { raster, grid: &grid, question: self.reading.question(limit) };
                 search.any(triangle, &around)
             }),
             Values::Raster { raster, gap, grid } => {
                 let raster = &WithGaps { raster, gap: *gap };
-                RasterSearch { raster, grid, question: self.reading.question(level) }.any(triangle, &around)
+                RasterSearch { raster, grid, question: self.reading.question(limit) }.any(triangle, &around)
             }
-            Values::Analytic(_) => self.any_below_in_mask(paint, triangle, around, level, lattice),
+            Values::Analytic(_) => self.any_below_in_mask(paint, triangle, around, limit, lattice),
         }
     }
 
@@ -173,11 +186,11 @@ impl CompiledLayer {
         paint: &PaintLayers,
         triangle: &Octagon,
         around: Cells,
-        level: usize,
+        limit: usize,
         lattice: &Lattice,
     ) -> bool {
         let mut ask = |cells: &Cells| {
-            let (answer, cut) = self.answer(paint, cells, level, lattice);
+            let (answer, cut) = self.answer(paint, cells, limit, lattice);
             (answer.asks, cut)
         };
         any_cell(triangle, around, &mut ask)
@@ -206,7 +219,7 @@ impl CompiledLayer {
         &self,
         paint: &PaintLayers,
         cells: &Cells,
-        level: usize,
+        limit: usize,
         lattice: &Lattice,
     ) -> (Answer, Option<Cut>) {
         let (coverage, mask_cut) = self.coverage(cells, lattice);
@@ -215,7 +228,7 @@ impl CompiledLayer {
         }
         let (range, cut) = self.range(paint, cells, lattice);
         let Some(range) = range else { return (Answer::NOTHING, None) };
-        let mut answer = self.reading.answer(range, level);
+        let mut answer = self.reading.answer(range, limit);
         if coverage == Share::Some {
             answer = Answer { asks: answer.asks.masked(), present: answer.present.masked() };
         }

@@ -15,8 +15,14 @@ const TRANSFER: Transfer = Transfer::between(0.001, 0.2);
 fn field(kinds: impl IntoIterator<Item = LayerKind>, slope: f64) -> SizeField {
     let lattice = Lattice::covering(Rect::UNIT, 0.1, 1 << 30).unwrap();
     let layers = Layer::stack(kinds);
-    let spec =
-        SizeFieldSpec { layers, transfer: TRANSFER, unasked: 0.2, outline: None, gradation: Some(slope) };
+    let spec = SizeFieldSpec {
+        layers,
+        transfer: TRANSFER,
+        unasked: 0.2,
+        outline: None,
+        gradation: Some(slope),
+        projection: None,
+    };
     SizeField::new(spec, &lattice)
 }
 

@@ -35,7 +35,7 @@ const NO_GRADATION: f64 = f64::MAX;
 pub fn least_within(field: &SizeField, paint: &PaintLayers, corners: [LatticePoint; 3]) -> Least {
     let lattice = field.lattice();
     let place = TriangleInWorld::new(corners, lattice);
-    let slope = field.spec().gradation.unwrap_or(NO_GRADATION);
+    let slope = field.slope().unwrap_or(NO_GRADATION);
     let finest = quarter_bits(Octagon::triangle(corners).bounds()).max(field.pixel_bits(paint));
     let search = GradationSearch { field, paint, place, slope, finest };
     let origin = lattice.bounds().min;

@@ -16,6 +16,5 @@ pub mod reading;
 pub mod search;
 mod steepness;
 
-pub use compiled::CompiledLayer;
+pub use compiled::{CompiledLayer, CompiledPlane};
 pub use parts::KnownParts;
-pub use reading::LEVELS;

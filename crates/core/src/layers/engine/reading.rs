@@ -4,24 +4,21 @@ use std::sync::Arc;
 
 use crate::field::{Bounds, RiskToDiameter, Transfer, TransferTable};
 use crate::layers::{Depths, ValueCurve};
-use crate::mesh::bisection_edge_length;
 use crate::raster::ValueRange;
 
 use super::asked::Share;
 
-/// Number of levels that a reading answers for. A lattice has fewer.
-pub const LEVELS: usize = 64;
-
-/// The target diameters for the values of a layer, prepared for comparisons.
+/// The target diameters for the values of a layer, prepared for comparisons with the limits of
+/// [`EdgeLengths`](crate::earth::EdgeLengths).
 ///
 /// A value asks for more than level l when its target diameter is below ℓ_b of level l, Eq. (1). Risk and
-/// diameter depend on the value monotonically, so that this is one comparison with a limit for that level.
+/// diameter depend on the value monotonically, so that this is one comparison with a number for each limit.
 #[derive(Clone, Debug)]
 pub enum Reading {
     /// Risk: at least the limit of the level.
     Risk {
-        /// The smallest risk that asks for more than each level; infinite where none does.
-        least: Box<[f32; LEVELS]>,
+        /// The smallest risk that is below each limit; infinite where none is.
+        least: Box<[f32]>,
         transfer: Transfer,
         table: TransferTable,
         /// Risks up to this one ask for nothing: 0 in paint and of threats; elsewhere 0 asks for the largest
@@ -30,21 +27,21 @@ pub enum Reading {
     },
     /// Target diameter: at most the limit of the level.
     Diameter {
-        /// The largest diameter that asks for more than each level; zero where none does.
-        most: Box<[f32; LEVELS]>,
+        /// The largest diameter that is below each limit; zero where none is.
+        most: Box<[f32]>,
     },
     /// A curve of the values; infinity asks for nothing.
-    Curve { curve: Arc<ValueCurve>, lengths: Box<[f64; LEVELS]> },
+    Curve { curve: Arc<ValueCurve>, lengths: Arc<[f64]> },
     /// One diameter for all values from the first to the second number.
-    Band { between: [f64; 2], diameter: f64, lengths: Box<[f64; LEVELS]> },
+    Band { between: [f64; 2], diameter: f64, lengths: Arc<[f64]> },
     /// What is asked of depths; infinity is a pixel without a value.
-    Depth { depths: Depths, lengths: Box<[f64; LEVELS]> },
+    Depth { depths: Depths, lengths: Arc<[f64]> },
 }
 
 /// The answer for the values of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Answer {
-    /// The share of the points at which the values require more than a level.
+    /// The share of the points at which the values are below a limit.
     pub asks: Share,
     /// The share of the points at which the values have a target diameter.
     pub present: Share,
@@ -83,33 +80,26 @@ impl Diameters {
     }
 }
 
-/// ℓ_b of each level, Eq. (1), in world units.
-pub fn lengths(spacing: f64) -> Box<[f64; LEVELS]> {
-    Box::new(std::array::from_fn(|level| bisection_edge_length(spacing, level as u32)))
-}
-
 impl Reading {
-    /// Returns risks in a mesh with the given coarse spacing.
-    pub fn risk(transfer: &Transfer, spacing: f64, nothing: f32) -> Self {
+    /// Returns risks.
+    pub fn risk(transfer: &Transfer, lengths: &[f64], nothing: f32) -> Self {
         let table = TransferTable::new(transfer);
         let asks = |risk: f32, length: f64| transfer.diameter(f64::from(risk)) < length;
         let limit = |&length: &f64| least_risk(|risk| asks(risk, length));
-        let least: Vec<f32> = lengths(spacing).iter().map(limit).collect();
-        Self::Risk { least: to_array(least), transfer: *transfer, table, nothing }
+        Self::Risk { least: lengths.iter().map(limit).collect(), transfer: *transfer, table, nothing }
     }
 
-    /// Target diameters in a mesh with the given coarse spacing.
-    pub fn diameter(spacing: f64) -> Self {
-        let most = lengths(spacing).iter().map(|&length| largest_below(length)).collect();
-        Self::Diameter { most: to_array(most) }
+    /// Returns target diameters.
+    pub fn diameter(lengths: &[f64]) -> Self {
+        Self::Diameter { most: lengths.iter().map(|&length| largest_below(length)).collect() }
     }
 
-    /// Returns the answer for the values of a range: whether they require more than a level, and whether they
-    /// have a target at all.
+    /// Returns the answer for the values of a range: whether they are below a limit, and whether they have a
+    /// target at all.
     #[inline]
-    pub fn answer(&self, range: ValueRange, level: usize) -> Answer {
+    pub fn answer(&self, range: ValueRange, limit: usize) -> Answer {
         let ValueRange { least, greatest } = range;
-        let asks = || self.question(level).asks(range);
+        let asks = || self.question(limit).asks(range);
         match self {
             Self::Risk { nothing, .. } => {
                 Answer { asks: asks(), present: share(greatest > *nothing, least > *nothing) }
@@ -119,19 +109,19 @@ impl Reading {
             }
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
                 let diameters = self.diameters(range);
-                Answer { asks: diameters.share_below(lengths[level]), present: diameters.present }
+                Answer { asks: diameters.share_below(lengths[limit]), present: diameters.present }
             }
         }
     }
 
-    /// Returns the question whether values ask for more than a level, to be put to many ranges.
+    /// Returns the question whether values are below a limit, to be put to many ranges.
     #[inline]
-    pub fn question(&self, level: usize) -> Question<'_> {
+    pub fn question(&self, limit: usize) -> Question<'_> {
         match self {
-            Self::Risk { least, .. } => Question::AtLeast(least[level]),
-            Self::Diameter { most } => Question::AtMost(most[level]),
+            Self::Risk { least, .. } => Question::AtLeast(least[limit]),
+            Self::Diameter { most } => Question::AtMost(most[limit]),
             Self::Curve { lengths, .. } | Self::Band { lengths, .. } | Self::Depth { lengths, .. } => {
-                Question::Below { reading: self, diameter: lengths[level] }
+                Question::Below { reading: self, diameter: lengths[limit] }
             }
         }
     }
@@ -202,7 +192,7 @@ impl Reading {
     }
 }
 
-/// Which values ask for more than a certain level.
+/// Which values are below a certain limit.
 #[derive(Clone, Copy, Debug)]
 pub enum Question<'a> {
     /// Values that are at least this one.
@@ -263,10 +253,6 @@ fn share(any: bool, all: bool) -> Share {
     } else {
         Share::None
     }
-}
-
-fn to_array(values: Vec<f32>) -> Box<[f32; LEVELS]> {
-    values.into_boxed_slice().try_into().expect("one value for each level")
 }
 
 /// Returns the largest number below `length`.

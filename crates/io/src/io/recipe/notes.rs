@@ -24,15 +24,18 @@ pub fn cut_at_antimeridian(path: &Path, outline: &Outline) -> Option<String> {
     })
 }
 
-/// Returns how lengths in the plane of a projection differ from those on the Earth.
+/// Returns how lengths in the plane of a projection differ from those on the Earth, rounded outwards.
 pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
     let rings = outline.polygons.par_iter().flat_map_iter(|named| &named.polygon);
     let corners = rings.flat_map(|ring| ring.par_iter());
-    let scales = corners.map(|&corner| projection.scale_at(projection.geographic_from_plane(corner)));
-    let most = 1e-4 * (1e4 * scales.reduce(|| 1.0, f64::max)).ceil();
+    let scales = corners.map(|&corner| [projection.scale_in_plane(corner); 2]);
+    let [least, most] =
+        scales.reduce(|| [f64::INFINITY, 0.0], |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])]);
+    // A hair less and more than what rounding leaves of a scale of one.
+    let (least, most) = (1e-4 * (1e4 * least + 1e-6).floor(), 1e-4 * (1e4 * most - 1e-6).ceil());
     format!(
-        "The domain is meshed in metres, in the plane {projection}: a length there is up to {most:.4} times that on the \
-         Earth."
+        "The domain is meshed in the plane {projection}: a length there is {least:.4} to {most:.4} times that on the \
+         Earth. Target diameters are metres on the Earth."
     )
 }
 

@@ -38,6 +38,7 @@ fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseErr
     let lattice = settings.lattice()?;
     let [smallest, largest] =
         [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));
+    let largest = settings.domain.longest_on_earth(largest);
     let transfer = &mut settings.transfer;
     if transfer.h_max == f64::MAX {
         transfer.h_max = largest.max(transfer.h_risk);

@@ -125,7 +125,8 @@ impl<L> SavedSettings<L> {
         let bounds = domain.bounds;
         let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
         let lattice = Lattice::covering(bounds, spacing, usual.most_coarse).map_err(CoarseError::from)?;
-        let transfer = self.transfer::<S>(bisection_edge_length(lattice.spacing(), 0));
+        let coarse_diameter = domain.longest_on_earth(bisection_edge_length(lattice.spacing(), 0));
+        let transfer = self.transfer::<S>(coarse_diameter);
         let numbered = self.layer.iter().zip((0..).map(LayerId));
         let layers = numbered.map(|(layer, number)| storage.layer(layer, number, bounds, &transfer));
         let layers = layers.filter_map(Result::transpose).collect::<Result<_, _>>()?;
@@ -142,8 +143,8 @@ impl<L> SavedSettings<L> {
         let settings = Settings {
             name: name.to_owned(),
             unit: self.domain.unit.map_or(unit, Into::into),
+            boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
             domain,
-            boundary: BoundaryTreatment::usual(spacing),
             boundary_marks: Arc::new(if self.domain.has_marks() { self.domain.marks() } else { marks }),
             pins: Arc::new(self.pins.points()?),
             paths: Arc::new(paths),
