@@ -28,9 +28,9 @@ pub use meshbrush_core::build::{
 };
 #[doc(inline)]
 pub use meshbrush_core::domain::{
-    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, CutShape, Domain,
-    DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, Polygon,
-    Region, RegionError, RegionOnLattice, Ring,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape,
+    Domain, DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun,
+    Polygon, Region, RegionError, RegionOnLattice, Ring,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;

@@ -6,7 +6,9 @@ use crate::folder::{Folder, Ran};
 use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
-use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::domain::{
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
+};
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
@@ -266,7 +268,25 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         unit: if has_depths { LengthUnit::Metre } else { LengthUnit::Kilometre },
         ..Settings::for_domain("Random".into(), domain)
     };
-    settings.checked().unwrap()
+    Settings { boundary_marks: Arc::new(marks(random, &settings.domain)), ..settings }.checked().unwrap()
+}
+
+/// Random splits, names and types of pieces of the boundary, most of them on it.
+fn marks(random: &mut fastrand::Rng, domain: &Domain) -> BoundaryMarks {
+    let mut marks = BoundaryMarks::default();
+    for _ in 0..random.usize(..6) {
+        let pieces = BoundaryPieces::of_domain(domain, &marks);
+        let at = |random: &mut fastrand::Rng| match &pieces {
+            Some(pieces) => pieces.list()[random.usize(..pieces.list().len())].middle(),
+            None => point(random),
+        };
+        match random.u8(..3) {
+            0 => marks.splits.push(at(random)),
+            1 => marks.names.push((at(random), ["Open “Sea”", "Rock", "land"][random.usize(..3)].to_owned())),
+            _ => marks.types.push((at(random), BoundaryType::ALL[random.usize(..BoundaryType::ALL.len())])),
+        }
+    }
+    marks
 }
 
 /// Returns a document with random settings and a stroke on each paint layer.
@@ -323,6 +343,7 @@ fn window_project_recipe_and_opened_recipe_have_one_mesh() {
         let (of_recipe, of_project) = (opened.settings(), &project.settings);
         assert_eq!(of_recipe.paths, of_project.paths, "paths, seed {seed}");
         assert_eq!(of_recipe.pins, of_project.pins, "pins, seed {seed}");
+        assert_eq!(of_recipe.boundary_marks, of_project.boundary_marks, "pieces, seed {seed}");
         assert_eq!(in_window(&mut opened), expected, "opened recipe, seed {seed}");
     }
 }

@@ -9,7 +9,7 @@ use std::time::Instant;
 use glam::dvec2;
 use meshbrush_core::document::{Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, Domain, DomainShape,
+    BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -84,13 +84,14 @@ fn polygons(random: &mut fastrand::Rng) -> Domain {
     Domain::of_polygons(&polygons).unwrap()
 }
 
-/// Returns a name for every piece of the boundary, and a split of the first.
+/// Returns a name for every piece of the boundary, a type for the first seven, and a split of the first.
 fn marks(domain: &Domain) -> BoundaryMarks {
     let pieces = BoundaryPieces::of_domain(domain, &BoundaryMarks::default()).unwrap();
     let name = |piece: &BoundaryPiece| (piece.middle(), format!("{} 'Ä' /\u{1f30a}", piece.name));
     BoundaryMarks {
         splits: vec![pieces.list()[0].points[0], pieces.list()[0].middle()],
         names: pieces.list().iter().map(name).collect(),
+        types: pieces.list().iter().map(BoundaryPiece::middle).zip(BoundaryType::ALL).collect(),
     }
 }
 
@@ -445,7 +446,7 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 7";
+const VERSION: &str = "\"version\": 8";
 
 /// Returns the settings as if an older program had written them.
 fn of_version(text: &str, version: u32) -> String {
@@ -456,10 +457,10 @@ fn of_version(text: &str, version: u32) -> String {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace(VERSION, "\"version\": 8, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 9, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 8", "up to version 7"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 9", "up to version 8"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.
@@ -483,9 +484,21 @@ fn projects_of_versions_2_4_and_5_open() {
 }
 
 #[test]
+fn a_project_of_version_7_has_names_and_no_types_of_the_boundary() {
+    let older = rewritten(|text| {
+        let marks =
+            "\"boundary_marks\": {\"splits\": [], \"names\": [{\"at\": [0.5, 0.05], \"name\": \"Rock\"}]}";
+        of_version(text, 7).replace("\"spacing\":", &format!("{marks}, \"spacing\":"))
+    });
+    let marks = opened(&older).unwrap().settings.boundary_marks;
+    assert_eq!(marks.names, [(dvec2(0.5, 0.05), "Rock".to_owned())]);
+    assert!(marks.splits.is_empty() && marks.types.is_empty());
+}
+
+#[test]
 fn errors_in_settings_name_their_place() {
     let cases: &[(&str, &str, &[&str])] = &[
-        (VERSION, "\"version\": 7, \"seasons\": 4", &["line 3", "seasons"]),
+        (VERSION, "\"version\": 8, \"seasons\": 4", &["line 3", "seasons"]),
         ("\"spacing\"", "\"spacing\": 1e999, \"spacings\"", &["settings.json"]),
         ("\"columns\": 2", "\"columns\": 100000", &["100,000 × 2", "65,536"]),
         ("\"columns\": 2", "\"columns\": 8192", &["raster", "checksum"]),
@@ -536,7 +549,7 @@ fn errors_stay_short_for_long_values() {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
                 VERSION,
-                "\"version\": 8",
+                "\"version\": 9",
                 usize::from(from.contains("written")),
             )
         });

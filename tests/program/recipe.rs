@@ -7,8 +7,8 @@ use std::path::Path;
 use crate::folder::{Folder, Ran};
 use glam::dvec2;
 use meshbrush::{
-    BoundaryMarks, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect, Settings,
-    write_geojson, write_project,
+    BoundaryMarks, BoundaryType, Document, Domain, DomainShape, Layer, LayerKind, LengthUnit, Project, Rect,
+    Settings, write_geojson, write_project,
 };
 use meshbrush_io::io::layers::SavedLayer;
 use meshbrush_io::io::recipe::{parse, read, to_text};
@@ -277,7 +277,8 @@ fn the_recipe_of_a_document_gives_its_mesh() {
     ]];
     let domain = Domain::of_polygons(&polygons).unwrap();
     let names = vec![(dvec2(1.0, 1.5), "rock".to_owned())];
-    let marks = BoundaryMarks { splits: vec![dvec2(4.0, 1.0)], names };
+    let types = vec![(dvec2(1.0, 1.5), BoundaryType::NaturalLand), (dvec2(4.0, 0.5), BoundaryType::Inflow)];
+    let marks = BoundaryMarks { splits: vec![dvec2(4.0, 1.0)], names, types };
     let formula = Domain { shape: DomainShape::Formula("x*y < 3".parse().unwrap()), ..domain.clone() };
     let wider = domain.with_bounds(Rect::new(dvec2(-1.0, -0.5), dvec2(4.5, 4.5)));
     let frame = domain.bounds;
@@ -306,6 +307,35 @@ fn the_recipe_of_a_document_gives_its_mesh() {
             assert_eq!(by_recipe[key], by_project[key], "{key} of {recipe}");
         }
     }
+}
+
+#[test]
+fn types_of_pieces_are_in_files_and_summary_and_a_misplaced_one_is_told() {
+    let folder = Folder::new("types");
+    let types = "types = [{ at = [2, 0], type = \"natural inflow\" }, { at = [4, 2], type = \"land\" }, \
+                 { at = [2, 2], type = \"open\" }]";
+    let rest =
+        "[mesh]\nspacing = 1\n[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"1\"\n";
+    folder.file("sea.toml", format!("[domain]\nbounds = [0, 0, 4, 4]\n{types}\n{rest}"));
+    let ran = folder.run("mesh sea.toml --json -o sea.14");
+    assert!(
+        ran.err.contains("The type “open” at 2, 2 is not on the boundary: no piece has it."),
+        "{}",
+        ran.err
+    );
+    let boundary = &ran.json()["boundary"];
+    let types: Vec<&str> = (0..4).map(|piece| boundary[piece]["type"].as_str().unwrap()).collect();
+    assert_eq!(types, ["natural inflow", "land", "open", "open"]);
+    let file = std::fs::read_to_string(folder.0.join("sea.14")).unwrap();
+    let heads = file.lines().filter(|line| line.contains(" = Number of nodes for "));
+    let heads: Vec<&str> = heads.map(|line| line.split_once(' ').unwrap().1).collect();
+    let expected = [
+        "0 = Number of nodes for open boundary 1: open north",
+        "0 = Number of nodes for open boundary 2: open west",
+        "22 = Number of nodes for land boundary 1: open south",
+        "0 = Number of nodes for land boundary 2: open east",
+    ];
+    assert_eq!(heads, expected);
 }
 
 /// A recipe may hold names of layers and files of any length; what the program says of them stays short.

@@ -189,6 +189,9 @@ pub struct PieceSummary {
     pub name: String,
     /// "open", "mainland" or "island".
     pub kind: &'static str,
+    /// What it is for a solver, as "open" or "natural land".
+    #[serde(rename = "type")]
+    pub boundary_type: &'static str,
     /// Edges of the mesh.
     pub edges: usize,
     /// Their length in world units.
@@ -201,7 +204,8 @@ impl PieceSummary {
         let summary = |id: usize| {
             let (piece, figures) = (&boundary.pieces().list()[id], boundary.figures()[id]);
             let PieceFigures { edges, length } = figures;
-            Self { id, name: piece.name.clone(), kind: piece.kind.name(), edges, length }
+            let (name, kind) = (piece.name.clone(), piece.kind.name());
+            Self { id, name, kind, boundary_type: piece.boundary_type().word(), edges, length }
         };
         boundary.present().map(summary).collect()
     }

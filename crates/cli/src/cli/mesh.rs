@@ -97,7 +97,7 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
     }
 }
 
-/// Tells the user about names and splits of a recipe that are not on the boundary.
+/// Tells the user about names, types and splits of a recipe that are not on the boundary.
 fn note_misplaced_marks(input: &Input, finished: &FinishedMesh, extract: &Extract, terminal: &mut Terminal) {
     if input.settings.domain.has_marks() {
         let notes = finished.misplaced_marks(&finished.boundary(extract));

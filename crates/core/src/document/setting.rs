@@ -54,7 +54,7 @@ pub enum Setting {
     Boundary(BoundaryTreatment),
     /// Which triangles of the domain stay in the derived mesh.
     Cleaning(Cleaning),
-    /// Names of pieces of the boundary, and where it is split.
+    /// Names and types of pieces of the boundary, and where it is split.
     BoundaryMarks(BoundaryMarks),
     /// Points whose triangles and values are followed, in world units.
     Pins(Arc<Vec<DVec2>>),
@@ -94,7 +94,7 @@ impl Setting {
             Self::Outline { .. } => "outline",
             Self::Boundary(_) => "boundary",
             Self::Cleaning(_) => "cleaning",
-            Self::BoundaryMarks(_) => "boundary names",
+            Self::BoundaryMarks(_) => "boundary pieces",
             Self::Pins(_) => "pins",
             Self::Paths(_) => "path",
             Self::LengthUnit(_) => "unit",

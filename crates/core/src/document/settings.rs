@@ -28,7 +28,7 @@ pub struct Settings {
     pub boundary: BoundaryTreatment,
     /// Which triangles of a domain of polygons stay in the derived mesh.
     pub cleaning: Cleaning,
-    /// Names of pieces of the boundary, and where it is split. They do not change the mesh.
+    /// Names and types of pieces of the boundary, and where it is split. They do not change the mesh.
     pub boundary_marks: Arc<BoundaryMarks>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,

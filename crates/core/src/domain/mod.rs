@@ -29,8 +29,8 @@ use crate::mesh::Extract;
 use crate::text::Grouped;
 
 pub use boundary::{
-    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, CoastEdge, Coasts, FrameSide, LONGEST_NAME,
-    MeshBoundary, NamedPolygon, PieceFigures, PieceRun, coasts,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts, FrameSide,
+    LONGEST_NAME, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, coasts,
 };
 pub use comparison::RegionComparison;
 use complexity::check_complexity;

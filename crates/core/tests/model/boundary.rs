@@ -9,8 +9,8 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::BuiltMesh;
 use meshbrush_core::domain::{
-    BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryTreatment, CutShape, Domain, DomainShape,
-    MeshBoundary, NamedPolygon, Polygon, Ring,
+    BoundaryKind, BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape, Domain,
+    DomainShape, MeshBoundary, NamedPolygon, Polygon, Ring,
 };
 use meshbrush_core::field::Formula;
 use meshbrush_core::outline::DerivedMesh;
@@ -362,6 +362,47 @@ fn a_piece_is_named_split_and_joined() {
     for (length, piece) in lengths.iter().zip(boundary.pieces().list()) {
         assert!((length / piece.length() - 1.0).abs() < 0.03, "{}: {length}", piece.name);
     }
+}
+
+#[test]
+fn a_type_is_set_stays_with_both_parts_and_is_joined() {
+    let domain = bay();
+    let none = BoundaryMarks::default();
+    let at = |marks: &BoundaryMarks| BoundaryPieces::of_domain(&domain, marks).unwrap();
+    let types =
+        |marks: &BoundaryMarks| at(marks).list().iter().map(|piece| piece.set_type).collect::<Vec<_>>();
+    let pieces = at(&none);
+    let usual: Vec<&str> = pieces.list().iter().map(|piece| piece.boundary_type().word()).collect();
+    assert_eq!(usual, ["open", "open", "open", "land", "land", "land"]);
+    let [river, wall] = [BoundaryType::Inflow, BoundaryType::NoSlipLand].map(Some);
+    let marks = pieces.retyped(&pieces.retyped(&none, 3, river), 5, wall);
+    assert_eq!(types(&marks), [None, None, None, river, None, wall]);
+    assert_eq!(at(&marks).retyped(&marks, 3, None).types.len(), 1);
+    assert_eq!(at(&marks).retyped(&marks, 3, wall).types.len(), 2, "a piece has one type");
+
+    // Both parts of an open line, and both of a ring that is split twice.
+    let coast = pieces.list()[3].middle();
+    let split = at(&marks).split(&marks, coast, 0.01).unwrap();
+    assert_eq!(types(&split), [None, None, None, river, river, None, wall]);
+    assert_eq!(at(&split).joined(&split, 3).unwrap().types.len(), 2);
+    let [west, east] = [-0.1, 0.1].map(|dx| dvec2(0.3 + dx, 0.3));
+    let once = at(&marks).split(&marks, west, 0.01).unwrap();
+    assert_eq!((types(&once), once.types.len()), (types(&marks), 2));
+    let twice = at(&once).split(&once, east, 0.01).unwrap();
+    assert_eq!(types(&twice)[5..], [wall, wall]);
+
+    // The type of the first part stays, and that of the next where the first has none.
+    let parts = at(&split);
+    let other = parts.retyped(&split, 4, wall);
+    assert_eq!(types(&at(&other).joined(&other, 3).unwrap())[3], river);
+    let other = parts.retyped(&other, 3, None);
+    assert_eq!(types(&at(&other).joined(&other, 3).unwrap())[3], wall);
+
+    // A name decides only where no type is set.
+    let named = pieces.renamed(&marks, 3, "Open river");
+    assert_eq!(at(&named).list()[3].boundary_type(), BoundaryType::Inflow);
+    let named = pieces.renamed(&none, 3, "Open river");
+    assert_eq!(at(&named).list()[3].boundary_type(), BoundaryType::Open);
 }
 
 #[test]

@@ -10,7 +10,8 @@ use meshbrush_core::document::{
     Document, Example, Follower, History, MeshChange, NoChange, Price, Pricer, Setting, Settings, Stage,
 };
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, CutShape, Domain, DomainShape, NamedPolygon, Polygon, Region, corners,
+    BoundaryMarks, BoundaryPieces, BoundaryType, CutShape, Domain, DomainShape, NamedPolygon, Polygon,
+    Region, corners,
 };
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
@@ -570,7 +571,7 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
 }
 
 #[test]
-fn names_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
+fn names_and_types_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
     let mut document = Example::Aegean.document(slope, sea);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
@@ -579,9 +580,10 @@ fn names_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
     let names: Vec<&str> = pieces.list().iter().map(|piece| piece.name.as_str()).collect();
     assert_eq!(names, ["open south", "open east", "open north", "open west", "Sea island 1"]);
     let marks = pieces.renamed(&settings.boundary_marks, 4, "Rock");
+    let marks = pieces.retyped(&marks, 0, Some(BoundaryType::NaturalInflow));
     document.set(Setting::BoundaryMarks(marks.clone())).unwrap();
     document.end_gesture();
-    assert_eq!(document.history().undo_title(), Some("boundary names"));
+    assert_eq!(document.history().undo_title(), Some("boundary pieces"));
     assert_eq!(follower.advance(&mut document, 1).unwrap(), Stage::InStep);
     assert_eq!((follower.take_change(), follower.settings()), (None, document.settings()));
     // Also while the mesh is busy with a cut.

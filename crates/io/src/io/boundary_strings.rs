@@ -3,19 +3,19 @@
 //! ```text
 //!   o----- land -----o        Outer loops run anticlockwise and holes clockwise: the domain is on the left.
 //!   |                |        Neighbouring strings share their end node. A loop of one string ends with its
-//!  open    o--o    land       first node. A hole without an open part is one string, whatever pieces it has.
+//!  open    o--o    land       first node. A hole that is land of one type is one string.
 //!   |      o--o      |
 //!   o----- land -----o
 //! ```
 //!
-//! A piece is open if it lies along the frame ([`BoundaryKind::Open`]). A name that a person or a file gave
-//! decides against that if it begins with `open` or with `land`, in upper or lower case.
+//! What a piece is follows from its type ([`BoundaryPiece::boundary_type`]). Inflows are open strings in some
+//! formats, and in others strings among those of land.
 
 use std::collections::HashMap;
 use std::io;
 
 use super::{MeshData, Number};
-use meshbrush_core::domain::{BoundaryKind, BoundaryPiece, signed_area};
+use meshbrush_core::domain::{BoundaryPiece, BoundaryType, signed_area};
 use meshbrush_mesh::mesh::{Extract, NodeId};
 
 /// The code of a land node in [`BoundaryStrings::node_codes`].
@@ -24,19 +24,21 @@ pub(super) const LAND: u32 = 1;
 /// What a string is for a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StringKind {
-    /// Where the sea goes on.
+    /// Where the sea goes on; in some formats also inflows.
     Open,
-    /// Land on an outer loop, or on a hole that has an open part.
+    /// Land on an outer loop, or on a hole that is not all land of one type; and inflows that are not open.
     Land,
     /// The whole of a hole.
     Island,
 }
 
-/// Edges of one kind that follow one another along the boundary.
+/// Edges of one piece, or of a hole, that follow one another along the boundary.
 #[derive(Clone, Debug)]
 pub(super) struct BoundaryString {
     /// What it is.
     pub(super) kind: StringKind,
+    /// The type of its piece.
+    pub(super) boundary_type: BoundaryType,
     /// The name of its piece, or of its pieces with commas between them.
     pub(super) name: String,
     /// Nodes, with the domain on the left; a whole loop ends with its first node.
@@ -66,30 +68,37 @@ pub(super) struct BoundaryStrings {
 }
 
 impl BoundaryStrings {
-    /// Divides the boundary of a mesh. `format` is its name in errors.
+    /// Divides the boundary of a mesh. `is_open` says which types are open strings in a format, and `format`
+    /// is its name in errors.
     ///
     /// # Errors
     /// Fails where the boundary touches itself in a node: solvers need two boundary edges at each.
-    pub(super) fn new(mesh: &Extract, data: &MeshData, format: &str) -> io::Result<Self> {
+    pub(super) fn new(
+        mesh: &Extract,
+        data: &MeshData,
+        format: &str,
+        is_open: fn(BoundaryType) -> bool,
+    ) -> io::Result<Self> {
         let edges: Vec<[usize; 2]> = mesh.boundary_edges().map(|edge| edge.ends).collect();
         check_contacts(mesh, &edges, format)?;
         let pieces = data.boundary.pieces().list();
+        let types: Vec<BoundaryType> = pieces.iter().map(BoundaryPiece::boundary_type).collect();
         let piece_of = |edge: usize| data.boundary.piece_of_edge()[edge] as usize;
         let mut loops = Vec::new();
         for mut numbers in mesh.boundary_edge_loops() {
             let corner = |&edge: &usize| mesh.node(NodeId::from_index(edges[edge][0])).as_dvec2();
             let is_hole = signed_area(&numbers.iter().map(corner).collect::<Vec<_>>()) < 0.0;
-            let start = first_of_string(&numbers, |edge| (is_open(&pieces[piece_of(edge)]), piece_of(edge)));
+            let start = first_of_string(&numbers, |edge| (is_open(types[piece_of(edge)]), piece_of(edge)));
             numbers.rotate_left(start);
             let runs = numbers.chunk_by(|&a, &b| piece_of(a) == piece_of(b));
             let string = |run: &[usize]| {
-                let piece = &pieces[piece_of(run[0])];
-                let kind = if is_open(piece) { StringKind::Open } else { StringKind::Land };
+                let (name, boundary_type) = (pieces[piece_of(run[0])].name.clone(), types[piece_of(run[0])]);
+                let kind = if is_open(boundary_type) { StringKind::Open } else { StringKind::Land };
                 let nodes = run.iter().map(|&edge| edges[edge][0]).chain([edges[run[run.len() - 1]][1]]);
-                BoundaryString { kind, name: piece.name.clone(), nodes: nodes.collect() }
+                BoundaryString { kind, boundary_type, name, nodes: nodes.collect() }
             };
             let strings: Vec<BoundaryString> = runs.map(string).collect();
-            let is_island = is_hole && !strings.iter().any(BoundaryString::is_open);
+            let is_island = is_hole && is_land_of_one_type(&strings);
             loops.push((is_hole, numbers.len(), if is_island { vec![island(strings)] } else { strings }));
         }
         loops.sort_by_key(|&(is_hole, edges, _)| (is_hole, std::cmp::Reverse(edges)));
@@ -185,12 +194,10 @@ impl BoundaryStrings {
 const BEGIN: usize = 0;
 const END: usize = 1;
 
-/// Returns whether a piece of the boundary is open for solvers.
-fn is_open(piece: &BoundaryPiece) -> bool {
-    let begins = |word: &str| {
-        piece.is_named && piece.name.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
-    };
-    begins("open") || (piece.kind == BoundaryKind::Open && !begins("land"))
+/// Returns whether no water flows across any string, and all treat the flow alike.
+fn is_land_of_one_type(strings: &[BoundaryString]) -> bool {
+    let first = strings[0].boundary_type;
+    !first.lets_water_through() && strings.iter().all(|string| string.boundary_type == first)
 }
 
 /// Returns where to begin with the edges of a loop: at an open piece after land, or else at another piece;
@@ -216,7 +223,7 @@ fn island(strings: Vec<BoundaryString>) -> BoundaryString {
     let name = names.join(", ");
     let inner = strings.iter().flat_map(|string| &string.nodes[1..]);
     let nodes = strings.iter().take(1).map(|string| &string.nodes[0]).chain(inner).copied().collect();
-    BoundaryString { kind: StringKind::Island, name, nodes }
+    BoundaryString { kind: StringKind::Island, boundary_type: strings[0].boundary_type, name, nodes }
 }
 
 /// Fails where the boundary touches itself in a node.

@@ -5,14 +5,18 @@
 //! downwards.
 //!
 //! Strings run with the domain on the left: outer boundaries anticlockwise, islands clockwise. Neighbouring
-//! strings share their end node, which counts in both; an island does not repeat its first node. Land has the
-//! type 0 (mainland) or 1 (island), both with essential normal flow. The first line describes the origin of
-//! the mesh.
+//! strings share their end node, which counts in both; an island does not repeat its first node. The first
+//! line describes the origin of the mesh.
+//!
+//! Strings that are not open have ADCIRC's number (IBTYPE) of their [`BoundaryType`]: 0 for land, 1 for an
+//! island and 2 for an inflow, where the flow across the boundary is an essential condition and the flow
+//! along it is free; 10 more without slip, and 20 more where it is a natural condition.
 
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, StringKind};
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// ADCIRC.
@@ -30,22 +34,37 @@ pub static FORMAT: FormatSpec = FormatSpec {
 /// The size of its files, and of those with the same contents.
 pub(super) const SIZE: TypicalSize = TypicalSize { bytes: 38.0, bytes_per_digit: 4.5 };
 
-/// Writes title, nodes with depths, triangles, open boundaries, and land with islands.
+/// ADCIRC's number for a string at which a flow comes in.
+const INFLOW: u32 = 2;
+
+/// Writes title, nodes with depths, triangles, open boundaries, and land with inflows and islands.
 ///
 /// # Errors
 /// Fails with the errors of `out`, and where the boundary touches itself in a node.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    write_named(out, mesh, data, "fort.14")
+    let dialect =
+        Dialect { format: "fort.14", is_open: BoundaryType::is_open, number_of_closed: adcirc_number };
+    write_dialect(out, mesh, data, &dialect)
 }
 
-/// Writes as [`write()`] does; `format` is the name in errors.
-pub(super) fn write_named(
+/// What ADCIRC's file and SCHISM's differ in.
+pub(super) struct Dialect {
+    /// The name in errors.
+    pub(super) format: &'static str,
+    /// Which types are open strings.
+    pub(super) is_open: fn(BoundaryType) -> bool,
+    /// The number of a string that is not open.
+    pub(super) number_of_closed: fn(&BoundaryString) -> u32,
+}
+
+/// Writes as [`write()`] does.
+pub(super) fn write_dialect(
     out: &mut impl Write,
     mesh: &Extract,
     data: &MeshData,
-    format: &str,
+    dialect: &Dialect,
 ) -> io::Result<()> {
-    let strings = BoundaryStrings::new(mesh, data, format)?;
+    let strings = BoundaryStrings::new(mesh, data, dialect.format, dialect.is_open)?;
     writeln!(out, "{}", data.provenance.line())?;
     writeln!(out, "{} {}", mesh.triangles().len(), mesh.nodes().len())?;
     write_rows(out, mesh.nodes().len(), |out, node| {
@@ -56,18 +75,38 @@ pub(super) fn write_named(
         let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
         writeln!(out, "{} 3 {a} {b} {c}", id + 1)
     })?;
-    write_strings(out, "open", &strings.open().collect::<Vec<_>>())?;
-    write_strings(out, "land", &strings.closed().collect::<Vec<_>>())
+    write_strings(out, "open", &strings.open().collect::<Vec<_>>(), |_| 0)?;
+    write_strings(out, "land", &strings.closed().collect::<Vec<_>>(), dialect.number_of_closed)
+}
+
+/// Returns ADCIRC's number for a string that is not open.
+fn adcirc_number(string: &BoundaryString) -> u32 {
+    let treatment = match string.boundary_type {
+        BoundaryType::NoSlipLand | BoundaryType::NoSlipInflow => 10,
+        BoundaryType::NaturalLand | BoundaryType::NaturalInflow => 20,
+        _ => 0,
+    };
+    treatment + if string.boundary_type.lets_water_through() { INFLOW } else { number_of_land(string) }
+}
+
+/// Returns 1 for an island, and 0 for other land.
+pub(super) fn number_of_land(string: &BoundaryString) -> u32 {
+    u32::from(string.kind == StringKind::Island)
 }
 
 /// Writes the strings of a kind: how many, the nodes of all together, and then one after the other.
-fn write_strings(out: &mut impl Write, kind: &str, strings: &[&BoundaryString]) -> io::Result<()> {
+fn write_strings(
+    out: &mut impl Write,
+    kind: &str,
+    strings: &[&BoundaryString],
+    number_of: impl Fn(&BoundaryString) -> u32,
+) -> io::Result<()> {
     let nodes: usize = strings.iter().map(|string| string.distinct().len()).sum();
     writeln!(out, "{} = Number of {kind} boundaries", strings.len())?;
     writeln!(out, "{nodes} = Total number of {kind} boundary nodes")?;
     for (number, string) in (1..).zip(strings) {
-        let (count, island) = (string.distinct().len(), i32::from(string.kind == StringKind::Island));
-        writeln!(out, "{count} {island} = Number of nodes for {kind} boundary {number}: {}", string.name)?;
+        let (count, code) = (string.distinct().len(), number_of(string));
+        writeln!(out, "{count} {code} = Number of nodes for {kind} boundary {number}: {}", string.name)?;
         string.distinct().iter().try_for_each(|node| writeln!(out, "{}", node + 1))?;
     }
     Ok(())

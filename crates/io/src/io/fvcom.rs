@@ -2,13 +2,15 @@
 //!
 //! Triangles run anticlockwise; FVCOM turns them itself. Numbers start at one; depths are positive downwards.
 //! The open boundary is a list of its nodes along the boundary, each once, all of type 1 (the elevation is
-//! given). FVCOM takes an edge for open if both nodes are in the list. The format has no place for names and
-//! for the origin of the mesh.
+//! given). FVCOM takes an edge for open if both nodes are in the list. Inflows are not in it: FVCOM has
+//! rivers in a file of their own, at nodes of the coast. The format has no place for names and for the origin
+//! of the mesh.
 
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryStrings, LAND};
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// FVCOM.
@@ -63,7 +65,7 @@ pub fn write_depths(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io
 /// Fails with the errors of `out`, where the boundary touches itself in a node, and where no edge of an open
 /// piece beside land of one edge would remain.
 pub fn write_open_boundary(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let strings = BoundaryStrings::new(mesh, data, "FVCOM")?;
+    let strings = BoundaryStrings::new(mesh, data, "FVCOM", BoundaryType::is_open)?;
     let codes = strings.node_codes(mesh, "FVCOM")?;
     let mut open = strings.open_nodes(mesh);
     open.retain(|&node| codes[node] > LAND);

@@ -1,12 +1,15 @@
 //! `hgrid.gr3` and `hgrid.ll`: the mesh of SCHISM.
 //!
-//! The contents are those of ADCIRC's [`fort14`]; SCHISM reads the type of land as 0 on the
-//! outer boundary and 1 for islands. `hgrid.ll` is the same file in degrees of longitude and latitude. A mesh
-//! that is known to be in metres or kilometres is refused as `.ll`.
+//! The contents are those of ADCIRC's [`fort14`], but for the boundary: SCHISM reads the type of land as 0 on
+//! the outer boundary and 1 for islands, and takes a given flow at open boundaries. So inflows are open
+//! strings, and how land treats the flow is not written. `hgrid.ll` is the same file in degrees of longitude
+//! and latitude. A mesh that is known to be in metres or kilometres is refused as `.ll`.
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, fort14};
+use super::fort14::{self, Dialect, number_of_land, write_dialect};
+use super::{FormatSpec, MeshData};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -39,7 +42,7 @@ pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
 /// # Errors
 /// Fails as [`fort14::write`] does.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    fort14::write_named(out, mesh, data, "hgrid.gr3")
+    write_dialect(out, mesh, data, &dialect("hgrid.gr3"))
 }
 
 /// Writes `hgrid.ll`.
@@ -48,11 +51,15 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Fails as [`fort14::write`] does, and when the unit of the mesh is a length.
 pub fn write_in_degrees(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     match data.provenance.unit() {
-        LengthUnit::Degree | LengthUnit::None => fort14::write_named(out, mesh, data, "hgrid.ll"),
+        LengthUnit::Degree | LengthUnit::None => write_dialect(out, mesh, data, &dialect("hgrid.ll")),
         unit @ (LengthUnit::Metre | LengthUnit::Kilometre) => Err(io::Error::other(format!(
             "hgrid.ll holds longitudes and latitudes in degrees, and the coordinates of this mesh are in {}; write \
              hgrid.gr3, or set the unit of the document to degrees",
             unit.symbol()
         ))),
     }
+}
+
+fn dialect(format: &'static str) -> Dialect {
+    Dialect { format, is_open: BoundaryType::lets_water_through, number_of_closed: number_of_land }
 }

@@ -1,16 +1,17 @@
 //! `.mesh`: the mesh of MIKE 21 and MIKE 3 FM.
 //!
 //! Nodes have coordinates, the height of the ground in metres (positive upwards), and a code: 0 inside, 1 for
-//! land, and 2, 3 … for the open pieces of the boundary in their order. MIKE takes a boundary edge for open
-//! if neither of its nodes is land, with the code of its second node; so nodes between open pieces and land
-//! are open. Numbers start at one. The first line has the coordinate system: `LONG/LAT` for a mesh in
-//! degrees, and `NON-UTM`, MIKE's word for a local one, otherwise. The format has no place for names and for
-//! the origin of the mesh.
+//! land, and 2, 3 … for the open pieces and the inflows of the boundary in their order. MIKE takes a boundary
+//! edge for open if neither of its nodes is land, with the code of its second node; so nodes between open
+//! pieces and land are open. Numbers start at one. The first line has the coordinate system: `LONG/LAT` for a
+//! mesh in degrees, and `NON-UTM`, MIKE's word for a local one, otherwise. The format has no place for names
+//! and for the origin of the mesh.
 
 use std::io::{self, Write};
 
 use super::boundary_strings::BoundaryStrings;
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -37,7 +38,8 @@ const TRIANGLES: u32 = 21;
 /// Fails with the errors of `out`, where the boundary touches itself in a node, and where no edge of an open
 /// piece beside land of one edge would remain.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let codes = BoundaryStrings::new(mesh, data, ".mesh")?.node_codes(mesh, ".mesh")?;
+    let strings = BoundaryStrings::new(mesh, data, ".mesh", BoundaryType::lets_water_through)?;
+    let codes = strings.node_codes(mesh, ".mesh")?;
     let system = if data.provenance.unit() == LengthUnit::Degree { "LONG/LAT" } else { "NON-UTM" };
     let [item, unit] = BATHYMETRY;
     writeln!(out, "{item} {unit} {} {system}", mesh.nodes().len())?;

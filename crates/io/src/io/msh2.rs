@@ -3,12 +3,14 @@
 //! WAVEWATCH III reads nodes (number, x, y, depth), and elements: a point (type 15) for each node of an open
 //! boundary, and then the triangles (type 2). Numbers start at one; depths are positive downwards. The order
 //! of sections matters, so comments on the origin of the mesh come last. Other programs that read Gmsh 2.2
-//! see the depth as z. Named curves of the boundary are in Gmsh 4.1, [`msh`](super::msh).
+//! see the depth as z. Waves do not come in at inflows, so these have no points. Named curves of the boundary
+//! are in Gmsh 4.1, [`msh`](super::msh).
 
 use std::io::{self, Write};
 
 use super::boundary_strings::BoundaryStrings;
 use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Gmsh 2.2.
@@ -32,7 +34,8 @@ const TRIANGLE: u32 = 2;
 /// # Errors
 /// Fails with the errors of `out`, and where the boundary touches itself in a node.
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let open = BoundaryStrings::new(mesh, data, "Gmsh 2.2 for WAVEWATCH III")?.open_nodes(mesh);
+    let strings = BoundaryStrings::new(mesh, data, "Gmsh 2.2 for WAVEWATCH III", BoundaryType::is_open)?;
+    let open = strings.open_nodes(mesh);
     writeln!(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}", mesh.nodes().len())?;
     write_rows(out, mesh.nodes().len(), |out, node| {
         let p = mesh.world(NodeId::from_index(node));

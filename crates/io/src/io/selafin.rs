@@ -6,14 +6,16 @@
 //! clockwise.
 //!
 //! `.cli` has a line for each boundary node in that order. Open nodes are `5 4 4` (the water level is given,
-//! the velocity free) and others `2 2 2` (a wall); the values are 0. The last two numbers are the node and
-//! its place. The name of the piece follows after a `#`, where TELEMAC does not read. TELEMAC takes a
+//! the velocity free), those of inflows `4 5 5` (the flow is given, and tracers too), those of land without
+//! slip `2 0 0`, and others `2 2 2` (a wall); the values are 0. The last two numbers are the node and its
+//! place. The name of the piece follows after a `#`, where TELEMAC does not read. TELEMAC takes a
 //! boundary edge for a wall if one of its nodes is; so nodes between open pieces and land are open.
 
 use std::io::{self, Write};
 
-use super::boundary_strings::{BoundaryStrings, LAND};
+use super::boundary_strings::{BoundaryString, BoundaryStrings, LAND};
 use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::Grouped;
 
@@ -45,8 +47,9 @@ const LONGEST_RECORD: usize = i32::MAX as usize;
 pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
     let (nodes, triangles) = (mesh.nodes().len(), mesh.triangles().len());
     check_size(nodes, triangles)?;
+    let strings = BoundaryStrings::new(mesh, data, "SELAFIN", BoundaryType::lets_water_through)?;
     let mut places = vec![0_i32; nodes];
-    for (place, (node, _)) in (1..).zip(BoundaryStrings::new(mesh, data, "SELAFIN")?.ring_nodes()) {
+    for (place, (node, _)) in (1..).zip(strings.ring_nodes()) {
         places[node] = place;
     }
     let title = data.provenance.title::<TITLE>();
@@ -80,14 +83,18 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 /// Fails with the errors of `out`, where the boundary touches itself in a node, and where no edge of an open
 /// piece beside land of one edge would remain.
 pub fn write_conditions(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Result<()> {
-    let strings = BoundaryStrings::new(mesh, data, ".cli")?;
+    let strings = BoundaryStrings::new(mesh, data, ".cli", BoundaryType::lets_water_through)?;
     let codes = strings.node_codes(mesh, ".cli")?;
-    let open: Vec<&str> = strings.open().map(|string| string.name.as_str()).collect();
+    let open: Vec<&BoundaryString> = strings.open().collect();
     for (place, (node, string)) in (1_usize..).zip(strings.ring_nodes()) {
-        let (kinds, tracer, name) = match codes[node].checked_sub(LAND + 1) {
-            Some(number) => ("5 4 4", 4, open[number as usize]),
-            None => ("2 2 2", 2, string.name.as_str()),
+        let open = codes[node].checked_sub(LAND + 1).map(|number| open[number as usize]);
+        let (kinds, tracer) = match open.map(|open| open.boundary_type) {
+            Some(BoundaryType::Open) => ("5 4 4", 4),
+            Some(_) => ("4 5 5", 5),
+            None if string.boundary_type == BoundaryType::NoSlipLand => ("2 0 0", 2),
+            None => ("2 2 2", 2),
         };
+        let name = &open.unwrap_or(string).name;
         writeln!(out, "{kinds} 0.0 0.0 0.0 0.0 {tracer} 0.0 0.0 0.0 {} {place} # {name}", node + 1)?;
     }
     Ok(())

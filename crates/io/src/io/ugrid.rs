@@ -5,6 +5,7 @@
 //! metres, positive upwards. Further values at the nodes are `mesh2d_target_diameter` (h̄) and
 //! `mesh2d_quantity_…`; `mesh2d_level` is on faces. `mesh2d_boundary` has the marker of the piece of each
 //! boundary edge, 0 inside; the names of the pieces are its `flag_meanings`, with `_` for blanks and signs.
+//! Where types of pieces are set, `flag_types` has the type of each, likewise.
 //! UGRID has no strings of nodes.
 //!
 //! A mesh in degrees has longitudes and latitudes in WGS 84; the coordinate system of others is not known.
@@ -243,13 +244,18 @@ fn boundary<'a>(mesh: &'a Extract, data: &MeshData, pieces: &'a TrianglePieces) 
     let names = data.boundary.present().map(|piece| one_word(&list[piece].name));
     let names: Vec<String> = std::iter::once("inside".to_owned()).chain(names).collect();
     let values = std::iter::once(0).chain(data.boundary.present().map(|piece| piece as i32 + 1)).collect();
-    let attributes = vec![
+    let mut attributes = vec![
         ("long_name", "piece of the boundary".into()),
         ("mesh", "mesh2d".into()),
         ("location", "edge".into()),
         ("flag_values", AttributeValue::Ints(values)),
         ("flag_meanings", AttributeValue::Text(names.join(" "))),
     ];
+    if data.boundary.present().any(|piece| list[piece].set_type.is_some()) {
+        let types = data.boundary.present().map(|piece| one_word(list[piece].boundary_type().word()));
+        let types: Vec<String> = std::iter::once("inside".to_owned()).chain(types).collect();
+        attributes.push(("flag_types", AttributeValue::Text(types.join(" "))));
+    }
     let write_row = Box::new(|out: &mut Vec<u8>, triangle: usize| {
         let mut pieces = pieces.of(triangle);
         for edge in mesh.first_edges_of(TriangleId::from_index(triangle)) {

@@ -7,7 +7,9 @@ use std::fs;
 use std::path::Path;
 
 use glam::{DVec2, dvec2};
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, MeshBoundary, Ring};
+use meshbrush_core::domain::{
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, MeshBoundary, Ring,
+};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::{
     MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, fort14, fvcom, gr3, mike, msh2, selafin,
@@ -20,6 +22,8 @@ use meshbrush_mesh::text::LengthUnit;
 use crate::formula_mesh::formula_mesh;
 use crate::netcdf_reader::{Attribute, NetCdf};
 use crate::runs::seeds;
+
+mod types;
 
 /// A mesh as a solver sees it. Numbers start at zero.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,8 +38,16 @@ struct Seen {
 #[derive(Clone, Debug, PartialEq)]
 struct Strand {
     nodes: Vec<usize>,
-    is_island: bool,
+    /// The number after that of its nodes.
+    code: usize,
     name: String,
+}
+
+impl Strand {
+    /// ADCIRC's numbers of islands are 1, 11 and 21; SCHISM's is 1.
+    fn is_island(&self) -> bool {
+        self.code % 10 == 1
+    }
 }
 
 /// What is written: a mesh with a depth at each node.
@@ -55,6 +67,10 @@ impl Case {
         let extract = DerivedMesh::new(mesh, &built.domain, &Cleaning::FOR_SOLVERS).extract(mesh);
         let boundary = MeshBoundary::new(&extract, domain, marks);
         Self::of(extract, boundary, mesh)
+    }
+
+    fn of_coast(domain: &Domain, marks: &BoundaryMarks) -> Self {
+        Self::new(domain, marks, 0.25, BoundaryTreatment::OnOutline { diameter: 0.08 })
     }
 
     fn of(extract: Extract<'static>, boundary: MeshBoundary, mesh: &Mesh) -> Self {
@@ -113,12 +129,30 @@ fn square_with_an_island() -> Case {
         ([1.0, 1.5], "Rock"),
     ];
     let names = names.map(|(place, name)| (place.into(), name.to_owned())).to_vec();
-    let marks = BoundaryMarks { splits: Vec::new(), names };
+    let marks = BoundaryMarks { names, ..BoundaryMarks::default() };
     Case::new(&domain, &marks, 0.5, BoundaryTreatment::OnOutline { diameter: 0.5 })
 }
 
 /// Returns a random coast with islands, cut by a frame; one part of the coast and one of an island are open.
 fn random_coast(seed: u64) -> Case {
+    let (domain, marks) = coast(seed);
+    Case::of_coast(&domain, &marks)
+}
+
+/// Returns such a coast, the pieces of which have random types, but for a few.
+fn typed_coast(seed: u64) -> Case {
+    let (domain, mut marks) = coast(seed);
+    let mut random = fastrand::Rng::with_seed(seed);
+    let pieces = BoundaryPieces::of_domain(&domain, &marks).unwrap();
+    for piece in 0..pieces.list().len() {
+        let types = BoundaryType::ALL.into_iter().nth(random.usize(..8));
+        marks = pieces.retyped(&marks, piece, types);
+    }
+    Case::of_coast(&domain, &marks)
+}
+
+/// Returns a domain with pieces of the boundary, two of them named.
+fn coast(seed: u64) -> (Domain, BoundaryMarks) {
     let mut random = fastrand::Rng::with_seed(seed);
     let mut ring = |center: DVec2, radius: f64, corners: usize| -> Ring {
         let waves: Vec<[f64; 2]> = (2..6).map(|_| [random.f64() * 0.12, random.f64() * TAU]).collect();
@@ -137,8 +171,7 @@ fn random_coast(seed: u64) -> Case {
     let rings = std::iter::once(sea).chain(islands).collect();
     let domain = Domain::of_polygons(&[rings]).unwrap();
     let domain = domain.with_bounds(Rect::new(dvec2(-2.0, -2.0), dvec2(0.7, 2.0)));
-    let marks = BoundaryMarks { splits: places.to_vec(), names };
-    Case::new(&domain, &marks, 0.25, BoundaryTreatment::OnOutline { diameter: 0.08 })
+    (domain, BoundaryMarks { splits: places.to_vec(), names, ..BoundaryMarks::default() })
 }
 
 fn ring_of(points: &[[f64; 2]]) -> Ring {
@@ -146,7 +179,8 @@ fn ring_of(points: &[[f64; 2]]) -> Ring {
 }
 
 fn cases() -> Vec<Case> {
-    std::iter::once(square_with_an_island()).chain(seeds(6).map(random_coast)).collect()
+    let coasts = seeds(6).flat_map(|seed| [random_coast(seed), typed_coast(seed)]);
+    std::iter::once(square_with_an_island()).chain(coasts).collect()
 }
 
 /// Returns the edges of triangles that no other triangle has in the other direction: domain on the left.
@@ -171,7 +205,7 @@ fn check(seen: &Seen, open: &[Strand], land: &[Strand]) {
     for strand in open.iter().chain(land) {
         covered.extend(strand.nodes.windows(2).map(|ends| [ends[0], ends[1]]));
         let points: Vec<DVec2> = strand.nodes.iter().map(|&node| seen.nodes[node]).collect();
-        if strand.is_island {
+        if strand.is_island() {
             covered.push([strand.nodes[strand.nodes.len() - 1], strand.nodes[0]]);
             assert!(doubled_area(&points) < 0.0, "{} runs anticlockwise", strand.name);
             assert_ne!(strand.nodes.first(), strand.nodes.last(), "{} repeats its first node", strand.name);
@@ -181,7 +215,7 @@ fn check(seen: &Seen, open: &[Strand], land: &[Strand]) {
     assert_eq!(distinct.len(), covered.len(), "an edge is in two strings");
     assert_eq!(distinct, rim(&seen.triangles));
     // Where a string ends, one begins.
-    let chains = || open.iter().chain(land).filter(|strand| !strand.is_island);
+    let chains = || open.iter().chain(land).filter(|strand| !strand.is_island());
     let begins: BTreeSet<usize> = chains().map(|strand| strand.nodes[0]).collect();
     let ends: BTreeSet<usize> = chains().map(|strand| strand.nodes[strand.nodes.len() - 1]).collect();
     assert_eq!((begins.len(), &begins), (chains().count(), &ends));
@@ -218,16 +252,16 @@ fn read_grid(text: &str) -> (Seen, Vec<Strand>, Vec<Strand>) {
         let mut found = Vec::new();
         for _ in 0..count {
             let head = lines.next().unwrap();
-            let [length, kind] = words::<usize>(head, 2)[..] else { unreachable!() };
+            let [length, code] = words::<usize>(head, 2)[..] else { unreachable!() };
             let nodes = (0..length).map(|_| words::<usize>(lines.next().unwrap(), 1)[0] - 1).collect();
             let name = head.split_once(": ").unwrap().1.to_owned();
-            found.push(Strand { nodes, is_island: kind == 1, name });
+            found.push(Strand { nodes, code, name });
         }
         assert_eq!(found.iter().map(|strand: &Strand| strand.nodes.len()).sum::<usize>(), all);
         found
     };
     let (open, land) = (strands(), strands());
-    assert!(lines.next().is_none() && open.iter().all(|strand| !strand.is_island));
+    assert!(lines.next().is_none() && open.iter().all(|strand| strand.code == 0));
     (seen, open, land)
 }
 
@@ -242,8 +276,13 @@ fn adcirc_and_schism_read_back() {
         assert!(
             title.starts_with("program: Meshbrush ") && title.contains("; document: A sea; fingerprint: ")
         );
-        assert_eq!(case.text(gr3::write), text);
-        assert_eq!(case.text(gr3::write_in_degrees), text);
+        let (of_schism, open_there, land_there) = read_grid(&case.text(gr3::write));
+        assert_eq!(of_schism, seen);
+        check(&seen, &open_there, &land_there);
+        if case.boundary.pieces().list().iter().all(|piece| piece.set_type.is_none()) {
+            assert_eq!(case.text(gr3::write), text);
+        }
+        assert_eq!(case.text(gr3::write_in_degrees), case.text(gr3::write));
     }
 }
 
@@ -253,7 +292,7 @@ fn names_and_kinds_of_strings_are_those_of_the_pieces() {
     let names = |strands: &[Strand]| strands.iter().map(|strand| strand.name.clone()).collect::<Vec<_>>();
     assert_eq!(names(&open), ["open west"]);
     assert_eq!(names(&land), ["LAND south", "land east", "Landing", "Rock"]);
-    assert_eq!(land.iter().map(|strand| strand.is_island).collect::<Vec<_>>(), [false, false, false, true]);
+    assert_eq!(land.iter().map(|strand| strand.code).collect::<Vec<_>>(), [0, 0, 0, 1]);
     let ends = |strand: &Strand| {
         [strand.nodes[0], strand.nodes[strand.nodes.len() - 1]].map(|node| seen.nodes[node])
     };
@@ -267,7 +306,7 @@ fn names_and_kinds_of_strings_are_those_of_the_pieces() {
         assert!(open_names.contains(&name.to_owned()), "{open_names:?}");
     }
     // The rest of the hole with an open part is land, and not an island.
-    assert_eq!(land.iter().filter(|strand| strand.is_island).count(), 2, "{:?}", names(&land));
+    assert_eq!(land.iter().filter(|strand| strand.is_island()).count(), 2, "{:?}", names(&land));
 }
 
 #[test]
@@ -278,7 +317,7 @@ fn a_whole_outline_in_one_string_ends_with_its_first_node() {
     let lake = Case::new(&domain, &BoundaryMarks::default(), 0.5, treatment);
     let (seen, open, land) = read_grid(&lake.text(fort14::write));
     check(&seen, &open, &land);
-    assert_eq!((open.len(), land.len(), land[0].is_island), (0, 1, false));
+    assert_eq!((open.len(), land.len(), land[0].code), (0, 1, 0));
     assert_eq!(land[0].nodes.first(), land[0].nodes.last());
 }
 
@@ -385,7 +424,7 @@ fn mike_reads_back() {
     for mut case in cases().into_iter().chain([frame()]) {
         let (seen, codes, system) = read_mike(&case.text(mike::write));
         assert_eq!((&seen, &*system), (&case.expected(), "NON-UTM"));
-        check_codes(&seen, &codes, &read_grid(&case.text(fort14::write)).1);
+        check_codes(&seen, &codes, &read_grid(&case.text(gr3::write)).1);
         case.provenance = case.provenance.with_unit(LengthUnit::Degree);
         assert!(case.text(mike::write).lines().next().unwrap().ends_with(" LONG/LAT"));
     }
@@ -399,7 +438,8 @@ fn rectangle_with_land(width: f64, places: [f64; 2]) -> Case {
     let middle = 0.5 * (places[0] + places[1]);
     let names = [([middle, 0.0], "land mark"), ([width, 2.0], "land east"), ([0.0, 2.0], "land west")];
     let names = names.map(|(place, name)| (place.into(), name.to_owned())).to_vec();
-    let marks = BoundaryMarks { splits: places.map(|x| dvec2(x, 0.0)).to_vec(), names };
+    let splits = places.map(|x| dvec2(x, 0.0)).to_vec();
+    let marks = BoundaryMarks { splits, names, ..BoundaryMarks::default() };
     Case::new(&domain, &marks, 1.0, BoundaryTreatment::Report)
 }
 
@@ -494,7 +534,7 @@ fn selafin_reads_back_with_its_boundary_conditions() {
 
 /// Checks the lines of the .cli file: a wall, or an open boundary.
 fn check_conditions(case: &Case, seen: &Seen, order: &[usize]) {
-    let (_, open, land) = read_grid(&case.text(fort14::write));
+    let (_, open, land) = read_grid(&case.text(gr3::write));
     let mut codes = vec![0; seen.nodes.len()];
     let text = case.text(selafin::write_conditions);
     for (line, (place, &node)) in text.lines().zip((1..).zip(order)) {
@@ -503,8 +543,8 @@ fn check_conditions(case: &Case, seen: &Seen, order: &[usize]) {
         assert_eq!(numbers.split(' ').count(), 13);
         assert_eq!(row[11..], [node as f64 + 1.0, f64::from(place)]);
         codes[node] = match [row[0], row[1], row[2], row[7]] {
-            [2.0, 2.0, 2.0, 2.0] => 1,
-            [5.0, 4.0, 4.0, 4.0] => 2,
+            [2.0, 2.0, 2.0, 2.0] | [2.0, 0.0, 0.0, 2.0] => 1,
+            [5.0, 4.0, 4.0, 4.0] | [4.0, 5.0, 5.0, 5.0] => 2,
             other => panic!("{other:?}"),
         };
         let strands = if codes[node] == 1 { &land } else { &open };
@@ -512,7 +552,7 @@ fn check_conditions(case: &Case, seen: &Seen, order: &[usize]) {
         assert!([3, 4, 5, 6, 8, 9, 10].iter().all(|&n| row[n] == 0.0));
     }
     assert_eq!(text.lines().count(), order.len());
-    // All open strings are one kind for TELEMAC.
+    // All strings through which water flows are one kind here.
     let joined: BTreeSet<[usize; 2]> =
         open.iter().flat_map(|strand| strand.nodes.windows(2).map(|ends| [ends[0], ends[1]])).collect();
     for [from, to] in rim(&seen.triangles) {

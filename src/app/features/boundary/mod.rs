@@ -15,6 +15,6 @@ use options::BOUNDARY_OPTIONS;
 use panel::PIECES;
 pub use tool::{BOUNDARY, BoundaryTool, BoundaryToolMode};
 
-/// The names of pieces are in the document, and the selected piece is in [`BoundaryTool`].
+/// The names and types of pieces are in the document, and the selected piece is in [`BoundaryTool`].
 #[derive(Default)]
 pub struct Boundary;

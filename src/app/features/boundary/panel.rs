@@ -1,12 +1,13 @@
-//! The pieces of the boundary: their kinds and lengths.
+//! The pieces of the boundary: their kinds, types and lengths.
 
 use eframe::egui::{ScrollArea, Ui};
 
 use super::BoundaryCommand;
 use crate::app::command::Command;
-use crate::app::kit::{FrameState, Panel, Tab, remark};
-use crate::app::widgets::{Section, ValueRow, format, value_row};
-use meshbrush_core::domain::BoundaryPieces;
+use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
+use crate::app::widgets::{Section, ValueRow, dropdown_row, format, value_row};
+use meshbrush_core::document::Setting;
+use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
 use meshbrush_mesh::text::LengthUnit;
 
 /// The pieces, and what is known of the selected one.
@@ -29,10 +30,10 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let note = format::count(present as u64);
     Section::new("Boundary").id("boundary").note(&note).show(ui, |ui| {
         if selected.is_none() {
-            remark(ui, "Click a piece in the list, or on the canvas with the boundary tool[ ({boundary})], to name it.");
+            remark(ui, "Click a piece in the list, or on the canvas with the boundary tool[ ({boundary})], to name it and to set its type.");
         }
         if let Some(selected) = selected {
-            selected_rows(ui, state, pieces, selected);
+            selected_rows(ui, state, pieces, selected, commands);
         }
         let area = ScrollArea::vertical().id_salt("pieces").max_height(LIST_HEIGHT);
         area.min_scrolled_height(LIST_HEIGHT).show(ui, |ui| {
@@ -41,9 +42,23 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     });
 }
 
-fn selected_rows(ui: &mut Ui, state: &FrameState<'_>, pieces: &BoundaryPieces, selected: usize) {
+fn selected_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    pieces: &BoundaryPieces,
+    selected: usize,
+    commands: &mut Vec<Command>,
+) {
     let piece = &pieces.list()[selected];
     value_row(ui, "Kind", piece.kind.name());
+    let usual = format!("usual ({})", piece.usual_type().word());
+    let types = BoundaryType::ALL.map(|boundary_type| (Some(boundary_type), boundary_type.word()));
+    let choices = [&[(None, usual.as_str())], &types[..]].concat();
+    let mut chosen = piece.set_type;
+    if dropdown_row(ui, "Type", &mut chosen, &choices).changed() {
+        let marks = &state.session.document().settings().boundary_marks;
+        set_once(Setting::BoundaryMarks(pieces.retyped(marks, selected, chosen)), commands);
+    }
     value_row(ui, "Length", &format::length(piece.length(), state.unit()));
     value_row(ui, "Marker in files", &(selected + 1).to_string());
     ui.add_space(8.0);
@@ -65,7 +80,8 @@ fn list(
         let value = if is_lost(&number) { "lost".to_owned() } else { format::length(piece.length(), unit) };
         let what =
             if is_lost(&number) { "A piece of which the mesh has no edge" } else { "Length of a piece" };
-        let help = format!("{what}; its kind is {}. A click selects it.", piece.kind.name());
+        let (kind, boundary_type) = (piece.kind.name(), piece.boundary_type().word());
+        let help = format!("{what}; its kind is {kind}, its type {boundary_type}. A click selects it.");
         let row = ValueRow::new(&piece.name, &value).help(&help).stands_out(selected == Some(number));
         if row.link().show(ui).clicked() {
             commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));

@@ -1,4 +1,4 @@
-//! Naming, splitting and joining pieces of the boundary.
+//! Naming, splitting and joining pieces of the boundary, and setting their types.
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2, vec2};
@@ -9,7 +9,7 @@ use crate::app::tests::{
     Window, click, entries, fingerprint, key, send, settings, show, type_into, wait_until, window_of,
 };
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryPieces, Domain};
+use meshbrush_core::domain::{BoundaryPieces, BoundaryType, Domain};
 
 const SIZE: Vec2 = vec2(1440.0, 2000.0);
 
@@ -52,6 +52,39 @@ fn a_piece_is_clicked_named_and_the_name_undone() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!((names(&window)[3].as_str(), names(&window)[4].as_str()), ("open west", "island 1"));
+}
+
+#[test]
+fn the_type_of_a_piece_is_chosen_split_undone_and_taken_back() {
+    let mut window = window_on_a_sea();
+    let mesh = fingerprint(&window);
+    let types = |window: &Window| {
+        let Settings { domain, boundary_marks, .. } = settings(window);
+        let pieces = BoundaryPieces::of_domain(domain, boundary_marks).unwrap();
+        pieces.list().iter().map(|piece| piece.set_type).collect::<Vec<_>>()
+    };
+    let choose = |window: &mut Window, choice: &str| {
+        window.get_by_role_and_label(Role::ComboBox, "Type").click();
+        window.run();
+        window.get_by_label(choice).click();
+        window.run();
+    };
+    assert!(window.query_by_label("Type").is_none(), "no piece is selected yet");
+    click(&mut window, dvec2(0.2, -1.0), Modifiers::NONE);
+    choose(&mut window, "natural inflow");
+    let inflow = Some(BoundaryType::NaturalInflow);
+    assert_eq!((types(&window), entries(&window)), (vec![inflow, None, None, None, None], 1));
+    assert_eq!(fingerprint(&window), mesh);
+    key(&mut window, Modifiers::NONE, Key::S);
+    click(&mut window, dvec2(0.5, -1.0), Modifiers::NONE);
+    assert_eq!(types(&window)[..3], [inflow, inflow, None], "both parts have the type");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    choose(&mut window, "usual (open)");
+    assert_eq!(types(&window), [None; 5]);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(types(&window)[0], inflow);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!((types(&window)[0], entries(&window)), (None, 0));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Names and splits of a boundary, as people or files give them.
+//! Names, types and splits of a boundary, as people or files give them.
 
 use std::collections::HashMap;
 
@@ -6,14 +6,14 @@ use glam::DVec2;
 
 use super::super::segments::Segments;
 use super::super::{Domain, Polygon, RegionError};
-use super::{BoundaryKind, BoundaryPieces};
+use super::{BoundaryKind, BoundaryPieces, BoundaryType};
 
 /// Most characters of a name; longer ones are cut.
 pub const LONGEST_NAME: usize = 80;
 
-/// Names of pieces of a boundary, and points where it is split.
+/// Names and types of pieces of a boundary, and points where it is split.
 ///
-/// Both are tied to points on the boundary in world units. An edit of the domain elsewhere does not move
+/// All are tied to points on the boundary in world units. An edit of the domain elsewhere does not move
 /// them. A mark that is no longer on the boundary has no effect until an undo restores the boundary there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BoundaryMarks {
@@ -21,6 +21,9 @@ pub struct BoundaryMarks {
     pub splits: Vec<DVec2>,
     /// A point of each named piece, and its name. Of several names on one piece, the first counts.
     pub names: Vec<(DVec2, String)>,
+    /// A point of each piece whose type is set, and the type. Of several types on one piece, the first
+    /// counts.
+    pub types: Vec<(DVec2, BoundaryType)>,
 }
 
 // No coordinate is NaN. With `Eq`, `Arc<BoundaryMarks>` compares pointers before the data.
@@ -38,13 +41,13 @@ pub struct NamedPolygon {
 impl BoundaryMarks {
     /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.splits.is_empty() && self.names.is_empty()
+        self.splits.is_empty() && self.names.is_empty() && self.types.is_empty()
     }
 
-    /// Returns the memory of names and places, in bytes.
+    /// Returns the memory of names, types and places, in bytes.
     pub fn bytes(&self) -> usize {
         let names: usize = self.names.iter().map(|(_, name)| name.capacity()).sum();
-        size_of_val(&*self.splits) + size_of_val(&*self.names) + names
+        size_of_val(&*self.splits) + size_of_val(&*self.names) + size_of_val(&*self.types) + names
     }
 
     /// Returns a name as files can hold it: without control characters, quotation marks and backslashes,

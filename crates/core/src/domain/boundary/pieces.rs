@@ -1,4 +1,4 @@
-//! The pieces of a boundary: stretches, split and named by marks.
+//! The pieces of a boundary: stretches, split by marks, with the names and types of marks.
 
 use std::collections::{HashMap, HashSet};
 
@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::super::segments::Segments;
 use super::super::{Domain, DomainShape, Ring, corners};
 use super::stretches::{FrameSide, Stretch, is_cut, length, stretches};
-use super::{BoundaryKind, BoundaryMarks};
+use super::{BoundaryKind, BoundaryMarks, BoundaryType};
 use crate::geometry::{Rect, nearest_on_segment};
 use crate::mesh::{Extract, NodeId};
 
@@ -21,6 +21,8 @@ pub struct BoundaryPiece {
     pub kind: BoundaryKind,
     /// Whether a person or a file gave the name.
     pub is_named: bool,
+    /// The type that a person or a file set.
+    pub set_type: Option<BoundaryType>,
     /// A polyline in world units, with the domain on its left. The whole of a ring ends with its first point.
     pub points: Vec<DVec2>,
     pub(super) side: Option<FrameSide>,
@@ -34,6 +36,22 @@ impl BoundaryPiece {
         self.points.first() == self.points.last()
     }
 
+    /// Returns what it is for a solver: the type that was set, or else the usual one.
+    pub fn boundary_type(&self) -> BoundaryType {
+        self.set_type.unwrap_or_else(|| self.usual_type())
+    }
+
+    /// Returns what it is for a solver if nothing was set: open if it lies along the frame
+    /// ([`BoundaryKind::Open`]), and land elsewhere. A name that was given decides against that if it begins
+    /// with `open` or with `land`, in upper or lower case.
+    pub fn usual_type(&self) -> BoundaryType {
+        let begins = |word: &str| {
+            self.is_named && self.name.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+        };
+        let is_open = begins("open") || (self.kind == BoundaryKind::Open && !begins("land"));
+        if is_open { BoundaryType::Open } else { BoundaryType::Land }
+    }
+
     /// Returns the length in world units.
     pub fn length(&self) -> f64 {
         length(&self.points)
@@ -41,16 +59,7 @@ impl BoundaryPiece {
 
     /// Returns the point halfway along it.
     pub fn middle(&self) -> DVec2 {
-        let mut left = 0.5 * self.length();
-        for ends in self.points.windows(2) {
-            let [a, b] = [ends[0], ends[1]];
-            let edge = a.distance(b);
-            if left <= edge && edge > 0.0 {
-                return a.lerp(b, left / edge);
-            }
-            left -= edge;
-        }
-        self.points[0]
+        middle(&self.points)
     }
 }
 
@@ -105,7 +114,7 @@ impl BoundaryPieces {
         let mut pieces = split(&stretches, &marks.splits, tolerance);
         let index = Index::new(pieces.iter().map(|piece| &*piece.points));
         if let Some(index) = &index {
-            give_names(&mut pieces, index, marks, tolerance);
+            give_marks(&mut pieces, index, marks, tolerance);
         }
         make_unique(&mut pieces);
         Self { pieces, index, tolerance }
@@ -175,27 +184,47 @@ impl BoundaryPieces {
         marks
     }
 
+    /// Returns the marks with another type for a piece; without one, the piece gets back the usual one.
+    pub fn retyped(
+        &self,
+        marks: &BoundaryMarks,
+        piece: usize,
+        boundary_type: Option<BoundaryType>,
+    ) -> BoundaryMarks {
+        let mut marks = marks.clone();
+        marks.types.retain(|(place, _)| !self.is_on(*place, piece));
+        let middle = self.pieces[piece].middle();
+        marks.types.extend(boundary_type.map(|boundary_type| (middle, boundary_type)));
+        marks
+    }
+
     /// Returns the marks with a split at the point of the boundary nearest to a point; `None` if there is
     /// none within `reach`, or the boundary is split there already.
     ///
     /// The whole of a ring stays in one piece until it is split at a second point. A name stays with the part
-    /// that it is anchored on.
+    /// that it is anchored on; both parts have the type.
     pub fn split(&self, marks: &BoundaryMarks, point: DVec2, reach: f64) -> Option<BoundaryMarks> {
-        let (_, place) = self.nearest(point, reach)?;
+        let (number, place) = self.nearest(point, reach)?;
         let near = |other: &DVec2| other.distance(place) <= 2.0 * self.tolerance;
         let ends = self.pieces.iter().filter(|piece| !piece.is_closed());
         let mut ends = ends.flat_map(|piece| [piece.points[0], piece.points[piece.points.len() - 1]]);
         if marks.splits.iter().any(near) || ends.any(|end| near(&end)) {
             return None;
         }
-        let mut marks = marks.clone();
-        marks.splits.push(place);
-        Some(marks)
+        let piece = &self.pieces[number];
+        let mut divided = self.retyped(marks, number, None);
+        let is_whole_ring = piece.is_closed() && !marks.splits.iter().any(|split| self.is_on(*split, number));
+        let middles = if is_whole_ring { vec![piece.middle()] } else { middles_beside(&piece.points, place) };
+        let types =
+            piece.set_type.into_iter().flat_map(|of_piece| middles.iter().map(move |&at| (at, of_piece)));
+        divided.types.extend(types);
+        divided.splits.push(place);
+        Some(divided)
     }
 
     /// Returns the marks without the split between a piece and the next one of its stretch; `None` if there
     /// is no such split. The name of the first piece stays; the name of the next one stays if the first has
-    /// none. Two halves of a ring become the whole ring.
+    /// none. The same holds for types. Two halves of a ring become the whole ring.
     pub fn joined(&self, marks: &BoundaryMarks, piece: usize) -> Option<BoundaryMarks> {
         let next = self.next_of(piece)?;
         let starts = if self.next_of(next) == Some(piece) { vec![next, piece] } else { vec![next] };
@@ -204,6 +233,9 @@ impl BoundaryPieces {
         joined.splits.retain(|split| starts.iter().all(|at| split.distance(*at) > 2.0 * self.tolerance));
         if self.pieces[piece].is_named {
             joined.names.retain(|(place, _)| !self.is_on(*place, next));
+        }
+        if self.pieces[piece].set_type.is_some() {
+            joined.types.retain(|(place, _)| !self.is_on(*place, next));
         }
         Some(joined)
     }
@@ -270,7 +302,15 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
             let name =
                 if count == 1 { stretch.name.clone() } else { format!("{} part {part}", stretch.name) };
             let (kind, side) = (stretch.kind, stretch.side);
-            pieces.push(BoundaryPiece { name, kind, is_named: false, points, side, stretch: number });
+            pieces.push(BoundaryPiece {
+                name,
+                kind,
+                is_named: false,
+                set_type: None,
+                points,
+                side,
+                stretch: number,
+            });
         }
     }
     pieces
@@ -306,16 +346,46 @@ fn parts(
     cuts.windows(2).map(between).collect()
 }
 
-/// Gives each piece the first name that is anchored on it.
-fn give_names(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks, tolerance: f64) {
+/// Gives each piece the first name and the first type that are anchored on it.
+fn give_marks(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks, tolerance: f64) {
+    let piece_at = |place: DVec2| {
+        let nearest = index.segments.nearest(place, |_| true).filter(|&(_, distance)| distance <= tolerance);
+        nearest.map(|(segment, _)| index.owner(segment))
+    };
     for (place, name) in &marks.names {
-        let nearest = index.segments.nearest(*place, |_| true).filter(|&(_, distance)| distance <= tolerance);
-        let Some((segment, _)) = nearest else { continue };
-        let piece = &mut pieces[index.owner(segment)];
+        let Some(number) = piece_at(*place) else { continue };
+        let piece = &mut pieces[number];
         if !piece.is_named {
             (piece.name, piece.is_named) = (name.clone(), true);
         }
     }
+    for (place, boundary_type) in &marks.types {
+        if let Some(number) = piece_at(*place) {
+            pieces[number].set_type.get_or_insert(*boundary_type);
+        }
+    }
+}
+
+/// Returns the point halfway along a polyline.
+fn middle(points: &[DVec2]) -> DVec2 {
+    let mut left = 0.5 * length(points);
+    for ends in points.windows(2) {
+        let [a, b] = [ends[0], ends[1]];
+        let edge = a.distance(b);
+        if left <= edge && edge > 0.0 {
+            return a.lerp(b, left / edge);
+        }
+        left -= edge;
+    }
+    points[0]
+}
+
+/// Returns the points halfway along the two parts of a polyline that a place on it divides.
+fn middles_beside(points: &[DVec2], place: DVec2) -> Vec<DVec2> {
+    let distance = |n: usize| nearest_on_segment(place, [points[n], points[n + 1]]).distance(place);
+    let nearest = (0..points.len() - 1).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+    let (before, after) = points.split_at(1 + nearest.expect("a piece has a segment"));
+    vec![middle(&[before, &[place]].concat()), middle(&[&[place], after].concat())]
 }
 
 /// Adds a number to names that occur again. Given names come first. `domain` is the name of the triangles in

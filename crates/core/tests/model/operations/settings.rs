@@ -2,7 +2,7 @@
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::Setting;
-use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, BoundaryType, Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind};
 use meshbrush_mesh::geometry::Rect;
@@ -25,7 +25,10 @@ pub fn setting(choices: &mut impl Choices, scale: Scale) -> Setting {
             RefinementRule::Area
         }),
         8 => Setting::Gradation([None, Some(0.1 + choices.share())][choices.below(2)]),
-        9 => Setting::Cleaning(cleaning(choices.share())),
+        9 => match choices.share() {
+            share @ ..0.5 => Setting::Cleaning(cleaning(2.0 * share)),
+            share => Setting::BoundaryMarks(marks((256.0 * share) as usize)),
+        },
         10 => Setting::MaxTriangles(scale.triangles * [1, 4, 20, 100][choices.below(4)]),
         11 | 12 => Setting::Bounds(bounds(choices)),
         13 => Setting::Domain(inside(choices)),
@@ -56,6 +59,18 @@ fn cleaning(share: f64) -> Cleaning {
         _ => KeptParts::Share(share - 0.6),
     };
     Cleaning { parts, keeps_pinches: (100.0 * share) % 2.0 < 1.0 }
+}
+
+/// Returns splits, names and types at some sides of the square and of the hole, and beside them.
+fn marks(number: usize) -> BoundaryMarks {
+    const PLACES: [[f64; 2]; 5] = [[0.5, 0.0], [1.0, 0.5], [0.45, 0.05], [0.0, 0.5], [0.45, 0.325]];
+    let place = |n: usize| DVec2::from(PLACES[(number + n) % PLACES.len()]);
+    let of_piece = |n: usize| (place(n), BoundaryType::ALL[(number + 3 * n) % BoundaryType::ALL.len()]);
+    BoundaryMarks {
+        splits: (0..number % 2).map(|n| place(n) + dvec2(0.1, 0.0)).collect(),
+        names: (0..number % 3).map(|n| (place(n), ["Open sea", "Rock"][n].to_owned())).collect(),
+        types: (0..number % 4).map(of_piece).collect(),
+    }
 }
 
 fn bounds(choices: &mut impl Choices) -> Rect {

@@ -6,7 +6,7 @@ use super::VERSION;
 use super::settings::Saved;
 
 /// Texts in which one key or word, `qqqq`, is unknown, beside the place that it stands in.
-const PLACES: [(&str, &str); 28] = [
+const PLACES: [(&str, &str); 30] = [
     ("", r#"{"qqqq":1}"#),
     ("unit", r#"{"unit":"qqqq"}"#),
     ("background", r#"{"background":{"qqqq":1}}"#),
@@ -17,6 +17,8 @@ const PLACES: [(&str, &str); 28] = [
     ("cleaning.parts", r#"{"cleaning":{"parts":"qqqq"}}"#),
     ("boundary_marks", r#"{"boundary_marks":{"qqqq":1}}"#),
     ("boundary_marks.names", r#"{"boundary_marks":{"names":[{"qqqq":1}]}}"#),
+    ("boundary_marks.types", r#"{"boundary_marks":{"types":[{"qqqq":1}]}}"#),
+    ("boundary_marks.types.type", r#"{"boundary_marks":{"types":[{"type":"qqqq"}]}}"#),
     ("paths", r#"{"paths":{"qqqq":1}}"#),
     ("paths.cost", r#"{"paths":{"cost":"qqqq"}}"#),
     ("paths.cost.weights", r#"{"paths":{"cost":{"weights":{"qqqq":1}}}}"#),
@@ -39,7 +41,7 @@ const PLACES: [(&str, &str); 28] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (7, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (8, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -51,8 +53,10 @@ domain.shape: whole formula polygons
 boundary: report fitted_with_diameter on_outline_with_diameter
 cleaning: parts keep_pinches
 cleaning.parts: all largest with_share
-boundary_marks: splits names
+boundary_marks: splits names types
 boundary_marks.names: at name
+boundary_marks.types: at type
+boundary_marks.types.type: open land no-slip land natural land inflow no-slip inflow natural inflow
 paths: routes names cost keep_out clearance
 paths.cost: weights formula
 paths.cost.weights: length risk

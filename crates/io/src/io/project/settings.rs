@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::super::Flaw;
 use super::super::error::PlacedFlaw;
 use super::super::json::{self, JsonFlaw};
-use super::super::settings::{SavedName, SavedRule, SavedUnit, marks_of, saved_marks};
+use super::super::settings::{SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};
 use super::old_version::SavedBase;
 use super::part_names::PartNames;
 use super::paths::SavedPaths;
@@ -114,16 +114,23 @@ struct SavedMarks {
     /// x and y of each place.
     splits: Vec<[f64; 2]>,
     names: Vec<SavedName>,
+    /// Since version 8.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    types: Vec<SavedPieceType>,
 }
 
 impl SavedMarks {
     fn of(marks: &BoundaryMarks) -> Self {
-        let (splits, names) = saved_marks(marks);
-        Self { splits, names }
+        let (splits, names, types) = saved_marks(marks);
+        Self { splits, names, types }
+    }
+
+    fn load(&self) -> BoundaryMarks {
+        marks_of(&self.splits, &self.names, &self.types)
     }
 
     fn is_empty(&self) -> bool {
-        self.splits.is_empty() && self.names.is_empty()
+        self.splits.is_empty() && self.names.is_empty() && self.types.is_empty()
     }
 }
 
@@ -321,7 +328,7 @@ impl Saved {
                 SavedBoundary::OnOutline(diameter) => BoundaryTreatment::OnOutline { diameter },
             },
             cleaning: self.cleaning.into(),
-            boundary_marks: Arc::new(marks_of(&self.boundary_marks.splits, &self.boundary_marks.names)),
+            boundary_marks: Arc::new(self.boundary_marks.load()),
             pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
             paths: self.paths.load()?,
             spacing: self.spacing,

@@ -15,6 +15,7 @@ parts = 0.01
 keep_pinches = true
 splits = [[1, 2]]
 names = [{ at = [3, 4], name = "harbour" }]
+types = [{ at = [3, 4], type = "no-slip land" }]
 
 [mesh]
 spacing = 0.5
@@ -317,6 +318,12 @@ fn values_that_cannot_be_used_are_named_with_line_and_column() {
         ("[domain]\nparts = 2", [2, 9], "2 is not a share"),
         ("[domain]\nsplits = [[0, 0], [inf, 0]]", [2, 19], "both coordinates"),
         ("[domain]\nnames = [{ at = [nan, 0], name = \"a\" }]", [2, 17], "both coordinates"),
+        ("[domain]\ntypes = [{ at = [nan, 0], type = \"open\" }]", [2, 17], "both coordinates"),
+        (
+            "[domain]\ntypes = [{ at = [0, 0], type = \"sea\" }]",
+            [2, 32],
+            "\"sea\" is not possible here; write one of open, land, no-slip land",
+        ),
         ("[domain]\ninside = \"x +\"", [2, 10], "Expected a value"),
         (
             "[[layer]]\nkind = \"raster\"\n file = \"gone.asc\"\nas = \"risk\"",

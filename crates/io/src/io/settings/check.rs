@@ -136,6 +136,7 @@ impl SavedDomain {
         }
         each("splits", &self.splits, |at| point(*at))?;
         each("names", &self.names, |name| point(name.at).map_err(|fault| fault.within("at")))?;
+        each("types", &self.types, |of_piece| point(of_piece.at).map_err(|fault| fault.within("at")))?;
         Ok(())
     }
 

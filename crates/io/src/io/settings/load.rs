@@ -145,7 +145,7 @@ impl<L> SavedSettings<L> {
             unit: self.domain.unit.map_or(unit, Into::into),
             boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
             domain,
-            boundary_marks: Arc::new(if self.domain.has_marks() { self.domain.marks() } else { marks }),
+            boundary_marks: Arc::new(self.domain.marks(marks)),
             pins: Arc::new(self.pins.points()?),
             paths: Arc::new(paths),
             spacing,
@@ -193,13 +193,19 @@ impl<L> SavedSettings<L> {
 }
 
 impl super::SavedDomain {
-    /// Returns whether it has names or splits of the boundary.
+    /// Returns whether it has splits, names or types of the boundary.
     pub fn has_marks(&self) -> bool {
-        !(self.splits.is_empty() && self.names.is_empty())
+        !(self.splits.is_empty() && self.names.is_empty() && self.types.is_empty())
     }
 
-    fn marks(&self) -> BoundaryMarks {
-        marks_of(&self.splits, &self.names)
+    /// Returns the marks of the text. Without names and splits there, those of the file of the region count.
+    fn marks(&self, of_file: BoundaryMarks) -> BoundaryMarks {
+        let of_text = marks_of(&self.splits, &self.names, &self.types);
+        if self.splits.is_empty() && self.names.is_empty() {
+            BoundaryMarks { types: of_text.types, ..of_file }
+        } else {
+            of_text
+        }
     }
 }
 

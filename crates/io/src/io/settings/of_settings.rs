@@ -48,11 +48,12 @@ impl<L> SavedSettings<L> {
 
 fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
     let Rect { min, max } = settings.domain.bounds;
-    let (splits, names) = saved_marks(&settings.boundary_marks);
+    let (splits, names, types) = saved_marks(&settings.boundary_marks);
     let rectangle = SavedDomain {
         unit: (settings.unit != LengthUnit::None).then(|| settings.unit.into()),
         splits,
         names,
+        types,
         ..SavedDomain::default()
     };
     // A mesh that is not fitted is not cleaned, whatever the settings say about parts.

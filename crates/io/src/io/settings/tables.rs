@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedRule, SavedUnit};
+use super::{SavedName, SavedPieceType, SavedRule, SavedUnit};
 use crate::io::layers::{SavedLayer, SavedPolygon};
 use meshbrush_mesh::mesh::KeptParts;
 
@@ -96,6 +96,9 @@ pub struct SavedDomain {
     /// Names of pieces of the boundary.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<SavedName>,
+    /// Types of pieces of the boundary.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub types: Vec<SavedPieceType>,
 }
 
 /// `[mesh]`

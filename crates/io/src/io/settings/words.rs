@@ -1,9 +1,10 @@
-//! Words of several tables: units, refinement rules and names of the boundary.
+//! Words of several tables: units, refinement rules, names and types of the boundary.
 
 use glam::DVec2;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_core::domain::{BoundaryMarks, BoundaryType};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -92,14 +93,51 @@ pub struct SavedName {
     pub name: String,
 }
 
-/// Returns the splits and the names of boundary marks as files have them.
-pub fn saved_marks(marks: &BoundaryMarks) -> (Vec<[f64; 2]>, Vec<SavedName>) {
+/// A type of a piece of the boundary.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { at = [1, 2], type = \"open\" }")]
+pub struct SavedPieceType {
+    /// A point of the piece, in world units.
+    pub at: [f64; 2],
+    /// The type.
+    #[serde(rename = "type")]
+    pub boundary_type: SavedBoundaryType,
+}
+
+/// The types by their words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SavedBoundaryType(BoundaryType);
+
+impl Serialize for SavedBoundaryType {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0.word())
+    }
+}
+
+impl<'de> Deserialize<'de> for SavedBoundaryType {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let found = BoundaryType::of_word(&word).map(Self);
+        found.ok_or_else(|| D::Error::unknown_variant(&word, &BoundaryType::WORDS))
+    }
+}
+
+/// Returns the splits, the names and the types of boundary marks as files have them.
+pub fn saved_marks(marks: &BoundaryMarks) -> (Vec<[f64; 2]>, Vec<SavedName>, Vec<SavedPieceType>) {
     let name = |(at, name): &(DVec2, String)| SavedName { at: at.to_array(), name: name.clone() };
-    (marks.splits.iter().map(DVec2::to_array).collect(), marks.names.iter().map(name).collect())
+    let of_piece = |&(at, boundary_type): &(DVec2, BoundaryType)| SavedPieceType {
+        at: at.to_array(),
+        boundary_type: SavedBoundaryType(boundary_type),
+    };
+    (
+        marks.splits.iter().map(DVec2::to_array).collect(),
+        marks.names.iter().map(name).collect(),
+        marks.types.iter().map(of_piece).collect(),
+    )
 }
 
 /// Boundary marks from a file. Names that are not valid are made so, and empty ones are left out.
-pub fn marks_of(splits: &[[f64; 2]], names: &[SavedName]) -> BoundaryMarks {
+pub fn marks_of(splits: &[[f64; 2]], names: &[SavedName], types: &[SavedPieceType]) -> BoundaryMarks {
     let name = |saved: &SavedName| {
         let name = BoundaryMarks::valid_name(&saved.name);
         (!name.is_empty()).then(|| (saved.at.into(), name))
@@ -107,5 +145,6 @@ pub fn marks_of(splits: &[[f64; 2]], names: &[SavedName]) -> BoundaryMarks {
     BoundaryMarks {
         splits: splits.iter().copied().map(DVec2::from).collect(),
         names: names.iter().filter_map(name).collect(),
+        types: types.iter().map(|saved| (saved.at.into(), saved.boundary_type.0)).collect(),
     }
 }

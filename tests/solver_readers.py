@@ -1,0 +1,156 @@
+"""Files of coastal solvers, read back by readers that are not ours: nodes, triangles, depths with their sign, and the
+pieces of the boundary with their types.
+
+Called by tests/run with the program to test: solver_readers.py PROGRAM. Needs numpy and meshio (from Debian), and from PyPI
+netCDF4, python-serafin, and of pyschism the one file that reads meshes, as the package needs others that have no wheels.
+"""
+
+import importlib.util
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import meshio
+import netCDF4
+import numpy as np
+from serafin import SerafinReader
+
+SEA = {
+    "type": "Polygon",
+    "coordinates": [[[0, 0], [4, 0], [4, 3], [2, 4], [0, 3], [0, 0]], [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]],
+}
+RECIPE = """
+[domain]
+region = "sea.geojson"
+unit = "m"
+boundary_diameter = 0.2
+splits = [[3, 3.5], [1, 3.5]]
+names = [{ at = [2, 4], name = "River" }, { at = [1, 1.5], name = "Rock" }]
+types = [
+  { at = [2, 4], type = "inflow" }, { at = [2, 0], type = "natural inflow" }, { at = [4, 1], type = "no-slip land" },
+  { at = [1, 1.5], type = "natural land" },
+]
+[mesh]
+spacing = 1
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "0.4"
+"""
+# ADCIRC's number of a string; that of an island is one higher. Open strings have none.
+ADCIRC = {"open": None, "land": 0, "no-slip land": 10, "natural land": 20, "inflow": 2, "no-slip inflow": 12, "natural inflow": 22}
+TELEMAC = {"open": [5, 4, 4, 4], "no-slip land": [2, 0, 0, 2], "land": [2, 2, 2, 2], "natural land": [2, 2, 2, 2]}
+INFLOW = [4, 5, 5, 5]
+
+
+def pyschism_reader():
+    package = importlib.util.find_spec("pyschism").submodule_search_locations[0]
+    spec = importlib.util.spec_from_file_location("grd", pathlib.Path(package) / "mesh" / "parsers" / "grd.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def check_mesh(expected, x, y, triangles, depths):
+    assert np.array_equal(np.column_stack([x, y]), expected.points[:, :2]), "nodes"
+    assert np.array_equal(triangles, expected.cells_dict["triangle"]), "triangles"
+    assert np.allclose(depths, 20 + expected.points[:, 0] / 3 - expected.points[:, 1], rtol=1e-12), "depths"
+
+
+def check_strings(path, expected, pieces, number_of):
+    """Names come from the text: pyschism drops them."""
+    with path.open() as file:
+        found = pyschism_reader().buffer_to_dict(file)
+    nodes = found["nodes"].values()
+    places, depths = np.array([place for place, _ in nodes]), [depth for _, depth in nodes]
+    triangles = np.array(list(found["elements"].values()), dtype=int) - 1
+    check_mesh(expected, places[:, 0], places[:, 1], triangles, depths)
+    heads = [line for line in path.read_text().splitlines() if " = Number of nodes for " in line]
+    strings = {number: list(found["boundaries"].get(number, {}).values()) for number in [None, *range(30)]}
+    seen, edges_of = set(), {}
+    for head in heads:
+        number = None if " for open " in head else int(head.split()[1])
+        nodes = [int(node) - 1 for node in strings[number].pop(0)["indexes"]]
+        if number is not None and number % 10 == 1:
+            nodes.append(nodes[0])
+        name = head.split(": ", 1)[1]
+        edges_of.setdefault(name, [number]).extend(zip(nodes, nodes[1:]))
+        seen |= set(zip(nodes, nodes[1:]))
+    assert not any(strings.values()), "a string without a head"
+    assert len(seen) == sum(piece["edges"] for piece in pieces), "each edge once"
+    assert edges_of.keys() == {piece["name"] for piece in pieces}, edges_of.keys()
+    for piece in pieces:
+        number, *edges = edges_of[piece["name"]]
+        ends = places[np.array(edges)]
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+        assert len(edges) == piece["edges"] and abs(length / piece["length"] - 1) < 1e-9, piece["name"]
+        assert number == number_of(piece), f"{piece['name']}: {number}"
+
+
+def adcirc_number(piece):
+    number = ADCIRC[piece["type"]]
+    return number + 1 if piece["kind"] == "island" and "land" in piece["type"] else number
+
+
+def schism_number(piece):
+    is_open = piece["type"] == "open" or "inflow" in piece["type"]
+    return None if is_open else int(piece["kind"] == "island")
+
+
+def check_selafin(path, expected, pieces):
+    with SerafinReader(str(path), "en") as file:
+        file.read_header()
+        file.get_time()
+        header, bottom = file.header, file.read_var_in_frame(0, "B")
+    check_mesh(expected, header.x, header.y, header.ikle_2d_zero_based, -bottom)
+    types = {piece["name"]: piece["type"] for piece in pieces}
+    rows = [line.split(" # ") for line in path.with_suffix(".cli").read_text().splitlines()]
+    assert len(rows) == sum(piece["edges"] for piece in pieces), "boundary nodes"
+    for place, (numbers, name) in enumerate(rows, start=1):
+        row = [float(number) for number in numbers.split()]
+        assert row[12] == place and header.ipobo[int(row[11]) - 1] == place, "IPOBO"
+        assert [row[0], row[1], row[2], row[7]] == TELEMAC.get(types[name], INFLOW), f"{name}: {numbers}"
+    assert {name for _, name in rows} == types.keys(), "names"
+
+
+def check_ugrid(path, expected, pieces):
+    with netCDF4.Dataset(path) as file:
+        topology = next(variable for variable in file.variables.values() if getattr(variable, "cf_role", "") == "mesh_topology")
+        x, y = (file[name][:] for name in topology.node_coordinates.split())
+        corners = file[topology.face_node_connectivity]
+        assert file["mesh2d_node_z"].positive == "up"
+        check_mesh(expected, x, y, corners[:] - corners.start_index, -file["mesh2d_node_z"][:])
+        boundary = file["mesh2d_boundary"]
+        names, types = boundary.flag_meanings.split(), boundary.flag_types.split()
+        markers = dict(zip(boundary.flag_values.tolist(), zip(names, types, strict=True), strict=True))
+        counts = np.bincount(boundary[:])
+    for piece in pieces:
+        marker = piece["id"] + 1
+        assert markers[marker] == (piece["name"].replace(" ", "_"), piece["type"].replace(" ", "_")), piece["name"]
+        assert counts[marker] == piece["edges"], piece["name"]
+    assert counts.sum() - counts[0] == sum(piece["edges"] for piece in pieces), "edges of the boundary"
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "sea.geojson").write_text(json.dumps(SEA))
+        (folder / "sea.toml").write_text(RECIPE)
+        outputs = [word for ending in ["vtu", "14", "gr3", "slf", "nc"] for word in ("-o", f"sea.{ending}")]
+        program = str(pathlib.Path(sys.argv[1]).resolve())
+        command = [program, "mesh", "sea.toml", "--json", "--quantity", "depth=20 + x/3 - y", *outputs]
+        ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder)
+        pieces = json.loads(ran.stdout)["boundary"]
+        assert {piece["type"] for piece in pieces} == {"open", "land", "no-slip land", "natural land", "inflow", "natural inflow"}
+        expected = meshio.read(folder / "sea.vtu")
+        check_strings(folder / "sea.14", expected, pieces, adcirc_number)
+        check_strings(folder / "sea.gr3", expected, pieces, schism_number)
+        check_selafin(folder / "sea.slf", expected, pieces)
+        check_ugrid(folder / "sea.nc", expected, pieces)
+    print(f"a sea with {len(pieces)} typed pieces: .14, .gr3, .slf with .cli, .nc: read back")
+
+
+if __name__ == "__main__":
+    main()
