@@ -89,6 +89,8 @@ impl FieldOverlay {
 pub enum CanvasAid {
     /// Ticks with coordinates along its sides.
     Coordinates,
+    /// Meridians and parallels, in documents on the Earth.
+    Graticule,
     /// The scale bar.
     ScaleBar,
     /// Contour lines of h̄.
@@ -106,6 +108,8 @@ pub enum CanvasAid {
 pub struct CanvasAids {
     /// Ticks with coordinates along the sides of the canvas.
     pub coordinates: bool,
+    /// Meridians and parallels, in documents on the Earth.
+    pub graticule: bool,
     /// The scale bar.
     pub scale_bar: bool,
     /// Contour lines of h̄ where one level ends and the next begins.
@@ -122,6 +126,7 @@ impl Default for CanvasAids {
     fn default() -> Self {
         Self {
             coordinates: true,
+            graticule: false,
             scale_bar: true,
             contours: false,
             walk: true,
@@ -135,6 +140,7 @@ impl CanvasAids {
     fn toggle(&mut self, aid: CanvasAid) {
         let shown = match aid {
             CanvasAid::Coordinates => &mut self.coordinates,
+            CanvasAid::Graticule => &mut self.graticule,
             CanvasAid::ScaleBar => &mut self.scale_bar,
             CanvasAid::Contours => &mut self.contours,
             CanvasAid::Walk => &mut self.walk,

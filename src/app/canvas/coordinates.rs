@@ -2,6 +2,7 @@
 
 use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
+use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::degrees::KM_PER_DEGREE;
 use crate::app::widgets::{format, paint_floating};
@@ -52,8 +53,13 @@ enum Side {
     Left,
 }
 
-/// Ticks with labels along the upper and the left side of the canvas. They take no clicks.
-pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, unit: LengthUnit) {
+/// Ticks with labels along the upper and the left side of the canvas, where they are shown. They take no
+/// clicks.
+pub fn paint_frame(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
+    if !state.view.aids.coordinates {
+        return;
+    }
+    let unit = state.unit();
     let per_point = f64::from(ui.pixels_per_point()) / camera.px_per_world();
     let visible = camera.visible_world();
     for (side, from, to) in
@@ -115,7 +121,8 @@ fn label_size(ui: &Ui, text: &str) -> Vec2 {
     ui.painter().layout_no_wrap(text.to_owned(), font::axis(), tokens(ui).faint).size()
 }
 
-fn paint_label(ui: &Ui, rect: Rect, anchor: Pos2, align: Align2, text: &str) {
+/// Writes a label on a ground of its own.
+pub fn paint_label(ui: &Ui, rect: Rect, anchor: Pos2, align: Align2, text: &str) {
     let t = tokens(ui);
     let place = align.anchor_size(anchor, label_size(ui, text));
     // A label that the other side's labels or the edge of the canvas would cut is left out.

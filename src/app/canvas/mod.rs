@@ -4,6 +4,7 @@ mod contours;
 mod coordinates;
 mod floats;
 mod gpu;
+mod graticule;
 mod legend;
 mod menu;
 mod navigation;
@@ -349,9 +350,8 @@ impl Canvas {
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
         self.paint_contours(&painter, rect, &camera);
-        if state.view.aids.coordinates {
-            coordinates::paint_frame(ui, rect, &camera, state.unit());
-        }
+        graticule::paint(ui, rect, &camera, state);
+        coordinates::paint_frame(ui, rect, &camera, state);
         let highlights = self.highlights(state);
         let mesh = state.session.view();
         marks::paint_highlights(&painter, rect, mesh, &camera, &highlights);

@@ -1,7 +1,7 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 45] = [
+static SYNONYMS: [(&str, &str); 46] = [
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
@@ -35,6 +35,7 @@ static SYNONYMS: [(&str, &str); 45] = [
     ("Edges", "wireframe lines triangles"),
     ("No overlay", "none off hide overlays"),
     ("Overlay", "show colour field"),
+    ("Graticule", "meridians parallels longitude latitude degrees grid lines map"),
     ("Scale bar", "ruler length"),
     ("Viridis colours", "colormap palette"),
     ("Turbo colours", "colormap palette"),

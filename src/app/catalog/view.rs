@@ -22,6 +22,7 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(View, "Go to…", Command::Shell(ShellCommand::AskPlace)).ctrl(Key::G),
         item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
+        aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule).palette_only(),
         aid("Scale bar", CanvasAid::ScaleBar).checked(view.aids.scale_bar),
         aid("Contour lines of h̄", CanvasAid::Contours).checked(view.aids.contours),
         aid("Why the queried triangle is there", CanvasAid::Cause).checked(view.aids.cause).palette_only(),

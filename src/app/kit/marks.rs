@@ -215,10 +215,13 @@ pub fn paint_outline(painter: &Painter, corners: impl Iterator<Item = Pos2>) {
 
 /// A contour line: thin, and light on a dark halo, so that it is visible on the colour of any level.
 pub fn paint_contour(painter: &Painter, points: impl Iterator<Item = Pos2>) {
+    paint_quiet_line(painter, points, [Color32::from_black_alpha(120), Color32::from_white_alpha(225)]);
+}
+
+/// A thin line on a halo, in these two colours.
+pub fn paint_quiet_line(painter: &Painter, points: impl Iterator<Item = Pos2>, [halo, line]: [Color32; 2]) {
     let (lines, _) = lines_in_view(painter, points, 2.0);
-    let strokes =
-        [Stroke::new(2.2, Color32::from_black_alpha(120)), Stroke::new(0.9, Color32::from_white_alpha(225))];
-    for stroke in strokes {
+    for stroke in [Stroke::new(2.2, halo), Stroke::new(0.9, line)] {
         painter.extend(lines.iter().map(|line| Shape::line(line.clone(), stroke)));
     }
 }

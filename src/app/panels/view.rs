@@ -26,6 +26,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     }
     for (name, aid, mut shown) in [
         ("Coordinates", CanvasAid::Coordinates, view.aids.coordinates),
+        ("Graticule", CanvasAid::Graticule, view.aids.graticule),
         ("Scale bar", CanvasAid::ScaleBar, view.aids.scale_bar),
         ("Contours of h̄", CanvasAid::Contours, view.aids.contours),
     ] {

@@ -7,8 +7,10 @@ use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
+use super::pictures::{drawn_window, picture};
 use super::{
-    TALL, Window, choose, key, open_tab, send, set, settings, triangles, type_into, wheel, window, window_of,
+    TALL, Window, choose, choose_in_palette, key, open_tab, send, set, settings, triangles, type_into,
+    wait_for_jobs, wheel, window, window_of,
 };
 use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use crate::app::kit::Tab;
@@ -52,6 +54,28 @@ fn coordinates_along_the_canvas_are_switched_off_in_the_menu() {
     assert!(!window.state().view().aids.coordinates);
     send(&mut window, Command::View(ViewCommand::ToggleAid(CanvasAid::Coordinates)));
     assert!(window.state().view().aids.coordinates);
+}
+
+/// Returns how many pixels of a window the graticule changes.
+fn changed_by_graticule(window: &mut Window) -> usize {
+    let before = picture(window);
+    send(window, Command::View(ViewCommand::ToggleAid(CanvasAid::Graticule)));
+    let after = picture(window);
+    send(window, Command::View(ViewCommand::ToggleAid(CanvasAid::Graticule)));
+    before.rgba.chunks(4).zip(after.rgba.chunks(4)).filter(|(a, b)| a != b).count()
+}
+
+#[test]
+fn the_graticule_is_drawn_in_documents_on_the_earth_only() {
+    let mut window = drawn_window();
+    assert!(!window.state().view().aids.graticule);
+    assert_eq!(changed_by_graticule(&mut window), 0);
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    wait_for_jobs(&mut window);
+    let changed = changed_by_graticule(&mut window);
+    assert!(changed > 3000, "{changed} pixels");
+    choose_in_palette(&mut window, "meridians");
+    assert!(window.state().view().aids.graticule, "the palette knows other words for it");
 }
 
 #[test]

@@ -240,6 +240,7 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Type", "What the piece is for coastal solvers: open, land or an inflow, and how land treats the flow."),
     ("Edges", "Draws the edges of the triangles[; {edges} switches]."),
     ("Coordinates", "Draws the coordinates along two sides of the canvas, in the unit of the document."),
+    ("Graticule", "Draws meridians and parallels with their degrees, in documents on the Earth."),
     ("Scale bar", "Draws a bar whose length on the canvas is written on it, in the unit of the document."),
     (
         "Contours of h̄",

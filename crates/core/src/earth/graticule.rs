@@ -1,0 +1,172 @@
+//! Meridians and parallels across an area of a plane.
+
+use glam::{DVec2, dvec2};
+
+use super::{EarthPlane, wrapped};
+use crate::geometry::Rect;
+
+/// Steps between lines in minutes of arc, the largest first. Smaller ones are decimals of a minute.
+const STEPS: [f64; 13] = [1800.0, 900.0, 600.0, 300.0, 120.0, 60.0, 30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5];
+/// Lines across the area, at least.
+const LEAST_LINES: f64 = 4.0;
+/// Pieces of a line.
+const PIECES: u32 = 64;
+/// Places along each side of the area whose longitudes and latitudes decide which lines cross it.
+const SAMPLES: u32 = 16;
+/// Least step, in minutes of arc: coordinates have no finer differences.
+const LEAST_STEP: f64 = 1e-6;
+
+/// A meridian or a parallel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GraticuleLine {
+    /// Whether it is a meridian.
+    pub is_meridian: bool,
+    /// The longitude or latitude, for people.
+    pub label: String,
+    /// Points along it, in the plane.
+    pub points: Vec<DVec2>,
+}
+
+/// Returns the meridians and parallels of round numbers across an area of a plane: from 4 to 11 of each. None
+/// where so few cannot be told apart.
+pub fn graticule(plane: EarthPlane, area: Rect) -> Vec<GraticuleLine> {
+    let Some(extent) = extent(plane, area) else { return Vec::new() };
+    let lines = |is_meridian: bool| {
+        let axis = usize::from(!is_meridian);
+        let (from, to) = (extent.min[axis], extent.max[axis]);
+        values(from, to).map(move |(minutes, step)| GraticuleLine {
+            is_meridian,
+            label: label(minutes, step, is_meridian),
+            points: points(plane, extent, is_meridian, minutes / 60.0),
+        })
+    };
+    lines(true).chain(lines(false)).collect()
+}
+
+/// Returns the longitudes and latitudes of an area. Longitudes go on beyond 180° where the area does.
+fn extent(plane: EarthPlane, area: Rect) -> Option<Rect> {
+    let EarthPlane::Projected(projection) = plane else {
+        return Some(Rect::new(area.min.max(dvec2(-720.0, -90.0)), area.max.min(dvec2(720.0, 90.0))));
+    };
+    let middle = projection.geographic_from_plane(area.center()).x;
+    let share = |n: u32| f64::from(n) / f64::from(SAMPLES);
+    let places =
+        (0..=SAMPLES).flat_map(|row| (0..=SAMPLES).map(move |column| dvec2(share(column), share(row))));
+    let geographic = places.map(|share| projection.geographic_from_plane(area.min + share * area.size()));
+    let unwrapped = geographic.map(|at| dvec2(middle + wrapped(at.x - middle), at.y));
+    let known = unwrapped.filter(|at| at.is_finite()).map(|at| Rect::new(at, at));
+    known.reduce(|a, b| a.union(&b))
+}
+
+/// Returns the multiples of a round step in a range of degrees, in minutes of arc, and the step.
+fn values(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
+    let limit = 60.0 * (to - from) / LEAST_LINES;
+    let step = STEPS.into_iter().find(|&step| step <= limit).unwrap_or_else(|| decimal_step(limit));
+    let (first, last) = (60.0 * from / step, 60.0 * to / step);
+    let count = if limit >= LEAST_STEP { (last.floor() - first.ceil()) as i64 + 1 } else { 0 };
+    (0..count.max(0)).map(move |n| ((first.ceil() + n as f64) * step, step))
+}
+
+/// Returns the largest of 1, 2 and 5 times a power of ten that is at most a limit below 1.
+fn decimal_step(limit: f64) -> f64 {
+    let decade = |n: i32| libm::exp10(f64::from(-n));
+    let steps = (1..9).flat_map(|n| [5.0, 2.0, 1.0].map(|factor| factor * decade(n)));
+    steps.into_iter().find(|&step| step <= limit).unwrap_or(LEAST_STEP)
+}
+
+/// Returns points along the part of a meridian or parallel across an extent.
+fn points(plane: EarthPlane, extent: Rect, is_meridian: bool, degrees: f64) -> Vec<DVec2> {
+    let along = (0..=PIECES).map(|n| f64::from(n) / f64::from(PIECES));
+    let at = along.map(|share| {
+        let at = extent.min + share * extent.size();
+        if is_meridian { dvec2(degrees, at.y) } else { dvec2(at.x, degrees) }
+    });
+    let in_plane = at.map(|at| match plane {
+        EarthPlane::Degrees => at,
+        EarthPlane::Projected(projection) => projection.plane_from_geographic(at),
+    });
+    in_plane.filter(|at| at.is_finite()).collect()
+}
+
+/// Returns a longitude or latitude of so many minutes with the digits that its step has: `5° 30′ W`.
+fn label(minutes: f64, step: f64, is_meridian: bool) -> String {
+    let decimals = (0..9).find(|&n| (step * libm::exp10(f64::from(n))).fract() < 1e-9).unwrap_or(9);
+    let minutes = if is_meridian { 60.0 * wrapped(minutes / 60.0) } else { minutes };
+    let unit = libm::exp10(f64::from(decimals));
+    let rounded = (minutes.abs() * unit).round() / unit;
+    let (degrees, rest) = ((rounded / 60.0).floor(), rounded % 60.0);
+    let letter = match (is_meridian, minutes > 0.0) {
+        _ if rounded == 0.0 || (is_meridian && rounded == 10_800.0) => "",
+        (true, true) => " E",
+        (true, false) => " W",
+        (false, true) => " N",
+        (false, false) => " S",
+    };
+    match decimals {
+        0 if rest == 0.0 => format!("{degrees}°{letter}"),
+        0 => format!("{degrees}° {rest:02}′{letter}"),
+        _ => format!(
+            "{degrees}° {rest:0width$.precision$}′{letter}",
+            width = decimals as usize + 3,
+            precision = decimals as usize
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{GeographicExtent, ProjectionChoice};
+    use super::*;
+
+    #[test]
+    fn from_four_to_eleven_lines_cross_any_extent() {
+        let mut span = 1e-4;
+        while span < 300.0 {
+            for from in [-3.217, 0.0, 54.9] {
+                let count = values(from, from + span).count();
+                assert!((4..=11).contains(&count), "{count} lines from {from} in {span}°");
+            }
+            span *= 1.07;
+        }
+        assert_eq!(values(10.0, 10.0 + 1e-9).count(), 0);
+    }
+
+    #[test]
+    fn labels_have_degrees_minutes_and_a_direction() {
+        for (minutes, step, is_meridian, text) in [
+            (-300.0, 60.0, true, "5° W"),
+            (330.0, 30.0, true, "5° 30′ E"),
+            (-0.0, 60.0, true, "0°"),
+            (-10_800.0, 600.0, true, "180°"),
+            (11_100.0, 300.0, true, "175° W"),
+            (2945.0, 5.0, false, "49° 05′ N"),
+            (-2945.2, 0.2, false, "49° 05.2′ S"),
+            (2999.95, 0.05, false, "49° 59.95′ N"),
+        ] {
+            assert_eq!(label(minutes, step, is_meridian), text);
+        }
+    }
+
+    #[test]
+    fn lines_of_a_projection_are_meridians_and_parallels_through_the_area() {
+        let corners = [dvec2(-7.0, 47.0), dvec2(0.0, 47.0), dvec2(0.0, 52.0), dvec2(-7.0, 52.0)];
+        let extent = GeographicExtent::of_rings(std::iter::once(&corners[..])).unwrap();
+        let projection = ProjectionChoice::Automatic.projection(&extent).unwrap();
+        let plane = EarthPlane::Projected(projection);
+        let area = Rect::new(dvec2(-238_000.0, 5_219_000.0), dvec2(238_000.0, 5_763_000.0));
+        let lines = graticule(plane, area);
+        let labels: Vec<&str> = lines.iter().map(|line| line.label.as_str()).collect();
+        assert_eq!(
+            labels,
+            ["6° W", "5° W", "4° W", "3° W", "2° W", "1° W", "48° N", "49° N", "50° N", "51° N"]
+        );
+        for (line, degrees) in lines.iter().zip([-6.0, -5.0, -4.0, -3.0, -2.0, -1.0, 48.0, 49.0]) {
+            for &at in &line.points {
+                let at = plane.geographic(at);
+                let off = if line.is_meridian { at.x - degrees } else { at.y - degrees };
+                assert!(off.abs() < 1e-9, "{}: {at}", line.label);
+            }
+            assert!(line.points.iter().any(|&at| area.contains(at)), "{} crosses the area", line.label);
+        }
+    }
+}

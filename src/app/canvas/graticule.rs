@@ -1,0 +1,51 @@
+//! Meridians and parallels over the mesh, in documents on the Earth.
+
+use eframe::egui::{Align2, Pos2, Rect, Ui, pos2};
+
+use super::coordinates::paint_label;
+use crate::app::kit::{FrameState, marks};
+use crate::app::theme::tokens;
+use meshbrush_core::earth::{EarthPlane, graticule};
+use meshbrush_render::scene::Camera;
+
+/// Distance of the labels from the sides of the canvas, in points: below are hints.
+const FROM_SIDES: [f32; 2] = [6.0, 54.0];
+
+/// Draws the lines, with labels where they leave the canvas at the right and below. They take no clicks.
+pub fn paint(ui: &Ui, rect: Rect, camera: &Camera, state: &FrameState<'_>) {
+    let settings = state.session.document().settings();
+    let plane = EarthPlane::new(settings.domain.projection, settings.unit);
+    let Some(plane) = plane.filter(|_| state.view.aids.graticule) else { return };
+    let (painter, screen, t) = (ui.painter_at(rect), camera.screen_map(), tokens(ui));
+    let at = |world| marks::point_from_px(rect, screen(world), ui.pixels_per_point());
+    let lines = graticule(plane, camera.visible_world());
+    let lines: Vec<_> = lines
+        .into_iter()
+        .map(|line| (line.points.iter().map(|&point| at(point)).collect::<Vec<Pos2>>(), line))
+        .collect();
+    for (points, _) in &lines {
+        let colors = [t.canvas.gamma_multiply(0.35), t.value.gamma_multiply(0.38)];
+        marks::paint_quiet_line(&painter, points.iter().copied(), colors);
+    }
+    for (points, line) in &lines {
+        let (axis, side, align) = match line.is_meridian {
+            true => (1, rect.bottom() - FROM_SIDES[1], Align2::CENTER_BOTTOM),
+            false => (0, rect.right() - FROM_SIDES[0], Align2::RIGHT_CENTER),
+        };
+        if let Some(place) = crossing(points, axis, side) {
+            paint_label(ui, rect, place, align, &line.label);
+        }
+    }
+}
+
+/// Returns where a line first crosses a line of the screen: x or y, by the number of the axis.
+fn crossing(points: &[Pos2], axis: usize, value: f32) -> Option<Pos2> {
+    points.windows(2).find_map(|pair| {
+        let [from, to] = [pair[0][axis] - value, pair[1][axis] - value];
+        if from * to > 0.0 || from == to {
+            return None;
+        }
+        let at = pair[0] + (pair[1] - pair[0]) * (from / (from - to));
+        Some(pos2(at.x, at.y))
+    })
+}
