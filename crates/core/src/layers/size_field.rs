@@ -68,7 +68,7 @@ impl SizeField {
         let plane =
             CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
         let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let layers = visible.map(|layer| CompiledLayer::new(layer, &plane)).collect();
+        let layers = visible.map(|layer| CompiledLayer::new(layer, &spec.layers, &plane)).collect();
         let square_bits = Box::new(settled::square_bits(lattice));
         let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, spec };
         let is_minimum = field.layers.iter().all(CompiledLayer::is_plain);
