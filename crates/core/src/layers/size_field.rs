@@ -64,6 +64,18 @@ impl SizeField {
     /// Returns the field of a spec on a lattice.
     pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
         let edge_lengths = EdgeLengths::new(spec.projection.as_ref(), lattice);
+        Self::with_lengths(spec, lattice, edge_lengths)
+    }
+
+    /// Returns the field of another spec on the same lattice.
+    pub fn with_spec(&self, spec: SizeFieldSpec) -> Self {
+        if spec.projection != self.spec.projection {
+            return Self::new(spec, &self.lattice);
+        }
+        Self::with_lengths(spec, &self.lattice, self.edge_lengths.clone())
+    }
+
+    fn with_lengths(spec: SizeFieldSpec, lattice: &Lattice, edge_lengths: EdgeLengths) -> Self {
         let SizeFieldSpec { transfer, outline, .. } = &spec;
         let plane =
             CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
