@@ -57,7 +57,7 @@ pub use meshbrush_mesh::mesh::{
 pub use meshbrush_core::document::{
     Background, Document, Edit, EditError, Edits, Example, Follower, History, KeepOut, MeshChange,
     NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit, RecordedStroke, Recording,
-    Repainted, Setting, SettingKind, Settings, SettingsError, Stage,
+    Repainted, SeaChart, Setting, SettingKind, Settings, SettingsError, Stage,
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{

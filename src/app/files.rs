@@ -12,7 +12,7 @@ use super::kit::Keymap;
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use meshbrush_core::document::{Document, Example, Recording, Settings};
+use meshbrush_core::document::{Document, Example, Recording, SeaChart, Settings};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::NodeDepths;
@@ -47,6 +47,19 @@ fn aegean_sea() -> Vec<NamedPolygon> {
         .expect("the outline is part of the program: a test opens it")
 }
 
+/// Returns the Celtic Sea and its depths.
+fn celtic_sea() -> SeaChart {
+    let sea = include_bytes!("../../assets/celtic_sea.geojson");
+    let depths = include_bytes!("../../assets/celtic_sea_depths.tif");
+    SeaChart {
+        sea: io::geojson::read_named_from(&sea[..], Path::new("celtic_sea.geojson"))
+            .expect("the outline is part of the program: a test opens it"),
+        depths: io::geotiff::decode(Cursor::new(depths))
+            .expect("the depths are part of the program: a test opens them")
+            .raster,
+    }
+}
+
 /// Returns an empty document.
 pub fn new_document() -> Document {
     Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
@@ -54,7 +67,7 @@ pub fn new_document() -> Document {
 
 /// Returns a document that comes with the program.
 pub fn example(example: Example) -> Document {
-    example.document(terrain_slope, aegean_sea)
+    example.document(terrain_slope, aegean_sea, celtic_sea)
 }
 
 /// Reads a recipe, which is shown as a document without a file once it is read.

@@ -279,6 +279,16 @@ impl View {
         }
     }
 
+    /// Shows the depths of a document that has them, and no overlay of depths in one that has none.
+    pub fn show_depths(&mut self, has_depths: bool) {
+        let shows_them = matches!(self.overlay, FieldOverlay::Depth | FieldOverlay::DepthError);
+        self.overlay = match (has_depths, shows_them) {
+            (true, false) => FieldOverlay::Depth,
+            (false, true) => FieldOverlay::None,
+            _ => self.overlay,
+        };
+    }
+
     /// Shows the whole domain, also when the window gets another size, until the view is moved.
     pub fn fit(&mut self) {
         (self.camera, self.is_fitted) = (None, true);

@@ -22,8 +22,17 @@ fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
 #[test]
 fn every_command_works_as_typed() {
     let folder = Folder::new("readme");
-    for input in ["assets/jacksboro_slope.png", "assets/jacksboro.toml", "assets/aegean_sea.geojson"] {
-        folder.file(input, std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(input)).unwrap());
+    for input in [
+        "jacksboro_slope.png",
+        "jacksboro.toml",
+        "aegean_sea.geojson",
+        "celtic_sea.geojson",
+        "celtic_sea_depths.tif",
+        "celtic_sea.toml",
+    ] {
+        let input = Path::new("assets").join(input);
+        let bytes = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(&input)).unwrap();
+        folder.file(input.to_str().unwrap(), bytes);
     }
     let programs = Path::new(PROGRAM).parent().unwrap();
     let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
@@ -44,10 +53,17 @@ fn every_command_works_as_typed() {
         let summary: serde_json::Value = serde_json::from_str(json).unwrap();
         assert_eq!(summary["violations"], 0);
     }
-    assert_eq!(commands, 9, "the commands were found");
-    for file in
-        ["diamond.vtu", "terrain.msh", "terrain.png", "sea.2dm", "found.csv", "path.geojson", "jacksboro.png"]
-    {
+    assert_eq!(commands, 10, "the commands were found");
+    for file in [
+        "diamond.vtu",
+        "terrain.msh",
+        "terrain.png",
+        "sea.2dm",
+        "found.csv",
+        "path.geojson",
+        "jacksboro.png",
+        "celtic_sea.png",
+    ] {
         assert!(folder.0.join(file).metadata().unwrap().len() > 100, "{file}");
     }
 }

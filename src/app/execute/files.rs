@@ -15,6 +15,7 @@ use crate::app::journal::JournalKeeper;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, journal, project};
 use meshbrush_core::document::Document;
+use meshbrush_core::layers::DepthSurface;
 
 impl App {
     pub(in crate::app) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
@@ -24,7 +25,11 @@ impl App {
                 self.open(files::new_document());
                 self.dialogs.open(Dialog::Start);
             }
-            FileCommand::OpenExample(example) => self.open(files::example(example)),
+            FileCommand::OpenExample(example) => {
+                self.open(files::example(example));
+                let layers = &self.session.document().settings().layers;
+                self.view.show_depths(DepthSurface::of(layers).is_some());
+            }
             FileCommand::Ask(request) => self.ask_for_file(request),
             FileCommand::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),

@@ -5,6 +5,7 @@ mod add_data;
 #[cfg(unix)]
 mod background;
 mod budget;
+mod celtic_sea;
 mod commands;
 mod derivation;
 mod docks;

@@ -141,7 +141,7 @@ fn unsaved_edits_are_asked_about() {
 #[test]
 fn edits_are_asked_about_before_unsaved_work_is_restored() {
     let folder = folder("restored");
-    let left = Example::Diamond.document(|| unreachable!(), || unreachable!());
+    let left = Example::Diamond.document(|| unreachable!(), || unreachable!(), || unreachable!());
     let journal = Journal::begin(&folder, &Project::of(&left), None, 1).unwrap();
     drop(journal);
     let mut window = window();
@@ -289,7 +289,7 @@ fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     let mut sound = Vec::new();
     project::write(
         &mut sound,
-        &Project::of(&Example::Threats.document(|| unreachable!(), || unreachable!())),
+        &Project::of(&Example::Threats.document(|| unreachable!(), || unreachable!(), || unreachable!())),
     )
     .unwrap();
     let bad: [(&str, &[u8], &str); 4] = [
@@ -352,7 +352,7 @@ fn files_can_be_dropped_and_recent_ones_are_in_the_menu() {
     let mut bytes = Vec::new();
     project::write(
         &mut bytes,
-        &Project::of(&Example::Diamond.document(|| unreachable!(), || unreachable!())),
+        &Project::of(&Example::Diamond.document(|| unreachable!(), || unreachable!(), || unreachable!())),
     )
     .unwrap();
     fs::write(&file, bytes).unwrap();

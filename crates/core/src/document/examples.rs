@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 
+use super::celtic_sea::{SeaChart, celtic_sea};
 use super::{Document, PathPlan, Settings};
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
 use crate::field::{Formula, RefinementRule, Transfer};
@@ -26,6 +27,8 @@ pub enum Example {
     Terrain,
     /// A sea with its islands.
     Aegean,
+    /// A sea with its depths, meshed in metres.
+    CelticSea,
     /// Every kind of layer, on the terrain.
     Layers,
     /// A path of least cost between threats.
@@ -34,8 +37,15 @@ pub enum Example {
 
 impl Example {
     /// All examples. The window starts with the first.
-    pub const ALL: [Self; 6] =
-        [Self::Threats, Self::Diamond, Self::Terrain, Self::Aegean, Self::Layers, Self::Path];
+    pub const ALL: [Self; 7] = [
+        Self::Threats,
+        Self::Diamond,
+        Self::Terrain,
+        Self::Aegean,
+        Self::CelticSea,
+        Self::Layers,
+        Self::Path,
+    ];
 
     /// Returns the name for menus.
     pub fn name(self) -> &'static str {
@@ -44,6 +54,7 @@ impl Example {
             Self::Diamond => "The report's diamond",
             Self::Terrain => "Terrain slope",
             Self::Aegean => "Aegean Sea",
+            Self::CelticSea => "Celtic Sea with depths",
             Self::Layers => "Layers on a terrain",
             Self::Path => "Threats and a path",
         }
@@ -60,6 +71,9 @@ impl Example {
             Self::Aegean => {
                 "The sea between Greece and Turkey, fitted to the coast, with 65 islands as holes."
             }
+            Self::CelticSea => {
+                "A sea between Cornwall and Brittany in metres: sizes from depths, coasts and straits, and a ship's path."
+            }
             Self::Layers => {
                 "Slope, cliffs, a road, radio masts, paint and a floor: every kind of layer, with limited gradation."
             }
@@ -68,17 +82,20 @@ impl Example {
     }
 
     /// Returns the document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle;
-    /// `sea` reads the polygons of the Aegean in degrees. Only the examples that need them call these.
+    /// `sea` reads the polygons of the Aegean in degrees, and `chart` the Celtic Sea with its depths. Only
+    /// the examples that need them call these.
     pub fn document(
         self,
         slope: impl FnOnce() -> Raster,
         sea: impl FnOnce() -> Vec<NamedPolygon>,
+        chart: impl FnOnce() -> SeaChart,
     ) -> Document {
         match self {
             Self::Threats => threats(),
             Self::Diamond => document(diamond()),
             Self::Terrain => document(terrain(slope())),
             Self::Aegean => document(aegean(&sea())),
+            Self::CelticSea => document(celtic_sea(self.name(), chart())),
             Self::Layers => layers(slope()),
             Self::Path => document(path()),
         }

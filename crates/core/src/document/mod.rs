@@ -2,6 +2,7 @@
 //! derives field and mesh from it; these are never saved.
 
 mod background;
+mod celtic_sea;
 mod change;
 mod drawing;
 mod edits;
@@ -29,6 +30,7 @@ mod strokes;
 mod transfer_price;
 
 pub use background::{Background, Picture};
+pub use celtic_sea::SeaChart;
 pub use drawing::{Drawing, DrawingError, DrawnPart, DrawnShape};
 pub use edits::Edits;
 pub use examples::Example;

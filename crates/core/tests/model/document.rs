@@ -7,7 +7,8 @@ use crate::runs::runs;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{
-    Document, Example, Follower, History, MeshChange, NoChange, Price, Pricer, Setting, Settings, Stage,
+    Document, Example, Follower, History, MeshChange, NoChange, Price, Pricer, SeaChart, Setting, Settings,
+    Stage,
 };
 use meshbrush_core::domain::{
     BoundaryMarks, BoundaryPieces, BoundaryType, CutShape, Domain, DomainShape, NamedPolygon, Polygon,
@@ -30,6 +31,15 @@ fn sea() -> Vec<NamedPolygon> {
 fn slope() -> Raster {
     let values = (0..64 * 48).map(|i| (i % 97) as f32 / 97.0).collect();
     Raster::from_values(Rect::new(DVec2::ZERO, dvec2(4.0, 3.0)), [64, 48], values)
+}
+
+/// A sea with one island that gets deeper westwards.
+fn chart() -> SeaChart {
+    let ring = |half: DVec2| corners(&Rect::new(dvec2(-3.5, 49.5) - half, dvec2(-3.5, 49.5) + half));
+    let polygon = vec![ring(dvec2(3.5, 2.5)), ring(DVec2::splat(0.2))];
+    let depths = (0..70 * 50).map(|i| (140 - 2 * (i % 70)) as f32).collect();
+    let depths = Raster::from_values(Rect::new(dvec2(-7.0, 47.0), dvec2(0.0, 52.0)), [70, 50], depths);
+    SeaChart { sea: vec![NamedPolygon { polygon, name: String::new() }], depths }
 }
 
 fn with_base(base: LayerKind) -> Settings {
@@ -56,7 +66,7 @@ const SCALE: Scale = Scale { diameter: 0.01, smallest: 0.01, triangles: 2000 };
 #[test]
 fn every_example_opens() {
     for example in Example::ALL {
-        let mut document = example.document(slope, sea);
+        let mut document = example.document(slope, sea, chart);
         let follower = Follower::new(&mut document).unwrap();
         assert!(
             follower.mesh().raw_triangle_count() > 5000,
@@ -70,7 +80,7 @@ fn every_example_opens() {
 
 #[test]
 fn the_diamond_is_figure_1() {
-    let mut document = Example::Diamond.document(slope, sea);
+    let mut document = Example::Diamond.document(slope, sea, chart);
     assert_eq!(Follower::new(&mut document).unwrap().mesh().raw_triangle_count(), 9560);
 }
 
@@ -125,7 +135,7 @@ fn a_slider_drag_is_one_entry_and_idle_frames_add_none() {
 
 #[test]
 fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
-    let mut document = Example::Threats.document(slope, sea);
+    let mut document = Example::Threats.document(slope, sea, chart);
     let mut follower = Follower::new(&mut document).unwrap();
     let (settings, fingerprint) = (document.settings().clone(), follower.mesh().fingerprint());
     let bad = [
@@ -241,7 +251,7 @@ fn undo_stops_where_another_document_was_opened() {
     document.set(Setting::Spacing(0.1)).unwrap();
     document.undo();
     let (revision, version) = (document.revision(), document.version());
-    let diamond = Example::Diamond.document(slope, sea);
+    let diamond = Example::Diamond.document(slope, sea, chart);
     document.replace_with(diamond.clone());
     assert!(!document.undo() && !document.redo(), "nothing of the former document is kept");
     assert_eq!(document.settings(), diamond.settings());
@@ -267,7 +277,7 @@ fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
 
 #[test]
 fn the_area_rule_implies_the_vertex_rule() {
-    let mut document = Example::Threats.document(slope, sea);
+    let mut document = Example::Threats.document(slope, sea, chart);
     let follower = Follower::new(&mut document).unwrap();
     let mut by_vertex = document.clone();
     by_vertex.set(Setting::RefinementRule(RefinementRule::Vertex)).unwrap();
@@ -551,7 +561,7 @@ fn work_that_a_budget_stopped_goes_on_when_it_is_raised_and_when_paint_is_erased
 
 #[test]
 fn a_setting_changed_there_and_back_makes_no_other_mesh() {
-    let mut document = Example::Threats.document(slope, sea);
+    let mut document = Example::Threats.document(slope, sea, chart);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
     let shape = document.settings().transfer.shape;
@@ -572,7 +582,7 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
 
 #[test]
 fn names_and_types_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
-    let mut document = Example::Aegean.document(slope, sea);
+    let mut document = Example::Aegean.document(slope, sea, chart);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
     let settings = document.settings().clone();

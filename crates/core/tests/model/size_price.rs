@@ -58,7 +58,7 @@ fn coast() -> Document {
         (4.0 + 0.5 * (7.0 * angle).sin() + 0.2 * (31.0 * angle).cos()) * dvec2(angle.cos(), angle.sin())
     };
     let sea = NamedPolygon { polygon: vec![(0..240).map(corner).collect()], name: String::new() };
-    Example::Aegean.document(|| unreachable!("no terrain"), || vec![sea])
+    Example::Aegean.document(|| unreachable!("no terrain"), || vec![sea], || unreachable!("no chart"))
 }
 
 /// The default document with a diameter painted in one small place.

@@ -67,7 +67,8 @@ impl Details {
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/aegean_sea.geojson")).unwrap();
     let sea = geojson::read_named_from(&sea[..], Path::new("sea")).unwrap();
-    let mut project = Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone()));
+    let mut project =
+        Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone(), || unreachable!()));
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
     let source = RasterSource { name: "noise.png".into(), raster };

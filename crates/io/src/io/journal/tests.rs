@@ -22,7 +22,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn example() -> Document {
-    let mut document = Example::Threats.document(|| unreachable!(), || unreachable!());
+    let mut document = Example::Threats.document(|| unreachable!(), || unreachable!(), || unreachable!());
     document.take_edits();
     document
 }

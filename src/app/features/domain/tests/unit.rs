@@ -79,6 +79,7 @@ fn examples_and_domains_from_files_have_their_unit() {
         (Example::Threats, LengthUnit::None),
         (Example::Terrain, LengthUnit::Kilometre),
         (Example::Aegean, LengthUnit::Degree),
+        (Example::CelticSea, LengthUnit::Metre),
     ] {
         send(&mut window, Command::File(FileCommand::OpenExample(example)));
         assert_eq!(settings(&window).unit, unit, "{}", example.name());

@@ -1,0 +1,115 @@
+//! The example of a coastal modeller: a sea with its depths, meshed in metres.
+//!
+//! The recipe `assets/celtic_sea.toml` describes the same document.
+
+use std::sync::Arc;
+
+use glam::{DVec2, dvec2};
+
+use super::{PathPlan, Settings};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon, Polygon};
+use crate::earth::{Coordinates, GeographicExtent, ProjectionChoice, Reprojection, projected_polygons};
+use crate::field::Transfer;
+use crate::geometry::Rect;
+use crate::layers::{
+    DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerKind, PositiveDepth, RasterSource, StraitDiscs,
+    Straits,
+};
+use crate::raster::{Raster, RasterPyramid, projected_raster};
+use crate::text::LengthUnit;
+
+/// What a sea chart has, by longitude and latitude.
+#[derive(Clone, Debug)]
+pub struct SeaChart {
+    /// The sea, without its islands.
+    pub sea: Vec<NamedPolygon>,
+    /// Depths of water in metres, 0 on land.
+    pub depths: Raster,
+}
+
+/// The rectangle in the plane, in metres: 14 × 14 squares of [`SPACING`].
+const FRAME: [DVec2; 2] = [dvec2(-231_000.0, 5_295_000.0), dvec2(231_000.0, 5_757_000.0)];
+const SPACING: f64 = 33_000.0;
+/// A point of each named piece of the boundary, in the plane.
+const NAMES: [(DVec2, &str); 16] = [
+    (dvec2(-100_000.0, 5_295_000.0), "Bay of Biscay"),
+    (dvec2(231_000.0, 5_600_000.0), "Eastern Channel"),
+    (dvec2(-200_000.0, 5_757_000.0), "Irish Sea"),
+    (dvec2(-231_000.0, 5_500_000.0), "Atlantic"),
+    (dvec2(-121_996.8, 5_538_028.7), "Great Britain"),
+    (dvec2(-93_656.7, 5_362_577.3), "France"),
+    (dvec2(171_658.6, 5_619_659.1), "Isle of Wight"),
+    (dvec2(107_973.0, 5_455_252.0), "Jersey"),
+    (dvec2(72_412.2, 5_486_416.1), "Guernsey"),
+    (dvec2(180_667.2, 5_631_621.3), "Hayling Island"),
+    (dvec2(-113_741.5, 5_372_154.9), "Ushant"),
+    (dvec2(93_670.3, 5_508_900.6), "Alderney"),
+    (dvec2(-200_987.8, 5_534_570.5), "St Mary’s"),
+    (dvec2(81_694.9, 5_476_023.9), "Sark"),
+    (dvec2(-203_940.2, 5_538_635.1), "Tresco"),
+    (dvec2(-82_407.0, 5_671_413.5), "Lundy"),
+];
+/// A ship from Saint-Malo to the Bristol Channel, and how far it stays from the shore.
+const ROUTE: [DVec2; 2] = [dvec2(103_000.0, 5_402_000.0), dvec2(21_000.0, 5_686_000.0)];
+const CLEARANCE: f64 = 5_000.0;
+
+/// Returns the sea in the plane that the program chooses for it.
+pub(super) fn celtic_sea(name: &str, chart: SeaChart) -> Settings {
+    let SeaChart { sea, depths } = chart;
+    let rings = sea.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
+    let extent = GeographicExtent::of_rings(rings).expect("polygons");
+    let projection = ProjectionChoice::Automatic.projection(&extent).expect("a small part of the Earth");
+    let reprojection = Reprojection { from: Coordinates::Geographic, to: projection };
+    let polygons: Vec<Polygon> = sea.into_iter().map(|named| named.polygon).collect();
+    let frame = Rect::new(FRAME[0], FRAME[1]);
+    let domain = Domain::of_stored_polygons(projected_polygons(&polygons, &reprojection), frame)
+        .expect("a valid outline");
+    let domain = Domain { projection: Some(projection), ..domain };
+    let depths = projected_raster(&depths, &reprojection, frame).expect("depths of the domain");
+    let raster = Arc::new(RasterPyramid::new(depths));
+    let layers = layers(&domain, &RasterSource { name: "celtic_sea_depths.tif".into(), raster });
+    let names = NAMES.map(|(at, name)| (at, name.to_owned())).to_vec();
+    let route = PathPlan { routes: vec![ROUTE.to_vec()], clearance: CLEARANCE, ..PathPlan::default() };
+    Settings {
+        unit: LengthUnit::Metre,
+        spacing: SPACING,
+        boundary: BoundaryTreatment::OnOutline { diameter: 2500.0 },
+        boundary_marks: Arc::new(BoundaryMarks { names, ..BoundaryMarks::default() }),
+        transfer: Transfer::between(1500.0, 24_000.0),
+        layers,
+        gradation: Some(0.25),
+        paths: Arc::new(route.with_names(["Saint-Malo to Bristol".to_owned()])),
+        ..Settings::for_domain(name.into(), domain)
+    }
+}
+
+/// Returns the layers, from the bottom to the top.
+fn layers(domain: &Domain, depths: &RasterSource) -> Vec<Layer> {
+    let depth = |rule, [from, to]: [f64; 2]| {
+        let sizes = DepthSizes { positive: PositiveDepth::Down, offset: 0.0, between: [from, to], rule };
+        LayerKind::Depth(Depths::new(depths.clone(), sizes))
+    };
+    // A wave of half an hour, as from an earthquake.
+    let waves = DepthRule::Wavelength { period: 1800.0, triangles: 5.0 };
+    let slopes = DepthRule::Slope { triangles: 15.0, smoothing: 8000.0 };
+    let named = [
+        ("Long waves", depth(waves, DepthSizes::ALL_WATER)),
+        ("Slopes", depth(slopes, [50.0, f64::INFINITY])),
+        (
+            "Along the coasts",
+            LayerKind::Distance {
+                to: DistanceTo::Coasts,
+                at_zero: 2500.0,
+                slope: 0.15,
+                range: f64::INFINITY,
+            },
+        ),
+        (
+            "Straits",
+            LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::of(domain, [6000.0, 30_000.0]) }),
+        ),
+    ];
+    let mut layers = Layer::stack(named.clone().map(|(_, kind)| kind));
+    layers.iter_mut().zip(named).for_each(|(layer, (name, _))| layer.name = name.into());
+    layers
+}
