@@ -310,6 +310,52 @@ fn the_first_grid_with_a_value_counts_and_nodes_without_any_are_refused() {
     assert!(far.status != 0 && far.err.contains("nodes have no depth"), "{}", far.err);
 }
 
+/// The survey knows that the water is deep where the chart does not.
+#[test]
+fn sizes_come_from_the_first_grid_with_a_value() {
+    let folder = Folder::new("depth-sizes-of-two");
+    let grid = |size: usize, corner: f64, text: &str| {
+        format!(
+            "ncols {size}\nnrows {size}\nxllcorner {corner}\nyllcorner {corner}\ncellsize 100\nNODATA_value -9999\n{text}\n"
+        )
+    };
+    // A hole in the survey, in its fifth row from the south.
+    let survey: Vec<&str> =
+        (0..20 * 20).map(|n| if n / 20 == 15 && n % 20 == 9 { "-9999" } else { "-50" }).collect();
+    folder.file("survey.asc", grid(20, 1000.0, &survey.join(" ")));
+    folder.file("chart.asc", grid(40, 0.0, &"-3 ".repeat(1600)));
+    let waves = "--per-wavelength 1 --period 60";
+    let mesh = |files: &str| {
+        let ran = folder.run(format!("mesh --domain 0,0,4000,4000 --spacing 500 {files} {waves} -o m.14"));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        fort14(&folder.read("m.14"))
+    };
+    let (nodes, triangles) = mesh("--depth survey.asc --depth chart.asc");
+    let (shallow, deep) = (wavelength(60.0, 3.0), wavelength(60.0, 50.0));
+    let mut seen = [0; 3];
+    for corners in triangles.iter().map(|triangle| triangle.map(|node| nodes[node])) {
+        let least = |axis: usize| corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+        let greatest = |axis: usize| corners.iter().map(|corner| corner[axis]).fold(0.0, f64::max);
+        let meets = |from: [f64; 2], to: [f64; 2]| {
+            (0..2).all(|axis| least(axis) < to[axis] && greatest(axis) > from[axis])
+        };
+        let side = |a: usize, b: usize| (corners[a][0] - corners[b][0]).hypot(corners[a][1] - corners[b][1]);
+        let diameter = side(0, 1).max(side(1, 2)).max(side(2, 0));
+        let is_in_survey = (0..2).all(|axis| least(axis) >= 1000.0 && greatest(axis) <= 3000.0);
+        let is_at_hole = is_in_survey && meets([1900.0, 1400.0], [2000.0, 1500.0]);
+        let is_far_inside = (0..2).all(|axis| least(axis) >= 1900.0 && greatest(axis) <= 2600.0);
+        let target = if is_in_survey && !is_at_hole { deep } else { shallow };
+        assert!(diameter <= target, "{diameter} at {corners:?}");
+        seen[0] += usize::from(is_at_hole && diameter <= shallow);
+        seen[1] += usize::from(is_far_inside && diameter >= 500.0);
+        seen[2] += usize::from(!is_in_survey);
+    }
+    assert!(seen[0] > 0 && seen[1] > 1 && seen[2] > 100, "{seen:?}");
+    // The chart first: its value counts everywhere.
+    let (_, finer) = mesh("--depth chart.asc --depth survey.asc");
+    assert!(finer.len() > triangles.len(), "{} and {}", finer.len(), triangles.len());
+}
+
 #[test]
 fn sizes_in_degrees_are_refused() {
     let folder = Folder::new("depth-degrees");

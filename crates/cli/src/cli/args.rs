@@ -342,9 +342,10 @@ pub struct MeshArguments {
     pub binary: bool,
 
     /// Coordinates in files of a region on the Earth: longitude and latitude (lonlat), those of the plane of
-    /// --projection (plane), or those of a code or of a projection as PROJ writes it
-    #[arg(long, default_value = "lonlat", value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
-    pub out_crs: OutputCoordinates,
+    /// --projection (plane), or those of a code or of a projection as PROJ writes it [default: those of the
+    /// region's file]
+    #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
+    pub out_crs: Option<OutputCoordinates>,
 
     /// A further value at the nodes, as a formula in x and y, with a name in .vtu, .msh and .csv; may be
     /// repeated

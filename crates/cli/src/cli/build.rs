@@ -10,7 +10,7 @@ use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
 use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
-use meshbrush_core::earth::EdgeLengths;
+use meshbrush_core::earth::{Coordinates, EdgeLengths};
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
@@ -36,6 +36,8 @@ pub struct FinishedMesh {
     marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths.
     pub unit: LengthUnit,
+    /// The coordinates of files; see [`ToMesh`].
+    pub coordinates: Coordinates,
     /// Time spent on refinement alone.
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
@@ -152,7 +154,7 @@ pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Fai
 /// # Errors
 /// Fails when the target is impossible somewhere, or a limit is reached.
 pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let ToMesh { spec, paint, marks, unit, .. } = read;
+    let ToMesh { spec, paint, marks, unit, coordinates, paths: _ } = read;
     let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
     let mut builder = MeshBuilder::new(spec);
     let refinement = run(&mut builder, &paint, terminal);
@@ -164,7 +166,7 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     if derived.patch().leaves_nothing_of(&built.mesh) {
         return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
     }
-    Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, refinement, capped })
+    Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, coordinates, refinement, capped })
 }
 
 /// Builds in slices. Returns the time spent on refinement.

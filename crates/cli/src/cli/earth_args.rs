@@ -47,9 +47,15 @@ impl FromStr for OutputCoordinates {
         if text == "plane" {
             return Ok(Self::Plane);
         }
-        Ok(match text.parse()? {
+        Ok(text.parse::<Coordinates>()?.into())
+    }
+}
+
+impl From<Coordinates> for OutputCoordinates {
+    fn from(coordinates: Coordinates) -> Self {
+        match coordinates {
             Coordinates::Geographic => Self::Lonlat,
             plane => Self::Other(plane),
-        })
+        }
     }
 }

@@ -15,6 +15,7 @@ use super::terminal::Terminal;
 use meshbrush_core::build::MeshSpec;
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::BoundaryMarks;
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::geojson::{self, Outline};
 use meshbrush_io::io::layers::SavedLayer;
@@ -52,6 +53,9 @@ pub struct ToMesh {
     pub marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths, where a file says it.
     pub unit: LengthUnit,
+    /// The coordinates of files, where the mesh is in the plane of a projection and nothing else is asked
+    /// for: those of the domain's file.
+    pub coordinates: Coordinates,
     /// The paths of a project or a recipe.
     pub paths: Arc<PathPlan>,
 }
@@ -120,9 +124,16 @@ impl Input {
     /// Fails when a file cannot be read or used, there is no coarse grid, or an option does not suit the
     /// file.
     pub fn read(&self, terminal: &mut Terminal) -> Result<ToMesh, Failure> {
-        let (settings, paint) = match &self.project {
-            Some(path) => self.read_project(path, terminal)?,
-            None => self.read_files(terminal)?,
+        let (settings, paint, coordinates) = match &self.project {
+            Some(path) => {
+                let (settings, paint) = self.read_project(path, terminal)?;
+                (settings, paint, Coordinates::Geographic)
+            }
+            None => {
+                let Loaded { settings, paint, coordinates, notes } = self.read_files(terminal)?;
+                notes.iter().for_each(|note| terminal.note(note));
+                (settings, paint, coordinates.unwrap_or(Coordinates::Geographic))
+            }
         };
         self.lengths.iter().try_for_each(|length| length.check(settings.unit))?;
         let limits = Limits {
@@ -141,7 +152,7 @@ impl Input {
         // What is said about parts counts for every domain; else only fitted meshes are cleaned.
         let spec = MeshSpec { cleaning: self.settings.cleaning(spec.cleaning), ..spec };
         let Settings { boundary_marks: marks, unit, paths, .. } = settings;
-        Ok(ToMesh { spec, paint, marks, unit, paths })
+        Ok(ToMesh { spec, paint, marks, unit, coordinates, paths })
     }
 
     fn read_project(&self, path: &Path, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {
@@ -161,16 +172,13 @@ impl Input {
         Ok((settings, document.paint().clone()))
     }
 
-    fn read_files(&self, terminal: &mut Terminal) -> Result<(Settings, PaintLayers), Failure> {
+    fn read_files(&self, terminal: &mut Terminal) -> Result<Loaded, Failure> {
         let meter = &Meter::default();
         let most_coarse = self.settings.mesh.max_triangles.unwrap_or(USUAL_BUDGET);
         // Without a memory budget, the mesh may take what its triangles take.
         let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
         let loading = Loading { usual, with_hidden: false, read_outline, meter };
-        let loaded = terminal.while_metered("reading", meter, || self.settings.load_files("", &loading));
-        let Loaded { settings, paint, notes } = loaded?;
-        notes.iter().for_each(|note| terminal.note(note));
-        Ok((settings, paint))
+        Ok(terminal.while_metered("reading", meter, || self.settings.load_files("", &loading))?)
     }
 }
 

@@ -39,6 +39,7 @@ pub fn run(
     outputs.try_for_each(|output| output.check_places(&inputs))?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
+    let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates.into());
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, input.settings.mesh.max_level, terminal)?),
         false => None,
@@ -49,7 +50,7 @@ pub fn run(
     let uses = DetailUses { json: typed.json, node_data };
     let (details, summary) = terminal.while_working("measuring the mesh", || {
         let details =
-            wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, typed.out_crs, uses));
+            wants_details.then(|| MeshDetails::of(&finished, &extract, line, &input, coordinates, uses));
         let details = details.transpose().map_err(|error| Failure::Work(error.to_string()))?;
         let summary = Summary::of(&finished, &extract, details.as_ref(), violations);
         Ok::<_, Failure>((details, summary))
@@ -61,7 +62,7 @@ pub fn run(
     note_filled(details.as_ref(), terminal);
     note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
-        write_files(&files, &finished, &extract, details, typed.out_crs, terminal)?;
+        write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;

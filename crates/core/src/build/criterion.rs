@@ -65,7 +65,7 @@ impl<'a> RefinementCriterion<'a> {
             }
             RefinementRule::Vertex => {
                 let diameter = field.edge_lengths().of(element.corners, element.triangle.level());
-                vertex_rule.exceeds(element, diameter, |point| field.target_at_node(paint, point))
+                vertex_rule.diameter_exceeds(element, diameter, |point| field.target_at_node(paint, point))
             }
         })
     }

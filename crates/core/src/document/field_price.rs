@@ -5,7 +5,7 @@ use super::pricer::{Price, price_of};
 use super::{Document, Follower, Settings};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
-use crate::layers::{SettledPool, SizeField, SizeFieldSpec};
+use crate::layers::{SettledPool, SizeField};
 use crate::mesh::{Census, Forecast, Mesh, Progress};
 
 /// Counts in slices how another size field on the lattice of a mesh would change the number of triangles, in
@@ -63,8 +63,8 @@ impl CountEstimate {
             && settings.domain == follower.settings().domain
             && settings.boundary == follower.settings().boundary;
         has_same_grid.then(|| {
-            let spec: SizeFieldSpec = settings.field_spec();
-            Self::of_field(Arc::new(SizeField::new(spec, lattice)), settings, follower.mesh())
+            let field = follower.field().with_spec(settings.field_spec());
+            Self::of_field(Arc::new(field), settings, follower.mesh())
         })
     }
 

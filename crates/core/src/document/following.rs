@@ -44,16 +44,16 @@ pub(super) struct Followed {
 }
 
 impl Following {
-    /// Returns the work from the settings of a mesh to others, on the lattice of that mesh.
+    /// Returns the work from the settings and the field of a mesh to others, on the lattice of that mesh.
     pub(super) fn new(
         shown: &Settings,
         wanted: &Settings,
-        lattice: &Lattice,
+        field: &SizeField,
         has_new_outline: bool,
         has_new_field: bool,
     ) -> Self {
-        let outline = if has_new_outline { OutlineWork::new(shown, wanted, lattice) } else { None };
-        let field = has_new_field.then(|| FieldWork::new(shown, wanted, lattice));
+        let outline = if has_new_outline { OutlineWork::new(shown, wanted, field.lattice()) } else { None };
+        let field = has_new_field.then(|| FieldWork::new(shown, wanted, field));
         Self { settings: wanted.clone(), outline, field }
     }
 
@@ -119,8 +119,8 @@ impl OutlineWork {
 }
 
 impl FieldWork {
-    fn new(shown: &Settings, wanted: &Settings, lattice: &Lattice) -> Self {
-        let field = SizeField::new(wanted.field_spec(), lattice);
+    fn new(shown: &Settings, wanted: &Settings, field: &SizeField) -> Self {
+        let field = field.with_spec(wanted.field_spec());
         let check = match wanted.rule {
             RefinementRule::Area => LayerCheck::of_changed(&field, &shown.layers),
             // The rule checks each node itself.

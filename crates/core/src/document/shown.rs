@@ -161,7 +161,7 @@ impl Shown {
 
     /// Returns the work that follows an edit in place.
     pub(super) fn follow(&self, wanted: &Settings, outline: bool, field: bool) -> Following {
-        Following::new(&self.settings, wanted, self.mesh.lattice(), outline, field)
+        Following::new(&self.settings, wanted, &self.field, outline, field)
     }
 
     /// Takes over an edit: the mesh is updated where outline or h̄ can differ, or made again where that is

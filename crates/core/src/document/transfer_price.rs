@@ -5,7 +5,7 @@ use super::pricer::Price;
 use super::{CountEstimate, Document, Follower, Settings};
 use crate::field::{RefinementRule, Transfer};
 use crate::geometry::Rect;
-use crate::layers::{SizeField, SizeFieldSpec};
+use crate::layers::SizeField;
 use crate::mesh::Progress;
 
 /// Computes in slices how other limits of h̄, or another curve from risk to diameter, would change the number
@@ -183,8 +183,7 @@ impl SizePrice {
         if settings.lattice().ok()? != *lattice || settings.domain != follower.settings().domain {
             return None;
         }
-        let spec: SizeFieldSpec = settings.field_spec();
-        let field = Arc::new(SizeField::new(spec, lattice));
+        let field = Arc::new(follower.field().with_spec(settings.field_spec()));
         let count = FieldPrice::new(field.clone(), &lattice.bounds(), follower)?;
         Some(Self { field, count, estimate: None, settings: settings.clone() })
     }

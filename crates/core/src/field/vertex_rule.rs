@@ -14,13 +14,26 @@ pub struct VertexRule {
 }
 
 impl VertexRule {
-    /// Returns whether a diameter of the element exceeds its target. `target` is h̄ at a point, in the unit
-    /// of the diameter; it must be the same function in every call.
+    /// Returns whether the element's diameter exceeds its target. `target` is h̄ at a point, both in world
+    /// units; it must be the same function in every call.
     ///
     /// # Errors
     /// Fails where h̄ is not a positive, finite length.
     #[inline]
     pub fn exceeds(
+        &mut self,
+        element: &Element,
+        target: impl Fn(DVec2) -> f64,
+    ) -> Result<bool, InvalidTarget> {
+        self.diameter_exceeds(element, element.diameter(), target)
+    }
+
+    /// [`Self::exceeds`] of a diameter in another unit than world units, which is that of h̄.
+    ///
+    /// # Errors
+    /// Fails as [`Self::exceeds`] does.
+    #[inline]
+    pub fn diameter_exceeds(
         &mut self,
         element: &Element,
         diameter: f64,

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Depths, Layer, LayerKind};
+use super::{DepthRule, Depths, Layer, LayerKind};
+use crate::geometry::Rect;
 
 /// The visible layers of depths of a stack. Each counts where it has a value and its mask covers, and no
 /// layer above it does.
@@ -40,6 +41,33 @@ impl<'a> DepthSurface<'a> {
         });
         depths.fold(0.0, f64::max)
     }
+}
+
+/// Returns the layers of depths above a layer of depths in its stack that hide it where they have values:
+/// those of other files that ask for sizes.
+pub(super) fn hiding<'a>(stack: &'a [Layer], layer: &Layer) -> impl Iterator<Item = (&'a Layer, &'a Depths)> {
+    let own = match &layer.kind {
+        LayerKind::Depth(depths) => Some(depths.source().clone()),
+        _ => None,
+    };
+    let place = stack.iter().position(|other| other.id == layer.id);
+    let above = place.map_or(&stack[..0], |place| &stack[place + 1..]);
+    above.iter().filter(|above| above.visible).filter_map(move |above| match (&above.kind, &own) {
+        (LayerKind::Depth(depths), Some(own)) => {
+            let hides = depths.sizes().rule != DepthRule::Nothing && depths.source() != own;
+            hides.then_some((above, depths))
+        }
+        _ => None,
+    })
+}
+
+/// Returns rectangles that hold the places where a layer of depths is hidden in one of two stacks only.
+pub(super) fn hidden_differently(layer: &Layer, new: &[Layer], old: &[Layer]) -> Vec<Rect> {
+    let hides = |stack, (above, depths): &(&Layer, &Depths)| {
+        hiding(stack, layer).any(|(other, own)| other.mask == above.mask && own.source() == depths.source())
+    };
+    let only = |stack, other| hiding(stack, layer).filter(move |above| !hides(other, above));
+    only(new, old).chain(only(old, new)).map(|(_, depths)| depths.source().raster.raster().bounds()).collect()
 }
 
 pub(super) fn covers(layer: &Layer, at: DVec2) -> bool {

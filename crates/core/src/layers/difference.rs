@@ -21,6 +21,7 @@ use super::extent::{Extent, ExtentContext};
 use super::risk::{RiskField, RiskLayer, RiskSource};
 use super::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
+    hidden_differently,
 };
 use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
@@ -204,6 +205,8 @@ impl Steps<'_> {
         for layer in kept {
             if let Some(before) = stayed.iter().find(|before| before.id == layer.id) {
                 self.add_layer(layer, before);
+                let hidden = Extent::of(hidden_differently(layer, new, old));
+                self.add(layer, Combine::Replace, hidden, Any);
             }
         }
         for layer in new.iter().filter(|layer| layer.visible && !visible(old, layer)) {

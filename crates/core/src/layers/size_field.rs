@@ -64,11 +64,23 @@ impl SizeField {
     /// Returns the field of a spec on a lattice.
     pub fn new(spec: SizeFieldSpec, lattice: &Lattice) -> Self {
         let edge_lengths = EdgeLengths::new(spec.projection.as_ref(), lattice);
+        Self::with_lengths(spec, lattice, edge_lengths)
+    }
+
+    /// Returns the field of another spec on the same lattice.
+    pub fn with_spec(&self, spec: SizeFieldSpec) -> Self {
+        if spec.projection != self.spec.projection {
+            return Self::new(spec, &self.lattice);
+        }
+        Self::with_lengths(spec, &self.lattice, self.edge_lengths.clone())
+    }
+
+    fn with_lengths(spec: SizeFieldSpec, lattice: &Lattice, edge_lengths: EdgeLengths) -> Self {
         let SizeFieldSpec { transfer, outline, .. } = &spec;
         let plane =
             CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
         let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let layers = visible.map(|layer| CompiledLayer::new(layer, &plane)).collect();
+        let layers = visible.map(|layer| CompiledLayer::new(layer, &spec.layers, &plane)).collect();
         let square_bits = Box::new(settled::square_bits(lattice));
         let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, spec };
         let is_minimum = field.layers.iter().all(CompiledLayer::is_plain);

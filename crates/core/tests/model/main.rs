@@ -6,6 +6,7 @@ mod certificate;
 mod cleaning;
 #[path = "../../../../tests/shared/closure/mod.rs"]
 mod closure;
+mod depths;
 mod document;
 mod earth;
 mod edits;

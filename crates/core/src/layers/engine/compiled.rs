@@ -8,14 +8,15 @@ use crate::earth::EdgeLengths;
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Octagon};
 use crate::layers::{
-    Combine, Coverage, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
-    Shapes,
+    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Shapes,
+    hiding,
 };
 use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
+use super::cover::{Cover, share_in_mask};
 use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
@@ -26,6 +27,8 @@ pub struct CompiledLayer {
     pub id: LayerId,
     pub combine: Combine,
     mask: Option<Mask>,
+    /// The depths above it that hide its own.
+    covers: Vec<Cover>,
     reading: Reading,
     values: Values,
     /// The values with what gradation carries, where there is a closed form.
@@ -58,8 +61,8 @@ enum Values {
 }
 
 impl CompiledLayer {
-    /// Compiles a layer.
-    pub fn new(layer: &Layer, plane: &CompiledPlane) -> Self {
+    /// Compiles a layer of a stack.
+    pub fn new(layer: &Layer, stack: &[Layer], plane: &CompiledPlane) -> Self {
         let CompiledPlane { transfer, lattice, outline, edge_lengths } = *plane;
         let (lengths, greatest_scale) = (edge_lengths.table(), edge_lengths.greatest_scale());
         let reading = |quantity, nothing| match quantity {
@@ -114,13 +117,16 @@ impl CompiledLayer {
             }
         };
         let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());
-        Self { id, combine, mask, reading, values, graded: None }
+        let covers = hiding(stack, layer)
+            .map(|(above, depths)| Cover::new(&depths.source().raster, above.mask.as_ref(), lattice))
+            .collect();
+        Self { id, combine, mask, covers, reading, values, graded: None }
     }
 
     /// Finds in closed form what gradation carries, where that is possible: at least h_min, up to `most`. The
     /// finest of all layers must count.
     pub fn grade(&mut self, gradation: f64, h_min: f64, most: f64, lattice: &Lattice) {
-        let (Values::Analytic(analytic), None) = (&self.values, &self.mask) else { return };
+        let (Values::Analytic(analytic), false) = (&self.values, self.is_masked()) else { return };
         let function = analytic.function.graded(gradation, h_min, most, &lattice.bounds());
         self.graded = function.map(|function| Analytic::new(function, analytic.quantity));
     }
@@ -158,7 +164,7 @@ impl CompiledLayer {
         limit: usize,
         lattice: &Lattice,
     ) -> bool {
-        if self.mask.is_some() {
+        if self.is_masked() {
             return self.any_below_in_mask(paint, triangle, around, limit, lattice);
         }
         match &self.values {
@@ -198,20 +204,26 @@ impl CompiledLayer {
 
     /// Returns whether the mask certainly covers none of some cells.
     pub fn is_masked_out(&self, cells: &Cells, lattice: &Lattice) -> bool {
-        self.mask.is_some() && self.coverage(cells, lattice).0 == Share::None
+        self.is_masked() && self.coverage(cells, lattice).0 == Share::None
     }
 
-    /// Returns how many of some cells the mask covers, and where to divide them to know more.
+    /// Returns whether the layer may count in a part of the plane only.
+    fn is_masked(&self) -> bool {
+        self.mask.is_some() || !self.covers.is_empty()
+    }
+
+    /// Returns in how many of some cells the layer counts, and where to divide them to know more: those that
+    /// the mask covers, and no depths above it hide.
     fn coverage(&self, cells: &Cells, lattice: &Lattice) -> (Share, Option<Cut>) {
-        let Some(mask) = &self.mask else { return (Share::All, None) };
-        let Some(cut) = cells.middle() else {
-            return (Share::of(mask.contains(cells.center(lattice))), None);
-        };
-        match mask.classify(&cells.centers(lattice)) {
-            Coverage::Inside => (Share::All, None),
-            Coverage::Outside => (Share::None, None),
-            Coverage::Mixed => (Share::Some, Some(cut)),
+        let mut coverage = share_in_mask(self.mask.as_ref(), cells, lattice);
+        for cover in &self.covers {
+            if coverage.0 == Share::None {
+                break;
+            }
+            let (hidden, cut) = cover.share_of(cells, lattice);
+            coverage = (coverage.0.and(hidden.not()), coverage.1.or(cut));
         }
+        coverage
     }
 
     /// Returns the layer's answer in some cells, and the cut that divides them for a closer answer.
@@ -352,7 +364,8 @@ impl CompiledLayer {
     /// Returns the diameter that the layer asks for at a point in world units: infinite where it asks for
     /// nothing, and NaN, zero or less where the value is not valid.
     pub fn diameter_at(&self, paint: &PaintLayers, point: DVec2) -> f64 {
-        if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
+        let is_outside = self.mask.as_ref().is_some_and(|mask| !mask.contains(point));
+        if is_outside || self.covers.iter().any(|cover| cover.contains(point)) {
             return f64::INFINITY;
         }
         match &self.values {
@@ -408,9 +421,9 @@ impl Values {
 }
 
 /// A raster in which places without a value have a given one.
-struct WithGaps<'a> {
-    raster: &'a RasterPyramid,
-    gap: f32,
+pub(super) struct WithGaps<'a> {
+    pub raster: &'a RasterPyramid,
+    pub gap: f32,
 }
 
 impl ValueRanges for WithGaps<'_> {

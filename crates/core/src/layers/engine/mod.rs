@@ -6,6 +6,7 @@ pub mod cells;
 mod compiled;
 pub mod cone;
 pub mod counting;
+mod cover;
 pub mod gradation;
 #[cfg(test)]
 mod gradation_tests;

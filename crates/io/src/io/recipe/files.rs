@@ -14,6 +14,7 @@ use super::super::{DocumentPlane, KeyFault, Meter, ReadError, project, shape_for
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
 use meshbrush_core::raster::RasterPyramid;
@@ -66,6 +67,8 @@ pub struct Loaded {
     pub settings: Settings,
     /// The paint of its layers.
     pub paint: PaintLayers,
+    /// The coordinates in the file of the domain, where that is meshed in the plane of a projection.
+    pub coordinates: Option<Coordinates>,
     /// Notes for a person, a sentence each.
     pub notes: Vec<String>,
 }
@@ -89,6 +92,7 @@ impl SavedSettings {
             },
             paint: PaintLayers::default(),
             plane: None,
+            coordinates: None,
             note: None,
         };
         let settings = self.load(name, &loading.usual, &mut files)?;
@@ -98,7 +102,7 @@ impl SavedSettings {
         let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
         let notes = files.note.into_iter().chain(notes(&settings, has_frame));
         let notes = notes.map(|note| abridged(&note)).collect();
-        Ok(Loaded { settings, paint: files.paint, notes })
+        Ok(Loaded { settings, paint: files.paint, coordinates: files.coordinates, notes })
     }
 }
 
@@ -111,6 +115,8 @@ struct Files<'a> {
     paint: PaintLayers,
     /// The plane of the domain, if it has one.
     plane: Option<DocumentPlane>,
+    /// See [`Loaded::coordinates`].
+    coordinates: Option<Coordinates>,
     /// A sentence for a person about the polygons.
     note: Option<String>,
 }
@@ -164,6 +170,7 @@ impl Storage for Files<'_> {
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
             return Ok(ReadRegion { domain, marks, unit: outline.coordinates.assuming(assumed).unit() });
         };
+        self.coordinates = outline.coordinates.on_earth(assumed);
         let (outline, projection) = outline.projected(choice, assumed).map_err(|error| unsuited(&error))?;
         self.note = Some(in_the_plane(&outline, &projection));
         self.plane = Some(DocumentPlane { projection, assumed });

@@ -24,7 +24,7 @@ pub struct OpenedRecipe {
 pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
     let recipe = read(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let Loaded { settings, paint, mut notes } =
+    let Loaded { settings, paint, mut notes, coordinates: _ } =
         recipe.settings.load_files(&name, &Loading::for_document(meter))?;
     notes.extend(not_held(&recipe, settings.boundary));
     let document = Document::new(with_limits_of_the_grid(settings)?, Some(paint));
