@@ -135,7 +135,7 @@ pub fn export(
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
             let extract = DerivedMesh::new(&mesh, &domain, &settings.derived_cleaning()).extract(&mesh);
-            let target_diameter = if format.wants_node_data() {
+            let target_diameter = if format.has_targets() {
                 field.targets_at_nodes(rule, &paint, &extract, || meter.check())?
             } else {
                 Vec::new()

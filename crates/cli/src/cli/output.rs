@@ -97,6 +97,11 @@ impl Output {
         self.format.wants_node_data()
     }
 
+    /// Returns whether h̄ at the nodes is written.
+    pub fn has_targets(&self) -> bool {
+        self.format.has_targets()
+    }
+
     /// Returns whether it is a picture.
     pub fn is_picture(&self) -> bool {
         !matches!(self.format, ExportFormat::Mesh(_))

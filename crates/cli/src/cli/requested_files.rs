@@ -134,7 +134,8 @@ pub fn write_files(
     };
     let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
     let placed = placed.as_ref().unwrap_or(extract);
-    let target_diameter = match requested.iter().any(RequestedFiles::wants_node_data) {
+    let mut outputs = requested.iter().flat_map(|files| &files.outputs);
+    let target_diameter = match outputs.any(Output::has_targets) {
         true => finished.target_at_nodes(extract, terminal),
         false => Vec::new(),
     };

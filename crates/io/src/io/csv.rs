@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "Spreadsheets and scripts: a row for each triangle",
     size: TypicalSize { bytes: 164.0, bytes_per_digit: 7.0 },
+    has_targets: true,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -26,6 +26,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "ADCIRC (fort.14): open boundaries, land and islands",
     size: SIZE,
+    has_targets: false,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "_grd.dat",
     purpose: "FVCOM: three files, mesh, depths and open boundary",
     size: TypicalSize { bytes: 48.0, bytes_per_digit: 5.0 },
+    has_targets: false,
     beside: &[
         ("_dep.dat", |out, mesh, data, meter| write_depths(&mut meter.count(out), mesh, data)),
         ("_obc.dat", |out, mesh, data, meter| write_open_boundary(&mut meter.count(out), mesh, data)),

@@ -28,6 +28,8 @@ pub struct FormatSpec {
     pub purpose: &'static str,
     /// How long its files are.
     pub size: TypicalSize,
+    /// Whether h̄ at the nodes is in its files: [`MeshData::target_diameter`].
+    pub has_targets: bool,
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
@@ -52,6 +54,11 @@ impl MeshFormat {
     /// Returns all formats.
     pub fn all() -> impl Iterator<Item = Self> {
         MESH_FORMATS.into_iter().map(|spec| Self { spec, is_binary: false })
+    }
+
+    /// Returns whether h̄ at the nodes is in its files; the others are written without reading it.
+    pub fn has_targets(self) -> bool {
+        self.spec.has_targets
     }
 
     /// Returns the binary form of a format that is text otherwise, if there is one: of `.msh`.

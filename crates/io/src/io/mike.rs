@@ -22,6 +22,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "MIKE 21 and MIKE 3 FM: open boundaries and land as codes",
     size: TypicalSize { bytes: 36.0, bytes_per_digit: 4.5 },
+    has_targets: false,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

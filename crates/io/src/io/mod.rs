@@ -136,7 +136,8 @@ static SHAPE_FORMATS: [&ShapeFormatSpec; 2] = [&geojson::FORMAT, &shp::FORMAT];
 /// In files a piece of the boundary has the marker 1 + its number.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshData<'a> {
-    /// h̄ at each node, in world units, in the order of the extract's nodes.
+    /// h̄ at each node, in world units, in the order of the extract's nodes; only formats with
+    /// [`MeshFormat::has_targets`] read it.
     pub target_diameter: &'a [f64],
     /// Further values at the nodes, in the same order.
     pub quantities: &'a [NodeValues],

@@ -21,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
     size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
+    has_targets: true,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),

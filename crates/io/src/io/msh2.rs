@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "WAVEWATCH III (Gmsh 2.2): open boundaries as points",
     size: TypicalSize { bytes: 47.0, bytes_per_digit: 5.5 },
+    has_targets: false,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -21,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "Triangle: four files, nodes, elements, neighbours and edges",
     size: TypicalSize { bytes: 93.0, bytes_per_digit: 13.0 },
+    has_targets: true,
     beside: &[
         ("ele", |out, mesh, data, meter| write_elements(&mut meter.count(out), mesh, data)),
         ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),

@@ -15,6 +15,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "Blender and other 3D programs: a group for each level",
     size: TypicalSize { bytes: 58.0, bytes_per_digit: 3.5 },
+    has_targets: true,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

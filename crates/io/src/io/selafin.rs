@@ -26,6 +26,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "TELEMAC (SELAFIN): two files, mesh and boundary conditions",
     size: TypicalSize { bytes: 33.0, bytes_per_digit: 0.0 },
+    has_targets: false,
     beside: &[("cli", |out, mesh, data, meter| write_conditions(&mut meter.count(out), mesh, data))],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -19,6 +19,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
     size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
+    has_targets: false,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -18,6 +18,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "CAD and 3D printing: triangles only, without h̄",
     size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
+    has_targets: false,
     beside: &[],
     write: |out, mesh, data, meter| {
         meter.expect(bytes(mesh));

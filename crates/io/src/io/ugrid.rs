@@ -26,6 +26,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "Delft3D-FM (UGRID, NetCDF): with h̄ and boundary markers",
     size: TypicalSize { bytes: 52.0, bytes_per_digit: 0.0 },
+    has_targets: true,
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
     write_binary: None,

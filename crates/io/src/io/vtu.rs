@@ -31,6 +31,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     tail: "",
     purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
     size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
+    has_targets: true,
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
     write_binary: None,

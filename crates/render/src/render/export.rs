@@ -130,6 +130,11 @@ impl ExportFormat {
         matches!(self, Self::Mesh(_))
     }
 
+    /// Returns whether h̄ at the nodes is in its files.
+    pub fn has_targets(self) -> bool {
+        matches!(self, Self::Mesh(format) if format.has_targets())
+    }
+
     /// Returns all files that an export to `path` writes. The first is `path`, or for FVCOM the one beside it
     /// that ends in `_grd.dat`.
     pub fn files(self, path: &Path) -> Vec<PathBuf> {

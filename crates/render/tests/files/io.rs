@@ -786,6 +786,27 @@ fn obj_reads_back() {
 }
 
 #[test]
+fn targets_are_read_by_the_formats_that_have_them_only() {
+    let sample = Sample::all().remove(0);
+    let folder = std::env::temp_dir().join(format!("meshbrush-targets-{}", std::process::id()));
+    for format in MeshFormat::all().flat_map(|format| [Some(format), format.binary()]).flatten() {
+        let written = |target_diameter: &[f64]| {
+            let data = MeshData { target_diameter, ..sample.data() };
+            let files =
+                format.write(&folder.join("m.file"), &sample.mesh.extract(), &data, &Meter::default());
+            files.unwrap().into_iter().map(|file| std::fs::read(file).unwrap()).collect::<Vec<_>>()
+        };
+        std::fs::create_dir_all(&folder).unwrap();
+        let usual = written(&sample.targets);
+        match format.has_targets() {
+            true => assert!(usual != written(&vec![0.125; sample.targets.len()]), "{format:?}"),
+            false => assert!(usual == written(&[]), "{format:?}"),
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}
+
+#[test]
 fn files_are_the_same_for_any_number_of_threads() {
     let sample = Sample::fine();
     let (extract, data, meter) = (sample.mesh.extract(), sample.data(), Meter::default());
