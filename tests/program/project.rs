@@ -127,8 +127,8 @@ fn documents() -> Vec<Document> {
     let mut random = fastrand::Rng::with_seed(7);
     let plain = Settings::default();
     let mut all = vec![
-        Example::Threats.document(|| unreachable!(), || unreachable!(), || unreachable!()),
-        Example::Diamond.document(|| unreachable!(), || unreachable!(), || unreachable!()),
+        Example::Threats.without_data(),
+        Example::Diamond.without_data(),
         Document::new(plain.clone(), None).unwrap(),
     ];
     for _ in 0..40 {

@@ -99,11 +99,7 @@ fn cancel_gives_a_long_update_up_and_the_next_edit_takes_it_up_again() {
 #[test]
 fn one_slice_of_work_is_small_however_much_there_is_to_do() {
     const VISITS: usize = 2048;
-    let mut document = Example::Threats.document(
-        || unreachable!("not of this example"),
-        || unreachable!("nor this"),
-        || unreachable!("nor this"),
-    );
+    let mut document = Example::Threats.without_data();
     let mut follower = Follower::new(&mut document).unwrap();
     document.set(Setting::DiameterAtRiskOne(TWO_MILLIONS)).unwrap();
     // The mesh that is there grows in place.

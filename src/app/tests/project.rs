@@ -141,7 +141,7 @@ fn unsaved_edits_are_asked_about() {
 #[test]
 fn edits_are_asked_about_before_unsaved_work_is_restored() {
     let folder = folder("restored");
-    let left = Example::Diamond.document(|| unreachable!(), || unreachable!(), || unreachable!());
+    let left = Example::Diamond.without_data();
     let journal = Journal::begin(&folder, &Project::of(&left), None, 1).unwrap();
     drop(journal);
     let mut window = window();
@@ -287,11 +287,7 @@ fn a_session_is_exported_as_a_test_that_replays() {
 fn what_cannot_be_opened_or_saved_is_told_and_changes_nothing() {
     let folder = folder("bad");
     let mut sound = Vec::new();
-    project::write(
-        &mut sound,
-        &Project::of(&Example::Threats.document(|| unreachable!(), || unreachable!(), || unreachable!())),
-    )
-    .unwrap();
+    project::write(&mut sound, &Project::of(&Example::Threats.without_data())).unwrap();
     let bad: [(&str, &[u8], &str); 4] = [
         ("cut.meshbrush", &sound[..sound.len() / 2], "cut off"),
         ("empty.meshbrush", b"", "empty"),
@@ -350,11 +346,7 @@ impl egui::DroppedFile for Dropped {
 fn files_can_be_dropped_and_recent_ones_are_in_the_menu() {
     let file = folder("recent").join("dropped.meshbrush");
     let mut bytes = Vec::new();
-    project::write(
-        &mut bytes,
-        &Project::of(&Example::Diamond.document(|| unreachable!(), || unreachable!(), || unreachable!())),
-    )
-    .unwrap();
+    project::write(&mut bytes, &Project::of(&Example::Diamond.without_data())).unwrap();
     fs::write(&file, bytes).unwrap();
     let mut window = window();
     window.input_mut().dropped_files.push(Arc::new(Dropped(file)));

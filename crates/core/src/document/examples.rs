@@ -81,6 +81,19 @@ impl Example {
         }
     }
 
+    /// Returns the document of an example that needs no data.
+    ///
+    /// # Panics
+    /// Panics for the others.
+    pub fn without_data(self) -> Document {
+        let needs = |data: &str| format!("the example {} needs {data}", self.name());
+        self.document(
+            || panic!("{}", needs("a picture of slopes")),
+            || panic!("{}", needs("the outline of a sea")),
+            || panic!("{}", needs("a sea chart")),
+        )
+    }
+
     /// Returns the document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle;
     /// `sea` reads the polygons of the Aegean in degrees, and `chart` the Celtic Sea with its depths. Only
     /// the examples that need them call these.

@@ -6,7 +6,7 @@ use super::{Settings, Stage};
 use crate::build::BuildError;
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder, RegionComparison};
 use crate::field::RefinementRule;
-use crate::geometry::{Lattice, Rect};
+use crate::geometry::Rect;
 use crate::layers::{LayerCheck, SizeField};
 use crate::mesh::Progress;
 
@@ -52,7 +52,7 @@ impl Following {
         has_new_outline: bool,
         has_new_field: bool,
     ) -> Self {
-        let outline = if has_new_outline { OutlineWork::new(shown, wanted, field.lattice()) } else { None };
+        let outline = if has_new_outline { OutlineWork::new(shown, wanted, field) } else { None };
         let field = has_new_field.then(|| FieldWork::new(shown, wanted, field));
         Self { settings: wanted.clone(), outline, field }
     }
@@ -96,11 +96,16 @@ impl Following {
 
 impl OutlineWork {
     /// `None` if a domain is given by a formula.
-    fn new(shown: &Settings, wanted: &Settings, lattice: &Lattice) -> Option<Self> {
+    fn new(shown: &Settings, wanted: &Settings, field: &SizeField) -> Option<Self> {
         let (before, after) = (shown.domain.as_region()?, wanted.domain.as_region()?);
         Some(Self {
             comparison: RegionComparison::new(before, after),
-            index: DomainOnLatticeBuilder::new(&wanted.domain, wanted.boundary, lattice),
+            index: DomainOnLatticeBuilder::with_lengths(
+                &wanted.domain,
+                wanted.boundary,
+                field.lattice(),
+                field.edge_lengths().clone(),
+            ),
             is_done: false,
         })
     }

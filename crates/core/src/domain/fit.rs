@@ -72,6 +72,16 @@ pub struct DomainOnLatticeBuilder {
 impl DomainOnLatticeBuilder {
     /// Returns the work for a domain on a lattice that covers its bounds.
     pub fn new(domain: &Domain, boundary: BoundaryTreatment, lattice: &Lattice) -> Self {
+        Self::with_lengths(domain, boundary, lattice, EdgeLengths::new(domain.projection.as_ref(), lattice))
+    }
+
+    /// Returns the work of [`Self::new`]; the lengths are those of the lattice in the plane of the domain.
+    pub(crate) fn with_lengths(
+        domain: &Domain,
+        boundary: BoundaryTreatment,
+        lattice: &Lattice,
+        edge_lengths: EdgeLengths,
+    ) -> Self {
         let formula = domain.formula().cloned();
         let indexed = DomainOnLattice {
             bounds: domain.bounds,
@@ -79,7 +89,7 @@ impl DomainOnLatticeBuilder {
             formula,
             region: None,
             fitted: None,
-            edge_lengths: EdgeLengths::new(domain.projection.as_ref(), lattice),
+            edge_lengths,
             on_outline: false,
         };
         let region = domain.region().map(|region| RegionOnLatticeBuilder::new(region, lattice));

@@ -18,7 +18,7 @@ use crate::geometry::{Lattice, LatticePoint, Rect};
 ///
 /// The bound of a square is never lower than that of a square around it, so that a rule which divides by it
 /// stays monotone. Bounds are rounded down to one of a few *bands*, for tables.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 pub struct ScaleMap {
     /// Squares of 2^bits lattice steps.
     bits: u32,
@@ -31,7 +31,7 @@ pub struct ScaleMap {
 }
 
 /// Bounds of ln k in a cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Debug)]
 struct Cell {
     /// The affine bound at the lower left corner.
     at_corner: f64,
@@ -43,7 +43,7 @@ struct Cell {
     greatest: f64,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug)]
 struct LargerSquares {
     columns: u32,
     /// The first and the last band in each square, row by row from the lowest.
@@ -51,7 +51,7 @@ struct LargerSquares {
 }
 
 /// Steps of ln k.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 struct Bands {
     least: f64,
     step: f64,

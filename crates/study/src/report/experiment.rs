@@ -107,11 +107,7 @@ impl ExperimentMesh {
 
 /// Returns the diamond of Figure 1 with a target diameter that needs `level` levels.
 fn settings(level: u32) -> Settings {
-    let document = Example::Diamond.document(
-        || unreachable!("no raster"),
-        || unreachable!("no polygons"),
-        || unreachable!("no chart"),
-    );
+    let document = Example::Diamond.without_data();
     let mut settings = document.settings().clone();
     // A hair above the diameter of the level, which is irrational at even levels.
     let target = bisection_edge_length(settings.spacing, level) * (1.0 + 1e-12);

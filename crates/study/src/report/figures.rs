@@ -125,11 +125,7 @@ impl ReportFigure {
                 ..small("if(hypot(x - 0.5, y - 0.5) < 0.1, 0.4, 1)", 1.0 / 3.0, self)
             },
             Self::Mesh | Self::Times | Self::Orientation | Self::Experiment => {
-                let diamond = Example::Diamond.document(
-                    || unreachable!("no raster"),
-                    || unreachable!("no polygons"),
-                    || unreachable!("no chart"),
-                );
+                let diamond = Example::Diamond.without_data();
                 Settings { name: self.name().into(), ..diamond.settings().clone() }
             }
         };

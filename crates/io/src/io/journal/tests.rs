@@ -22,7 +22,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn example() -> Document {
-    let mut document = Example::Threats.document(|| unreachable!(), || unreachable!(), || unreachable!());
+    let mut document = Example::Threats.without_data();
     document.take_edits();
     document
 }
