@@ -192,7 +192,7 @@ fn after_a_dab(group: &mut Group<'_>, pool: &ThreadPool, mesh: &Arc<PathMesh>, p
     bench("after a dab, in full", PathRequest::FULL);
 }
 
-/// Prints how long it takes to know where paths may go.
+/// Prints how long it takes to find the triangles that paths may cross.
 fn coasts() {
     let domain = Domain::of_polygons(&lake()).expect("rings");
     let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };

@@ -36,7 +36,7 @@ pub struct FinishedMesh {
     marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths.
     pub unit: LengthUnit,
-    /// The coordinates of files; see [`ToMesh`].
+    /// The coordinates of exported files, unless others are asked for; see [`ToMesh`].
     pub coordinates: Coordinates,
     /// Time spent on refinement alone.
     pub refinement: Duration,

@@ -53,8 +53,8 @@ pub struct ToMesh {
     pub marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths, where a file says it.
     pub unit: LengthUnit,
-    /// The coordinates of files, where the mesh is in the plane of a projection and nothing else is asked
-    /// for: those of the domain's file.
+    /// The coordinates of exported files, unless others are asked for: those of the domain's file. They count
+    /// only where the mesh is in the plane of a projection.
     pub coordinates: Coordinates,
     /// The paths of a project or a recipe.
     pub paths: Arc<PathPlan>,

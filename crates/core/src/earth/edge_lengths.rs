@@ -46,7 +46,8 @@ impl EdgeLengths {
         &self.table
     }
 
-    /// Returns the limit of a triangle, given by its corners and level; `None` for levels of no lattice.
+    /// Returns the limit of a triangle, given by its corners and level; `None` for a level that no lattice
+    /// has.
     #[inline]
     pub fn limit(&self, corners: [LatticePoint; 3], level: u32) -> Option<usize> {
         let level_in_band = Some(level as usize).filter(|&level| level < LEVELS)?;
@@ -54,7 +55,7 @@ impl EdgeLengths {
         Some(LEVELS * band + level_in_band)
     }
 
-    /// Returns the length of a triangle, given by its corners and level; 0 for levels of no lattice.
+    /// Returns the length of a triangle, given by its corners and level; 0 for a level that no lattice has.
     #[inline]
     pub fn of(&self, corners: [LatticePoint; 3], level: u32) -> f64 {
         self.limit(corners, level).map_or(0.0, |limit| self.table[limit])

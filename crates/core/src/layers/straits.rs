@@ -95,8 +95,9 @@ pub struct StraitDiscs(Arc<Indexed>);
 struct Indexed {
     /// The outline that they were found for.
     region: Option<Arc<Region>>,
-    /// The least and the greatest width that are asked for, and both in the plane.
+    /// The least and the greatest width that are asked for.
     between: [f64; 2],
+    /// The same as lengths in the plane.
     in_plane: [f64; 2],
     discs: Vec<StraitDisc>,
     tree: BoxTree,
