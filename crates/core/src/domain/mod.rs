@@ -22,7 +22,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::earth::{Coordinates, GeographicExtent, Projection, Reprojection};
+use crate::earth::{Coordinates, GeographicExtent, InverseScale, Projection, Reprojection};
 use crate::field::Formula;
 use crate::geometry::{LatticePoint, Rect};
 use crate::mesh::Extract;
@@ -199,6 +199,13 @@ impl Domain {
         let extent = GeographicExtent::of_plane(&projection, self.bounds);
         // The scale has no greatest value but on the rim.
         extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
+    }
+
+    /// Returns the inverse scale in the bounds, from lengths in the plane to those on the Earth; `None`
+    /// without a projection.
+    pub fn inverse_scale(&self) -> Option<Arc<InverseScale>> {
+        let projection = self.projection.as_ref()?;
+        Some(Arc::new(InverseScale::new(projection, &self.bounds)))
     }
 
     /// Returns the domain with other bounds. Polygons are clipped to them.
