@@ -57,10 +57,10 @@ impl PathCost {
     /// # Errors
     /// Fails when the weights make no cost.
     pub fn density(&self, risk: RiskField, domain: &Domain) -> Result<Arc<dyn CostDensity>, PathError> {
-        let scale = domain.inverse_scale();
+        let ground = domain.ground();
         Ok(match self {
-            Self::Weighted(weights) => in_plane(WeightedCost::new(*weights, risk)?, scale),
-            Self::Formula(formula) => in_plane(FormulaCost { formula: formula.clone(), risk }, scale),
+            Self::Weighted(weights) => in_plane(WeightedCost::new(*weights, risk)?, &ground),
+            Self::Formula(formula) => in_plane(FormulaCost { formula: formula.clone(), risk }, &ground),
         })
     }
 

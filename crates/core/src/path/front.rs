@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights, in_plane};
-use crate::earth::InverseScale;
+use crate::earth::Ground;
 use crate::layers::RiskField;
 use crate::text::rounded;
 
@@ -26,7 +26,7 @@ pub struct FrontPoint {
 pub struct Front {
     mesh: Arc<PathMesh>,
     risk: RiskField,
-    inverse_scale: Option<Arc<InverseScale>>,
+    ground: Ground,
     places: Vec<DVec2>,
     /// The risk weights still to do, the smallest last.
     waiting: Vec<f64>,
@@ -51,13 +51,13 @@ impl Front {
         let weight =
             |n: usize| rounded(least * libm::pow(greatest / least, n as f64 / steps as f64), WEIGHT_DIGITS);
         let waiting = (0..=steps).rev().map(weight).chain([0.0]).collect();
-        Self { mesh: mesh.into(), risk, inverse_scale: None, places, waiting, points: Vec::new() }
+        Self { mesh: mesh.into(), risk, ground: Ground::default(), places, waiting, points: Vec::new() }
     }
 
-    /// Measures lengths on the Earth, in the plane of a projection: by its inverse scale, if there is one.
+    /// Measures lengths as a domain does.
     #[must_use]
-    pub fn on_earth(self, inverse_scale: Option<Arc<InverseScale>>) -> Self {
-        Self { inverse_scale, ..self }
+    pub fn measured_on(self, ground: Ground) -> Self {
+        Self { ground, ..self }
     }
 
     /// Returns how many paths are still to be found.
@@ -88,7 +88,7 @@ impl Front {
     }
 
     fn solve(&self, weights: Weights) -> Result<Solution, PathError> {
-        let density = in_plane(WeightedCost::new(weights, self.risk.clone())?, self.inverse_scale.clone());
+        let density = in_plane(WeightedCost::new(weights, self.risk.clone())?, &self.ground);
         let request = PathRequest { has_bounds: false, ..PathRequest::FULL };
         Planner::new(self.mesh.clone(), &*density)?.solve(&*density, &self.places, request)
     }

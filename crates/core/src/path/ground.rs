@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{CostDensity, CostRange};
-use crate::earth::InverseScale;
+use crate::earth::{Ground, InverseScale};
 use crate::geometry::Rect;
 
 /// A cost per metre on the ellipsoid as one per metre in the plane of a projection: c / k.
@@ -19,13 +19,10 @@ pub struct GroundCost<C> {
     pub inverse_scale: Arc<InverseScale>,
 }
 
-/// Returns a cost per unit of length on the Earth as one in the plane, where that has a scale.
-pub fn in_plane(
-    cost: impl CostDensity + 'static,
-    inverse_scale: Option<Arc<InverseScale>>,
-) -> Arc<dyn CostDensity> {
-    match inverse_scale {
-        Some(inverse_scale) => Arc::new(GroundCost { cost, inverse_scale }),
+/// Returns a cost per unit of length on the ground as one in the plane.
+pub fn in_plane(cost: impl CostDensity + 'static, ground: &Ground) -> Arc<dyn CostDensity> {
+    match ground.inverse_scale() {
+        Some(scale) => Arc::new(GroundCost { cost, inverse_scale: Arc::clone(scale) }),
         None => Arc::new(cost),
     }
 }

@@ -147,7 +147,7 @@ impl FrontFinder {
         self.of = Some(of);
         let find = move |output: &Output<News>| {
             let front = Front::new(mesh, risk, places, FRONT_PATHS);
-            let mut front = front.on_earth(domain.inverse_scale());
+            let mut front = front.measured_on(domain.ground());
             while output.is_wanted() {
                 let goes_on = front.advance().unwrap_or(false);
                 let news = News { points: front.points().to_vec(), remaining: front.remaining() };
