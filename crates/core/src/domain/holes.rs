@@ -19,7 +19,8 @@ pub struct HoleFigures {
 impl HoleFigures {
     /// Returns the hole with its area on the ground. It is small compared with the Earth.
     pub(super) fn on_ground(self, ground: &Ground) -> Self {
-        Self { area: self.area * ground.inverse_scale_at(self.place).powi(2), ..self }
+        let scale = ground.inverse_scale_at(self.place);
+        Self { area: self.area * (scale * scale), ..self }
     }
 }
 

@@ -70,7 +70,10 @@ impl Ground {
         let sides = ring.iter().zip(ring.iter().cycle().skip(1));
         let strip = |at: DVec2| {
             let width = at.x - origin.x;
-            let squared = |share: f64| scale.at(DVec2::new(origin.x + share * width, at.y)).powi(2);
+            let squared = |share: f64| {
+                let scale = scale.at(DVec2::new(origin.x + share * width, at.y));
+                scale * scale
+            };
             width * mean(width.abs(), squared)
         };
         sides.map(|(&a, &b)| (b.y - a.y) * mean(a.distance(b), |share| strip(a.lerp(b, share)))).sum()
