@@ -156,8 +156,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
-    /// Domain with holes: a GeoJSON file or shapefile (.shp) with polygons, in its own coordinates; - is
-    /// GeoJSON from standard input
+    /// Domain with holes: a GeoJSON file, shapefile (.shp) or GeoPackage (.gpkg) with polygons, in its own
+    /// coordinates; - is GeoJSON from standard input
     ///
     /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
@@ -224,8 +224,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.csv")]
     pub threats: Vec<PathBuf>,
 
-    /// Points, lines or polygons (.geojson, .shp) from which the target diameter grows with the distance; may
-    /// be repeated
+    /// Points, lines or polygons (.geojson, .shp, .gpkg) from which the target diameter grows with the
+    /// distance; may be repeated
     #[arg(long, value_name = "FILE.geojson")]
     pub distance: Vec<PathBuf>,
 

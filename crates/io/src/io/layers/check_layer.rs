@@ -171,7 +171,7 @@ impl SavedLayer {
             (None, Some(_), None) => Ok(CheckedShapes::File),
             (None, file, Some(shapes)) if file.is_none() || stored == Stored::InProject => shapes_of(shapes),
             (None, None, None) => Err(self.missing(
-                "needs to = \"outline\" or to = \"coasts\", `file`, a .geojson or .shp, or `shapes`",
+                "needs to = \"outline\" or to = \"coasts\", `file`, a .geojson, .shp or .gpkg, or `shapes`",
             )),
             (to, _, shapes) => {
                 let key = if to.is_some() {
@@ -190,7 +190,7 @@ impl SavedLayer {
         match (&self.file, &self.shapes) {
             (Some(_), None) => Ok(CheckedShapes::File),
             (None, Some(shapes)) => shapes_of(shapes),
-            (None, None) => Err(self.missing("needs `file`, a .geojson or .shp, or `shapes`")),
+            (None, None) => Err(self.missing("needs `file`, a .geojson, .shp or .gpkg, or `shapes`")),
             (Some(_), Some(_)) => Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`.")),
         }
     }
