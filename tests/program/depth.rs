@@ -116,7 +116,7 @@ fn triangles_are_as_small_as_the_formulas_ask_for_and_no_smaller() {
     let bay = Bay::new();
     folder.file("bay.asc", bay.grid(|_, _| true));
     let wet = |depth: f64, size: f64| if depth > 0.0 { size } else { f64::INFINITY };
-    let cases: [(&str, Asked); 3] = [
+    let cases: [(&str, Asked); 4] = [
         (
             "--per-wavelength 12 --period 300",
             Box::new(move |bay, x, y| {
@@ -136,6 +136,13 @@ fn triangles_are_as_small_as_the_formulas_ask_for_and_no_smaller() {
             Box::new(move |bay, x, y| {
                 let depth = bay.depth(x, y).max(1.0);
                 wet(bay.depth(x, y), ((G * depth).sqrt() + (G / depth).sqrt()) * 40.0 / 0.4)
+            }),
+        ),
+        (
+            "--target if(depth>0,400+4*depth+0.01*x,inf)",
+            Box::new(move |bay, x, y| {
+                let east = (x as f64 + 0.5) * PIXEL;
+                wet(bay.depth(x, y), 400.0 + 4.0 * bay.depth(x, y) + 0.01 * east)
             }),
         ),
     ];
@@ -180,10 +187,24 @@ fn the_largest_courant_number_is_a_floor_for_all_other_sizes() {
         ("--max-courant 0.5", "--time-step <SECONDS>"),
         ("--max-courant 0 --time-step 2", "--max-courant"),
         ("--per-wavelength 5 --period -1", "--per-wavelength"),
+        ("--risk depth/100", "only target diameters have depths"),
     ] {
         let ran = folder.run(format!("mesh {DOMAIN} --depth bay.asc {options}"));
         assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
     }
+}
+
+#[test]
+fn a_formula_of_the_depth_needs_depths() {
+    let folder = Folder::new("depth-formula");
+    let ran = folder.run(format!("mesh {DOMAIN} --target 400+depth"));
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("--target: it uses `depth`, and there are no depths."), "{}", ran.err);
+    let recipe = "[domain]\nbounds = [0, 0, 9, 9]\n[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\n\
+                  formula = \"1 + depth\"\n";
+    folder.file("a.toml", recipe);
+    let ran = folder.run("mesh a.toml".to_owned());
+    assert!(ran.status == 2 && ran.err.contains("a.toml:6:"), "{}", ran.err);
 }
 
 #[test]

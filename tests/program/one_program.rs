@@ -7,7 +7,7 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape, PieceChoice,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -175,7 +175,16 @@ fn depths(random: &mut fastrand::Rng) -> Depths {
 }
 
 fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {
-    if random.bool() { DistanceTo::Outline } else { DistanceTo::Coasts }
+    match random.u8(..4) {
+        0 => DistanceTo::Outline,
+        1 => DistanceTo::Coasts,
+        _ => {
+            let names = ["mainland", "Rock", "open south", "land"].map(str::to_owned);
+            let names = names.into_iter().filter(|_| random.u8(..3) == 0).collect();
+            let types = BoundaryType::ALL.into_iter().filter(|_| random.u8(..3) == 0).collect();
+            DistanceTo::Pieces(PieceChoice { names, types })
+        }
+    }
 }
 
 fn threats(random: &mut fastrand::Rng) -> Threats {

@@ -222,7 +222,9 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--target-raster", !typed.target_raster.is_empty()),
         ("--risk-raster", !typed.risk_raster.is_empty()),
         ("--threats", !typed.threats.is_empty()),
-        ("--distance", !typed.distance.is_empty()),
+        ("--distance", !typed.distances.distance.is_empty()),
+        ("--distance-to-piece", !typed.distances.distance_to_piece.is_empty()),
+        ("--distance-to-type", !typed.distances.distance_to_type.is_empty()),
         ("--depth", !typed.water.depth.is_empty()),
         ("--straits", typed.water.straits.is_some()),
     ];

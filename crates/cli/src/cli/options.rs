@@ -16,8 +16,6 @@ use meshbrush_io::io::{KeyFault, Step};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
-/// Growth of the target diameter by unit of distance, unless an option says otherwise.
-const USUAL_SLOPE: f64 = 0.2;
 /// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
 const METRES: &str = "metres";
 
@@ -113,17 +111,7 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         }));
     }
     layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
-    for path in &typed.distance {
-        let (option, layer) = of_file("--distance", SavedKind::Distance, path);
-        let at_zero = value(&typed.distance_at_zero).or(value(&typed.h_min)).ok_or_else(|| {
-            let problem =
-                "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
-            Failure::Usage(format!("{option}: {problem}."))
-        })?;
-        let slope = typed.distance_slope.unwrap_or(USUAL_SLOPE);
-        let (at_zero, slope) = (Some(at_zero), Some(slope));
-        layers.push((option, SavedLayer { at_zero, slope, range: value(&typed.distance_range), ..layer }));
-    }
+    layers.extend(typed.distances.layers(value(&typed.h_min))?);
     layers.extend(typed.water.depth_layers());
     layers.extend(straits(typed)?);
     Ok(layers)
@@ -155,11 +143,14 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
     let length = |option: &str, value: Option<&Length>| with(option, value.map(Length::to_string));
     let option = match &fault.path[..] {
         [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
-            "at_zero" => {
-                length("--distance-at-zero", typed.distance_at_zero.as_ref().or(typed.h_min.as_ref()))
+            "at_zero" => length(
+                "--distance-at-zero",
+                typed.distances.distance_at_zero.as_ref().or(typed.h_min.as_ref()),
+            ),
+            "slope" => {
+                with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
             }
-            "slope" => with("--distance-slope", typed.distance_slope.map(|slope| slope.to_string())),
-            "range" => length("--distance-range", typed.distance_range.as_ref()),
+            "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
             "width_to" => length("--widest-strait", typed.water.widest_strait.as_ref()),
             _ => layers[*layer].0.clone(),
         },

@@ -39,7 +39,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            boundary_marks: _,
             pins: _,
             paths: _,
             // This one decides what is derived from the mesh.
@@ -49,6 +48,7 @@ impl Settings {
             max_memory: _,
             domain,
             boundary,
+            boundary_marks,
             spacing,
             transfer,
             layers,
@@ -59,7 +59,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            boundary_marks: _,
             pins: _,
             paths: _,
             cleaning: _,
@@ -67,6 +66,7 @@ impl Settings {
             max_memory: _,
             domain: old_domain,
             boundary: old_boundary,
+            boundary_marks: old_boundary_marks,
             spacing: old_spacing,
             transfer: old_transfer,
             layers: old_layers,
@@ -84,7 +84,10 @@ impl Settings {
         let field = transfer != old_transfer
             || layers != old_layers
             || gradation != old_gradation
-            || (outline && layers.iter().any(|layer| layer.visible && layer.follows_outline()));
+            || (outline && layers.iter().any(|layer| layer.visible && layer.follows_outline()))
+            // Names and types of pieces matter to distances alone.
+            || (boundary_marks != old_boundary_marks
+                && layers.iter().any(|layer| layer.visible && layer.kind.follows_pieces()));
         match rule {
             _ if !outline && !field => Change::Nothing,
             RefinementRule::Area => Change::Update { outline, field },

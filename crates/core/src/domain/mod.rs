@@ -30,7 +30,7 @@ use crate::text::Grouped;
 
 pub use boundary::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts, FrameSide,
-    LONGEST_NAME, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, coasts,
+    LONGEST_NAME, MeshBoundary, NamedPolygon, PieceChoice, PieceFigures, PieceRun, coasts,
 };
 pub use comparison::RegionComparison;
 use complexity::check_complexity;

@@ -2,7 +2,7 @@
 
 use super::{
     Combine, DepthRule, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
-    SizeFieldSpec, Threats,
+    SizeFieldSpec, Threats, surface_changes,
 };
 use crate::geometry::{Rect, z_order};
 use crate::raster::ValueRanges;
@@ -95,10 +95,11 @@ impl Layer {
 
     /// Returns whether it changes with the boundary of the domain.
     pub fn follows_outline(&self) -> bool {
-        matches!(
-            self.kind,
-            LayerKind::Distance { to: DistanceTo::Outline | DistanceTo::Coasts, .. } | LayerKind::Straits(_)
-        )
+        match &self.kind {
+            LayerKind::Distance { to, .. } => to.shapes().is_none(),
+            LayerKind::Straits(_) => true,
+            _ => false,
+        }
     }
 
     /// Returns whether it asks for the distance to the whole boundary of the domain.
@@ -119,6 +120,9 @@ impl Layer {
                     .into_iter()
                     .flat_map(|raster| raster.tiles().map(|(place, _)| place.area(raster.grid())));
                 Extent::of(tiles)
+            }
+            LayerKind::Formula { quantity: _, formula } if formula.uses_depth() => {
+                Extent::of(surface_changes(&context.spec.layers, &[]))
             }
             LayerKind::Formula { quantity, formula } => match (quantity, formula.constant()) {
                 (Quantity::Diameter, Some(f64::INFINITY)) => Extent::Within(Vec::new()),

@@ -3,6 +3,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{Depths, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
+use crate::domain::PieceChoice;
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
 
@@ -119,6 +120,9 @@ pub enum DistanceTo {
     /// The coasts: the boundary of the domain without its open parts, on both sides. A layer of a document
     /// has it; in the description of a size field, shapes take its place, or nothing without a coast.
     Coasts,
+    /// Some pieces of the boundary, on both sides. A layer of a document has it; in the description of a size
+    /// field, shapes take its place, or nothing where no piece is chosen.
+    Pieces(PieceChoice),
     /// Points, lines and polygons.
     Shapes {
         /// The name of their file, for a person; empty where there is none.
@@ -139,7 +143,7 @@ impl DistanceTo {
     /// Returns the shapes, unless it is the outline or a part of it.
     pub fn shapes(&self) -> Option<&Shapes> {
         match self {
-            Self::Outline | Self::Coasts => None,
+            Self::Outline | Self::Coasts | Self::Pieces(_) => None,
             Self::Shapes { shapes, .. } | Self::Corridor { lines: shapes, .. } => Some(shapes),
         }
     }
@@ -250,6 +254,16 @@ impl LayerKind {
     /// Returns a formula for the risk.
     pub fn risk(formula: Formula) -> Self {
         Self::Formula { quantity: Quantity::Risk, formula }
+    }
+
+    /// Returns whether it is a formula that uses the depth of the water.
+    pub fn uses_depth(&self) -> bool {
+        matches!(self, Self::Formula { formula, .. } if formula.uses_depth())
+    }
+
+    /// Returns whether it changes with the names and types of the pieces of the boundary.
+    pub fn follows_pieces(&self) -> bool {
+        matches!(self, Self::Distance { to: DistanceTo::Pieces(_), .. })
     }
 
     /// Returns the raster that the layer reads, if it reads one.

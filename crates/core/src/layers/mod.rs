@@ -38,7 +38,7 @@ pub use check::{InvalidLayer, LayerCheck};
 pub use curve::{CurveError, FineAt, ValueCurve};
 pub use depth::{DepthError, DepthRule, DepthSizes, Depths, PositiveDepth, wavelength};
 pub use depth_surface::DepthSurface;
-use depth_surface::{hidden_differently, hiding};
+use depth_surface::{hidden_differently, hiding, surface_changes};
 pub(crate) use difference::Circumstances;
 pub use distance::{ShapeList, Shapes, ShapesError};
 pub use layer::{Combine, DistanceTo, Layer, LayerId, LayerKind, Quantity, RasterReading, RasterSource};

@@ -222,7 +222,11 @@ impl Analytic {
 
     /// Returns whether all values in a rectangle, in world units, are certainly valid.
     pub fn is_valid_within(&self, rect: &Rect) -> bool {
-        let Bounds { least, valid, .. } = self.function.bounds(rect);
+        self.are_valid(self.function.bounds(rect))
+    }
+
+    /// Returns whether all numbers within bounds are valid.
+    pub fn are_valid(&self, Bounds { least, valid, .. }: Bounds) -> bool {
         valid && (self.quantity == Quantity::Risk || least > 0.0)
     }
 
@@ -239,8 +243,8 @@ impl Analytic {
         self.function.at(point)
     }
 
-    /// Rounded up: rounding to nearest could ask for one level more.
-    fn value(&self, value: f64) -> f32 {
+    /// Returns a number as it counts. Rounded up: rounding to nearest could ask for one level more.
+    pub fn value(&self, value: f64) -> f32 {
         match self.quantity {
             Quantity::Diameter if value > 0.0 => f32_not_below(value),
             Quantity::Diameter => f32::INFINITY,

@@ -9,7 +9,7 @@
 //! | `"formula"` | `quantity`, `formula` |
 //! | `"raster"` | `file`, `bounds`, and `as` or `curve` |
 //! | `"threats"` | `file` or `threats` |
-//! | `"distance"` | `to`, `file` or `shapes`; `at_zero`, `slope`, `range` |
+//! | `"distance"` | `to`, `file`, `shapes`, or `pieces` and `types`; `at_zero`, `slope`, `range` |
 //! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
 

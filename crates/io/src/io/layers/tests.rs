@@ -40,6 +40,10 @@ fn every_kind_is_read_from_its_keys() {
             "Distance(Boundary(Coasts), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
+            r#"{ "kind": "distance", "pieces": ["Rock"], "types": ["land", "no-slip inflow"], "at_zero": 0.1, "slope": 0.2 }"#,
+            "Distance(Boundary(Pieces(PieceChoice { names: [\"Rock\"], types: [Land, NoSlipInflow] })), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+        ),
+        (
             r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
             "Distance(InPlace(ShapeList { points: [DVec2(1.0, 2.0)], lines: [], polygons: [] }), Growth { at_zero: 0.1, slope: 0.0, range: 5.0 })",
         ),
@@ -68,6 +72,8 @@ fn a_layer_is_saved_as_it_was_read() {
         r#"{"kind":"threats","mask_file":"m.geojson","threats":[{"x":1.0,"y":2.0,"range":3.0,"peak":0.5,"law":"disc"}]}"#,
         r#"{"kind":"raster","file":"r.png","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
         r#"{"kind":"distance","to":"outline","at_zero":0.1,"slope":0.2,"range":3.0}"#,
+        r#"{"kind":"distance","pieces":["Rock"],"types":["land"],"at_zero":0.1,"slope":0.2}"#,
+        r#"{"kind":"distance","types":["open"],"at_zero":0.1,"slope":0.2}"#,
         r#"{"kind":"distance","shapes":[{"line":[[0.0,0.0],[1.0,1.0]]},{"polygon":[[[0.0,0.0],[1.0,0.0],[0.0,1.0]]]}],"at_zero":0.1,"slope":0.2}"#,
     ] {
         assert_eq!(serde_json::to_string(&saved(json)).unwrap(), json);
@@ -114,6 +120,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
         (
             r#"{ "kind": "distance", "at_zero": 1, "slope": 0 }"#,
             "kind: a layer of the kind \"distance\" needs to",
+        ),
+        (
+            r#"{ "kind": "distance", "to": "outline", "types": ["land"], "at_zero": 1, "slope": 0 }"#,
+            "types: a distance has one of",
         ),
         (
             r#"{ "kind": "distance", "to": "outline", "file": "a", "at_zero": 1, "slope": 0 }"#,

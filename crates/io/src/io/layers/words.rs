@@ -142,12 +142,12 @@ pub enum SavedLaw {
 }
 
 impl SavedDistanceTo {
-    /// Returns the word for a target; `None` for one that has shapes.
+    /// Returns the word for a target; `None` for one that has shapes, or is some pieces of the boundary.
     pub(super) fn of(to: &DistanceTo) -> Option<Self> {
         match to {
             DistanceTo::Outline => Some(Self::Outline),
             DistanceTo::Coasts => Some(Self::Coasts),
-            DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => None,
+            DistanceTo::Pieces(_) | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => None,
         }
     }
 }
@@ -199,7 +199,7 @@ impl SavedKind {
             Self::Formula => &["quantity", "formula"],
             Self::Raster => &["file", "bounds", "as", "curve"],
             Self::Threats => &["file", "threats"],
-            Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
+            Self::Distance => &["to", "pieces", "types", "file", "shapes", "at_zero", "slope", "range"],
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
             Self::Straits => &["across", "width_from", "width_to"],

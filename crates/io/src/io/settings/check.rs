@@ -6,7 +6,9 @@ use super::{
     RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins,
     SavedSettings, SavedTreatment,
 };
-use crate::io::layers::{FindFile, SavedLayer, Stored, compiled, each, point, positive_length, rect_of};
+use crate::io::layers::{
+    FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
+};
 use crate::io::{KeyFault, Step};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
@@ -46,8 +48,14 @@ impl SavedSettings {
     /// Fails for the first one that cannot be used.
     pub fn check(&self) -> Result<(), KeyFault> {
         self.check_tables()?;
+        let has_depths = self.layer.iter().any(|layer| layer.kind == SavedKind::Depth);
         for (index, layer) in self.layer.iter().enumerate() {
             layer.checked(Stored::InFiles).map_err(|fault| fault.within(index).within("layer"))?;
+            if layer.uses_depth() && !has_depths {
+                let problem = "it uses `depth`, and there are no depths. Name a grid of them: on the command line with \
+                               --depth, in a recipe in a layer of the kind \"depth\".";
+                return Err(KeyFault::value("formula", problem).within(index).within("layer"));
+            }
         }
         Ok(())
     }
@@ -197,7 +205,7 @@ impl SavedDomain {
 
     /// Returns the formula of the domain.
     pub(super) fn formula(&self) -> Result<Option<Formula>, KeyFault> {
-        self.inside.as_deref().map(|text| compiled("inside", text)).transpose()
+        self.inside.as_deref().map(|text| compiled("inside", text, Formula::parse)).transpose()
     }
 }
 
