@@ -11,9 +11,9 @@ use meshbrush_core::domain::{
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
-    Threats, ValueCurve,
+    Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
+    PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat,
+    ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -152,10 +152,13 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
-        13 => LayerKind::Straits(Straits {
-            across: between(random, 1.0, 5.0),
-            found: StraitDiscs::unknown([0.3, 1.5]),
-        }),
+        13 => {
+            let (across, widths) = (between(random, 1.0, 5.0), [0.3, 1.5]);
+            match random.bool() {
+                true => LayerKind::Straits(Straits { across, found: StraitDiscs::unknown(widths) }),
+                false => LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(widths) }),
+            }
+        }
         _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
 }

@@ -113,25 +113,54 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
     layers.extend(typed.distances.layers(value(&typed.h_min))?);
     layers.extend(typed.water.depth_layers());
-    layers.extend(straits(typed)?);
+    let water = &typed.water;
+    let widths = [
+        ("--straits", SavedKind::Straits, water.straits, &water.widest_strait, "--widest-strait"),
+        (
+            "--feature-size",
+            SavedKind::FeatureSize,
+            water.feature_size,
+            &water.widest_feature,
+            "--widest-feature",
+        ),
+    ];
+    for (option, kind, across, widest, widest_option) in widths {
+        let of_water = OfWater { option, kind, widest: value(widest), widest_option };
+        layers.extend(of_water.layer(across, typed)?);
+    }
     Ok(layers)
 }
 
-/// Returns the layer of `--straits`.
-fn straits(typed: &InputArguments) -> Result<Option<(String, SavedLayer)>, Failure> {
-    let (Some(across), Some(h_min)) = (typed.water.straits, value(&typed.h_min)) else { return Ok(None) };
-    let widest = value(&typed.water.widest_strait).or(value(&typed.h_max).map(|h_max| across * h_max));
-    let widest = widest.ok_or_else(|| {
-        let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
-        Failure::Usage(format!("--straits {across}: {problem}."))
-    })?;
-    let layer = SavedLayer {
-        across: Some(across),
-        width_from: Some(across * h_min),
-        width_to: Some(widest),
-        ..SavedLayer::of_kind(SavedKind::Straits)
-    };
-    Ok(Some((format!("--straits {across}"), layer)))
+/// An option on the width of water.
+struct OfWater {
+    option: &'static str,
+    kind: SavedKind,
+    widest: Option<f64>,
+    widest_option: &'static str,
+}
+
+impl OfWater {
+    /// Returns the layer of the option, with this many triangles across, if it is given.
+    fn layer(
+        &self,
+        across: Option<f64>,
+        typed: &InputArguments,
+    ) -> Result<Option<(String, SavedLayer)>, Failure> {
+        let (Some(across), Some(h_min)) = (across, value(&typed.h_min)) else { return Ok(None) };
+        let Self { option, kind, widest, widest_option } = *self;
+        let widest = widest.or(value(&typed.h_max).map(|h_max| across * h_max));
+        let widest = widest.ok_or_else(|| {
+            let problem = format!("the widest water is not known. Give it with {widest_option}, or --h-max");
+            Failure::Usage(format!("{option} {across}: {problem}."))
+        })?;
+        let layer = SavedLayer {
+            across: Some(across),
+            width_from: Some(across * h_min),
+            width_to: Some(widest),
+            ..SavedLayer::of_kind(kind)
+        };
+        Ok(Some((format!("{option} {across}"), layer)))
+    }
 }
 
 /// Returns the sentence for a value that cannot be used, with its option.
@@ -151,7 +180,10 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
                 with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
             }
             "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
-            "width_to" => length("--widest-strait", typed.water.widest_strait.as_ref()),
+            "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
+                length("--widest-strait", typed.water.widest_strait.as_ref())
+            }
+            "width_to" => length("--widest-feature", typed.water.widest_feature.as_ref()),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {

@@ -70,6 +70,18 @@ pub struct WaterArguments {
     /// Width of the widest strait of --straits [default: K times --h-max]
     #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
     pub widest_strait: Option<Length>,
+
+    /// This many triangles across the water everywhere, growing with the way from the shore and from the middle
+    /// of the water: the feature size of a region
+    ///
+    /// The target diameter is 2 W / R, where W is the distance to the shore and the middle of the water together:
+    /// half of the width of a channel. It changes by at most 4 / R times the way.
+    #[arg(long, value_name = "R", requires = "region", requires = "h_min", allow_hyphen_values = true)]
+    pub feature_size: Option<f64>,
+
+    /// Width of the widest water of --feature-size [default: R times --h-max]
+    #[arg(long, value_name = "LENGTH", requires = "feature_size", allow_hyphen_values = true)]
+    pub widest_feature: Option<Length>,
 }
 
 /// The direction in which values grow.

@@ -308,7 +308,7 @@ impl Settings {
         layer
     }
 
-    /// Finds the straits of the domain for the layers that ask for them.
+    /// Finds the straits and the middle of the water of the domain for the layers that ask for them.
     pub(super) fn find_straits(&mut self) {
         let mut layers = std::mem::take(&mut self.layers);
         layers.iter_mut().for_each(|layer| self.find_straits_of(layer));
@@ -316,8 +316,10 @@ impl Settings {
     }
 
     fn find_straits_of(&self, layer: &mut Layer) {
-        if let LayerKind::Straits(straits) = &mut layer.kind {
-            *straits = straits.for_domain(&self.domain);
+        match &mut layer.kind {
+            LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain),
+            LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain),
+            _ => {}
         }
     }
 

@@ -1,8 +1,8 @@
 //! The area in which a layer can have a target diameter.
 
 use super::{
-    Combine, DepthRule, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
-    SizeFieldSpec, Threats, surface_changes,
+    Combine, DepthRule, DistanceTo, FeatureSize, Layer, LayerKind, Mask, PaintLayers, Quantity,
+    RasterReading, SizeFieldSpec, Threats, surface_changes,
 };
 use crate::geometry::{Rect, z_order};
 use crate::raster::ValueRanges;
@@ -89,7 +89,8 @@ impl Layer {
             LayerKind::Distance { .. }
             | LayerKind::Band { .. }
             | LayerKind::Depth(_)
-            | LayerKind::Straits(_) => false,
+            | LayerKind::Straits(_)
+            | LayerKind::FeatureSize(_) => false,
         }
     }
 
@@ -97,7 +98,7 @@ impl Layer {
     pub fn follows_outline(&self) -> bool {
         match &self.kind {
             LayerKind::Distance { to, .. } => to.shapes().is_none(),
-            LayerKind::Straits(_) => true,
+            LayerKind::Straits(_) | LayerKind::FeatureSize(_) => true,
             _ => false,
         }
     }
@@ -137,6 +138,7 @@ impl Layer {
             }
             LayerKind::Depth(depths) => Extent::of([depths.source().raster.raster().bounds()]),
             LayerKind::Straits(straits) => Extent::of(straits.found.extent()),
+            LayerKind::FeatureSize(size) => self.extent_of_feature_size(size, context),
             LayerKind::Threats(threats) => Extent::of(threats.reaches()),
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let farthest = self.farthest_in_plane([*at_zero, *slope, *range], context);
@@ -152,6 +154,19 @@ impl Layer {
                     Some(_) => Extent::Everywhere,
                 }
             }
+        }
+    }
+
+    /// It grows with the way from the middle of the water.
+    fn extent_of_feature_size(&self, size: &FeatureSize, context: &ExtentContext) -> Extent {
+        let ceiling = if self.combine == Combine::Finest { context.ceiling() } else { f64::INFINITY };
+        match size.found.extent() {
+            Some(_) if ceiling == f64::INFINITY => Extent::Everywhere,
+            Some(middle) => {
+                let reach = size.farthest(context.greatest_scale * ceiling);
+                Extent::of([middle.expanded(reach)])
+            }
+            None => Extent::Within(Vec::new()),
         }
     }
 

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Depths, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
+use super::{Depths, FeatureSize, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
 use crate::domain::PieceChoice;
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
@@ -110,6 +110,8 @@ pub enum LayerKind {
     Depth(Depths),
     /// At least a number of triangles across each strait.
     Straits(Straits),
+    /// A number of triangles across the water, which grow with the way from it.
+    FeatureSize(FeatureSize),
 }
 
 /// The target of a distance.
@@ -285,7 +287,8 @@ impl LayerKind {
             | Self::Formula { .. }
             | Self::Threats(_)
             | Self::Distance { .. }
-            | Self::Straits(_) => None,
+            | Self::Straits(_)
+            | Self::FeatureSize(_) => None,
         }
     }
 
@@ -307,6 +310,7 @@ impl LayerKind {
             Self::Band { .. } => "Band",
             Self::Depth(_) => "Depth",
             Self::Straits(_) => "Straits",
+            Self::FeatureSize(_) => "Feature size",
         }
     }
 
@@ -322,6 +326,7 @@ impl LayerKind {
             Self::Band { .. } => "band",
             Self::Depth(_) => "depth",
             Self::Straits(_) => "straits",
+            Self::FeatureSize(_) => "feature size",
         }
     }
 
@@ -344,6 +349,7 @@ impl LayerKind {
                 [raster(depths.source()), computed]
             }
             Self::Straits(straits) => [Some(straits.found.shared_data()), None],
+            Self::FeatureSize(size) => [Some(size.found.shared_data()), None],
             Self::Threats(threats) => [Some(threats.shared_data()), None],
             Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
         };

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::models::{self, ModelId, ModelPlace};
-use crate::layers::{Quantity, Shapes, Straits, Threats};
+use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
@@ -34,6 +34,8 @@ pub enum Function {
     },
     /// A part of the width of straits, by the greatest scale.
     Straits(Straits, f64),
+    /// A part of the width of the water, by the greatest scale.
+    FeatureSize(FeatureSize, f64),
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -115,6 +117,7 @@ impl Function {
             Self::Threats(threats) => threats.risk_at(point),
             Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
             Self::Straits(straits, scale) => straits.diameter(straits.found.width_at(point)) / scale,
+            Self::FeatureSize(size, scale) => size.diameter_at(point) / scale,
         }
     }
 
@@ -132,6 +135,10 @@ impl Function {
                 let [least, greatest] = [least, greatest].map(|width| straits.diameter(width) / scale);
                 Bounds { least, greatest, valid }
             }
+            Self::FeatureSize(size, scale) => {
+                let Bounds { least, greatest, valid } = size.bounds(rect);
+                Bounds { least: least / scale, greatest: greatest / scale, valid }
+            }
         }
     }
 
@@ -140,7 +147,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
-            Self::Distance { .. } | Self::Straits(..) => false,
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => false,
         }
     }
 
@@ -148,7 +155,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.model(place.coordinates),
             Self::Threats(threats) => threats.model(place),
-            Self::Distance { .. } | Self::Straits(..) => Quadratic::UNKNOWN,
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => Quadratic::UNKNOWN,
         }
     }
 
@@ -188,6 +195,7 @@ impl Function {
                 Slopes::within(threats.slopes(rect), threats.outward(rect).map(Cone::opposite))
             }
             Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
+            Self::FeatureSize(size, scale) => Slopes::up_to(size.steepness() / scale),
             // The width jumps at the rims of the discs.
             Self::Straits(..) => Slopes::UNKNOWN,
         }

@@ -94,6 +94,11 @@ impl CompiledLayer {
                 let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
+            LayerKind::FeatureSize(size) => {
+                let function = Function::FeatureSize(size.clone(), greatest_scale);
+                let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
+                (reading(Quantity::Diameter, NO_RISK), values)
+            }
             LayerKind::Depth(depths) => {
                 let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };
                 (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))

@@ -6,8 +6,9 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, Mask, PositiveDepth, Quantity, RasterReading,
-    RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve,
+    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, LayerKind, Mask, PositiveDepth, Quantity,
+    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats,
+    ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -70,7 +71,13 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         11..13 => threats(choices, scale),
         13 => {
             let between = [4.0 * diameter, 8.0 * diameter];
-            LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) })
+            match choices.below(2) {
+                0 => LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) }),
+                _ => {
+                    let found = WaterMiddle::unknown(between);
+                    LayerKind::FeatureSize(FeatureSize { across: 3.0, found })
+                }
+            }
         }
         _ => distance(choices, scale),
     }
@@ -234,6 +241,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
             _ => between[1] = (factor * between[1]).max(between[0]),
         },
         LayerKind::Straits(straits) => straits.across = (straits.across / factor).clamp(1.0, 4.0),
+        LayerKind::FeatureSize(size) => size.across = (size.across / factor).clamp(1.0, 4.0),
         LayerKind::Depth(depths) => {
             let mut sizes = *depths.sizes();
             match &mut sizes.rule {

@@ -8,8 +8,8 @@ use meshbrush_core::domain::{PieceChoice, Polygon};
 use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
-    DepthSizes, DistanceTo, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits, Threat,
-    ThreatError, ValueCurve,
+    DepthSizes, DistanceTo, FeatureSize, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits,
+    Threat, ThreatError, ValueCurve, WaterMiddle,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -100,7 +100,16 @@ impl SavedLayer {
                 self.check_raster_file(stored)?;
                 CheckedKind::Depth(self.depth_sizes()?)
             }
-            SavedKind::Straits => CheckedKind::Complete(LayerKind::Straits(self.straits()?)),
+            SavedKind::Straits => {
+                let (across, between) = self.across_widths()?;
+                let found = StraitDiscs::unknown(between);
+                CheckedKind::Complete(LayerKind::Straits(Straits { across, found }))
+            }
+            SavedKind::FeatureSize => {
+                let (across, between) = self.across_widths()?;
+                let found = WaterMiddle::unknown(between);
+                CheckedKind::Complete(LayerKind::FeatureSize(FeatureSize { across, found }))
+            }
         })
     }
 
@@ -237,7 +246,8 @@ impl SavedLayer {
         Ok(CheckedKind::Band(between, self.length("diameter", self.diameter)?))
     }
 
-    fn straits(&self) -> Result<Straits, KeyFault> {
+    /// Returns the number of triangles across water, and the least and the greatest width of it.
+    fn across_widths(&self) -> Result<(f64, [f64; 2]), KeyFault> {
         let across = self.needed("across", self.across)?;
         number_where(across, across >= 1.0, "a number of triangles must be 1 or more, and finite")
             .map_err(|fault| fault.within("across"))?;
@@ -245,7 +255,7 @@ impl SavedLayer {
         let to = self.length("width_to", self.width_to)?;
         number_where(to, to > from, "it must be above width_from")
             .map_err(|fault| fault.within("width_to"))?;
-        Ok(Straits { across, found: StraitDiscs::unknown([from, to]) })
+        Ok((across, [from, to]))
     }
 
     fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {

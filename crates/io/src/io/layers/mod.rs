@@ -11,6 +11,7 @@
 //! | `"threats"` | `file` or `threats` |
 //! | `"distance"` | `to`, `file`, `shapes`, or `pieces` and `types`; `at_zero`, `slope`, `range` |
 //! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
+//! | `"straits"`, `"feature-size"` | `across`, `width_from`, `width_to` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
 
 mod check_layer;

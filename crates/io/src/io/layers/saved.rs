@@ -12,7 +12,7 @@ use crate::io::settings::SavedBoundaryType;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
+    DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
 };
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
@@ -246,7 +246,12 @@ impl SavedLayer {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
-            LayerKind::Straits(straits) => Self::of_straits(straits),
+            LayerKind::Straits(Straits { across, found }) => {
+                Self::of_widths(SavedKind::Straits, *across, found.between())
+            }
+            LayerKind::FeatureSize(FeatureSize { across, found }) => {
+                Self::of_widths(SavedKind::FeatureSize, *across, found.between())
+            }
         };
         let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
@@ -285,14 +290,8 @@ impl SavedLayer {
         }
     }
 
-    fn of_straits(straits: &Straits) -> Self {
-        let [from, to] = straits.found.between();
-        Self {
-            across: Some(straits.across),
-            width_from: Some(from),
-            width_to: Some(to),
-            ..Self::of_kind(SavedKind::Straits)
-        }
+    fn of_widths(kind: SavedKind, across: f64, [from, to]: [f64; 2]) -> Self {
+        Self { across: Some(across), width_from: Some(from), width_to: Some(to), ..Self::of_kind(kind) }
     }
 
     /// Returns the name of the layer, or the usual one of its kind.
@@ -328,7 +327,8 @@ impl SavedLayer {
             | SavedKind::Corridor
             | SavedKind::Band
             | SavedKind::Depth
-            | SavedKind::Straits => false,
+            | SavedKind::Straits
+            | SavedKind::FeatureSize => false,
         }
     }
 

@@ -150,6 +150,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             r#"{ "kind": "depth", "file": "a.asc", "size": "courant", "time_step": 1, "courant": 1, "period": 1 }"#,
             "period: depths with size = \"courant\" have no `period`",
         ),
+        (
+            r#"{ "kind": "feature-size", "across": 3, "width_from": 2, "width_to": 1 }"#,
+            "width_to: 1 cannot be used",
+        ),
         (r#"{ "kind": "straits", "across": 0, "width_from": 1, "width_to": 2 }"#, "across: 0 cannot be used"),
         (
             r#"{ "kind": "straits", "across": 4, "width_from": 3, "width_to": 2 }"#,
@@ -178,7 +182,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 #[test]
 fn the_kinds_and_their_keys_agree() {
     use super::SavedKind::*;
-    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits];
+    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits, FeatureSize];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
         "formula" => r#""x""#,

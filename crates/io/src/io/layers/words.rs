@@ -26,6 +26,9 @@ pub enum SavedKind {
     Depth,
     /// Triangles across straits.
     Straits,
+    /// Triangles across the water.
+    #[serde(rename = "feature-size")]
+    FeatureSize,
 }
 
 /// See [`Combine`].
@@ -174,6 +177,7 @@ impl SavedKind {
             Self::Band => "band",
             Self::Depth => "depth",
             Self::Straits => "straits",
+            Self::FeatureSize => "feature-size",
         }
     }
 
@@ -189,6 +193,7 @@ impl SavedKind {
             Self::Band => "Band",
             Self::Depth => "Depth",
             Self::Straits => "Straits",
+            Self::FeatureSize => "Feature size",
         }
     }
 
@@ -202,7 +207,7 @@ impl SavedKind {
             Self::Distance => &["to", "pieces", "types", "file", "shapes", "at_zero", "slope", "range"],
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
-            Self::Straits => &["across", "width_from", "width_to"],
+            Self::Straits | Self::FeatureSize => &["across", "width_from", "width_to"],
             Self::Depth => &[
                 "file",
                 "bounds",

@@ -69,7 +69,7 @@ layers.raster: part bounds columns rows
 layers.layer: kind name visible locked combine mask mask_file quantity formula file layer bounds as \
     curve threats to pieces types shapes width at_zero slope range between diameter positive offset size depth_from depth_to \
     period triangles smoothing time_step courant across width_from width_to
-layers.layer.kind: paint formula raster threats distance corridor band depth straits
+layers.layer.kind: paint formula raster threats distance corridor band depth straits feature-size
 layers.layer.combine: finest floor replace
 layers.layer.quantity: risk diameter
 layers.layer.to: outline coasts
