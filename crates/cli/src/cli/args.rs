@@ -158,9 +158,10 @@ pub struct InputArguments {
     pub inside: Option<String>,
 
     /// Domain with holes: a GeoJSON file or shapefile (.shp) with polygons, in its own coordinates; - is
-    /// GeoJSON from standard input
+    /// GeoJSON from standard input. Or a grid of heights or depths: the water below --contour
     ///
-    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
+    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons. In a grid, the
+    /// outline runs between the centres of pixels, linear in the depth; pixels without a value are land.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
