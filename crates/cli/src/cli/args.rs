@@ -160,8 +160,8 @@ pub struct InputArguments {
     /// Domain with holes: a GeoJSON file or shapefile (.shp) with polygons, in its own coordinates; - is
     /// GeoJSON from standard input. Or a grid of heights or depths: the water below --contour
     ///
-    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons. In a grid, the
-    /// outline runs between the centres of pixels, linear in the depth; pixels without a value are land.
+    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons. In a grid,
+    /// the outline runs between the centres of pixels, linear in the depth; pixels without a value are land.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
@@ -200,8 +200,8 @@ pub struct InputArguments {
     /// wins
     ///
     /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual
-    /// functions, and the polar r and theta. With --depth, `depth` is the depth of the water in metres, positive
-    /// downwards; where no file has a value, the formula asks for nothing.
+    /// functions, and the polar r and theta. With --depth, `depth` is the depth of the water in metres,
+    /// positive downwards; where no file has a value, the formula asks for nothing.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub target: Vec<String>,
 

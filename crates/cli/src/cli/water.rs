@@ -19,8 +19,8 @@ pub struct WaterArguments {
     #[arg(long, value_name = "DEPTH", requires = "region", allow_hyphen_values = true)]
     pub contour: Option<f64>,
 
-    /// Area of the smallest island, and of the smallest water, of --contour; smaller ones are left out [default:
-    /// none are]
+    /// Area of the smallest island, and of the smallest water, of --contour; smaller ones are left out
+    /// [default: none are]
     ///
     /// In square metres where the grid is in longitudes and latitudes, otherwise in its unit.
     #[arg(long, value_name = "AREA", requires = "region", allow_hyphen_values = true)]
@@ -28,8 +28,9 @@ pub struct WaterArguments {
 
     /// Width of the narrowest inlet of --contour; narrower ones are closed [default: none are]
     ///
-    /// Water stays where a disc of this diameter and one pixel, around the centre of a pixel, has no centre of a
-    /// pixel of land in it. In metres where the grid is in longitudes and latitudes, otherwise in its unit.
+    /// Water stays where a disc of this diameter and one pixel, around the centre of a pixel, has no centre
+    /// of a pixel of land in it. In metres where the grid is in longitudes and latitudes, otherwise in its
+    /// unit.
     #[arg(long, value_name = "WIDTH", requires = "region", allow_hyphen_values = true)]
     pub smallest_inlet: Option<f64>,
 
@@ -92,11 +93,11 @@ pub struct WaterArguments {
     #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
     pub widest_strait: Option<Length>,
 
-    /// This many triangles across the water everywhere, growing with the way from the shore and from the middle
-    /// of the water: the feature size of a region
+    /// This many triangles across the water everywhere, growing with the way from the shore and from the
+    /// middle of the water: the feature size of a region
     ///
-    /// The target diameter is 2 W / R, where W is the distance to the shore and the middle of the water together:
-    /// half of the width of a channel. It changes by at most 4 / R times the way.
+    /// The target diameter is 2 W / R, where W is the distance to the shore and the middle of the water
+    /// together: half of the width of a channel. It changes by at most 4 / R times the way.
     #[arg(long, value_name = "R", requires = "region", requires = "h_min", allow_hyphen_values = true)]
     pub feature_size: Option<f64>,
 

@@ -225,8 +225,8 @@ impl Settings {
         if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
     }
 
-    /// Checks that formulas that use the depth have one. A hidden layer of depths is enough: without depths in
-    /// sight they ask for nothing.
+    /// Checks that formulas that use the depth have one. A hidden layer of depths is enough: without depths
+    /// in sight they ask for nothing.
     fn check_depth_formulas(&self) -> Result<(), SettingsError> {
         let has_depths = self.layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
         for layer in self.layers.iter().filter(|layer| layer.kind.uses_depth()) {

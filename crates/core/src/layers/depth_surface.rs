@@ -70,8 +70,8 @@ pub(super) fn hidden_differently(layer: &Layer, new: &[Layer], old: &[Layer]) ->
     only(new, old).chain(only(old, new)).map(|(_, depths)| depths.source().raster.raster().bounds()).collect()
 }
 
-/// Returns rectangles that hold the places where the surfaces of depths of two stacks differ. Below files that
-/// both have at the top, and above those that both have at the bottom, each file counts somewhere.
+/// Returns rectangles that hold the places where the surfaces of depths of two stacks differ. Below files
+/// that both have at the top, and above those that both have at the bottom, each file counts somewhere.
 pub(super) fn surface_changes(new: &[Layer], old: &[Layer]) -> Vec<Rect> {
     let files = |stack| DepthSurface::of(stack).map_or_else(Vec::new, |surface| surface.0);
     let (new, old) = (files(new), files(old));

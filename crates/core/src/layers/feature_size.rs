@@ -11,11 +11,11 @@
 //!   ── ─ ─ ─ ─┼─ ─ ─ ─ ─ ─ middle
 //! ```
 //!
-//! The middle is that of straits ([`StraitDiscs`]): the centres of discs that touch two coasts, or two parts of
-//! one that are far apart along it. So a corner of a coast or a shallow bay has none, unlike in a raster of
-//! distances, where each bend of the shore has a branch. Centres are at most an eighth of their radius from
-//! the nearest point of the middle; so much is left out of the distance to them, and W is at most what it is
-//! with all points of the middle, and less by at most a quarter of the radius.
+//! The middle is that of straits ([`StraitDiscs`]): the centres of discs that touch two coasts, or two parts
+//! of one that are far apart along it. So a corner of a coast or a shallow bay has none, unlike in a raster
+//! of distances, where each bend of the shore has a branch. Centres are at most an eighth of their radius
+//! from the nearest point of the middle; so much is left out of the distance to them, and W is at most what
+//! it is with all points of the middle, and less by at most a quarter of the radius.
 //!
 //! W changes by at most twice the way: both distances do by at most the way.
 
@@ -62,8 +62,8 @@ impl FeatureSize {
         4.0 / self.across
     }
 
-    /// Returns how far from the centres the target diameter is below another one, at most: both are lengths in
-    /// the plane.
+    /// Returns how far from the centres the target diameter is below another one, at most: both are lengths
+    /// in the plane.
     pub(super) fn farthest(&self, diameter: f64) -> f64 {
         let widest = self.found.discs().last().map_or(0.0, |disc| disc.width);
         0.5 * self.across * diameter * (1.0 + 1e-9) + 0.5 * MIDDLE * widest
@@ -100,8 +100,8 @@ impl PartialEq for WaterMiddle {
 
 impl WaterMiddle {
     /// Finds the middle of water that is between the first and the second length wide, in world units, or in
-    /// metres on the Earth. That of wider water is left out: where 2 W is greater, it can be too large. None in
-    /// a domain without coasts.
+    /// metres on the Earth. That of wider water is left out: where 2 W is greater, it can be too large. None
+    /// in a domain without coasts.
     pub fn of(domain: &Domain, between: [f64; 2]) -> Self {
         Self::new(StraitDiscs::of(domain, between), Shapes::coasts(domain).ok())
     }

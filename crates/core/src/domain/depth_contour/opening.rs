@@ -45,11 +45,15 @@ pub(super) fn squared_distances(marked: &[bool], raster: &Raster, lengths: Pixel
     distances.par_chunks_mut(columns).zip(steps.par_chunks(columns)).enumerate().for_each(
         |(row, (distances, steps))| {
             let width = lengths.pixel(raster, row as u32).x;
-            let own = |column: usize| (f64::from(steps[column]) * height).powi(2);
+            let own = |column: usize| squared(f64::from(steps[column]) * height);
             least_sums(own, width, distances);
         },
     );
     distances
+}
+
+fn squared(length: f64) -> f64 {
+    length * length
 }
 
 /// Puts the least of `own(m) + (width · (m − n))²` over all m into each place n: the lower envelope of
@@ -77,7 +81,7 @@ fn least_sums(own: impl Fn(usize) -> f64, width: f64, least: &mut [f32]) {
             place += 1;
         }
         if let Some(&(m, _)) = lowest.get(place) {
-            *least = (own(m) + (width * (m as f64 - n as f64)).powi(2)) as f32;
+            *least = (own(m) + squared(width * (m as f64 - n as f64))) as f32;
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Traces the outline of water through the centres of pixels (marching squares).
 //!
-//! Nodes are the centres of pixels and, around them, places on the sides of the raster that have the depths of
-//! the last pixels. Beyond these there is no water.
+//! Nodes are the centres of pixels and, around them, places on the sides of the raster that have the depths
+//! of the last pixels. Beyond these there is no water.
 //!
 //! ```text
 //!   3 ──2── 2      edges of a square between four nodes, and its corners; segments lead from an edge

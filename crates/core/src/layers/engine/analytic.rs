@@ -69,6 +69,12 @@ pub struct Graded {
 }
 
 impl Profile {
+    /// Returns the profile of lengths on the Earth. Those in the plane are at most so much longer.
+    pub fn on_earth(reach: f64, [at_zero, slope, range]: [f64; 3], greatest_scale: f64) -> Self {
+        let [reach, range] = [reach, range].map(|length| length * greatest_scale);
+        Self { reach, at_zero, slope: slope / greatest_scale, range, graded: None }
+    }
+
     /// Returns the value at a distance from the shapes.
     fn at(&self, distance: f64) -> f64 {
         let beyond = distance - self.reach;

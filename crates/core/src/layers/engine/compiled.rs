@@ -69,18 +69,11 @@ impl CompiledLayer {
                 (reading, Values::of_raster(&source.raster, gap, lattice))
             }
             LayerKind::Threats(threats) => {
-                let function = Function::Threats(threats.clone());
-                (reading(Quantity::Risk, 0.0), Values::Analytic(Analytic::new(function, Quantity::Risk)))
+                let risk = Analytic::new(Function::Threats(threats.clone()), Quantity::Risk);
+                (reading(Quantity::Risk, 0.0), Values::Analytic(risk))
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
-                // Lengths in the plane are at most so much longer than those on the Earth.
-                let growth = Profile {
-                    reach: to.reach() * greatest_scale,
-                    at_zero: *at_zero,
-                    slope: *slope / greatest_scale,
-                    range: *range * greatest_scale,
-                    graded: None,
-                };
+                let growth = Profile::on_earth(to.reach(), [*at_zero, *slope, *range], greatest_scale);
                 let values = Values::of_distance(to, growth, outline);
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
@@ -91,13 +84,11 @@ impl CompiledLayer {
             }
             LayerKind::Straits(straits) => {
                 let function = Function::Straits(straits.clone(), greatest_scale);
-                let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
-                (reading(Quantity::Diameter, NO_RISK), values)
+                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
             }
             LayerKind::FeatureSize(size) => {
                 let function = Function::FeatureSize(size.clone(), greatest_scale);
-                let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
-                (reading(Quantity::Diameter, NO_RISK), values)
+                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
             }
             LayerKind::Depth(depths) => {
                 let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };

@@ -59,6 +59,11 @@ impl Values {
         })
     }
 
+    /// Returns the diameters that a function gives.
+    pub fn of_diameters(function: Function) -> Self {
+        Self::Analytic(Analytic::new(function, Quantity::Diameter))
+    }
+
     /// Returns the values of a formula in a stack of layers.
     pub fn of_formula(quantity: Quantity, formula: &Formula, stack: &[Layer], lattice: &Lattice) -> Self {
         let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
