@@ -225,7 +225,7 @@ fn the_domain_is_the_water_of_a_grid() {
     };
     let (is_open, islands) = names("--contour 20");
     assert!(is_open && islands > 0, "{islands}");
-    assert_eq!(names("--contour 20 --smallest-island 1e10").1, 0, "islands are left out");
+    assert_eq!(names("--contour 20 --smallest-island 1e9").1, 0, "islands are left out");
     for (options, sentence) in [
         ("--region bay.asc --contour 5000", "bay.asc: no pixel is deeper than 5000 m"),
         ("--region bay.asc --contour 20 --depth-positive down", "no pixel is deeper than 20 m"),
@@ -258,7 +258,7 @@ fn a_formula_of_the_depth_needs_depths() {
                   formula = \"1 + depth\"\n";
     folder.file("a.toml", recipe);
     let ran = folder.run("mesh a.toml".to_owned());
-    assert!(ran.status == 2 && ran.err.contains("a.toml:6:"), "{}", ran.err);
+    assert!(ran.status != 0 && ran.err.contains("a.toml, line 6, column 11: it uses"), "{}", ran.err);
 }
 
 #[test]

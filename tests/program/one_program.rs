@@ -244,7 +244,12 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         let kind = kind(random, has_outline);
         Layer { id: LayerId(2 * id + 1), ..layer(random, kind) }
     });
-    let layers: Vec<Layer> = layers.collect();
+    let mut layers: Vec<Layer> = layers.collect();
+    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+    if has_depths && random.bool() {
+        let of_depth = Formula::parse_of_size("0.3 + 0.01*abs(depth) + 0.02*x").unwrap();
+        layers.push(Layer::new(LayerId(99), "Of the depth", LayerKind::target(of_depth)));
+    }
     let spacing = between(random, 0.25, 0.6);
     let diameter = between(random, 0.1, 0.3);
     let transfer = Transfer {
@@ -263,7 +268,6 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         1 => KeptParts::Largest,
         _ => KeptParts::Share(between(random, 0.0, 0.2)),
     };
-    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
     let settings = Settings {
         pins: Arc::new((0..random.usize(..4)).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),

@@ -540,7 +540,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        [VERSION, &format!("\"version\": 8, \"{long}\": 1")],
+        [VERSION, &format!("\"version\": 9, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -549,7 +549,7 @@ fn errors_stay_short_for_long_values() {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
                 VERSION,
-                "\"version\": 9",
+                "\"version\": 10",
                 usize::from(from.contains("written")),
             )
         });
