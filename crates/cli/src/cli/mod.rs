@@ -8,6 +8,7 @@ mod args;
 mod build;
 mod command_line;
 mod details;
+mod distance_args;
 mod earth_args;
 mod failure;
 mod help;

@@ -10,7 +10,8 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
-use super::super::{DocumentPlane, KeyFault, Meter, ReadError, project, shape_format, threats};
+use super::super::{DocumentPlane, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, threats};
+use super::grid_region::contour_of_grid;
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
@@ -162,9 +163,12 @@ impl Storage for Files<'_> {
         bounds: Option<Rect>,
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
-        let outline = (self.loading.read_outline)(file, self.loading.meter)?;
+        let outline = match RasterFormat::of(file) {
+            Ok(format) => contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?,
+            Err(_) => (self.loading.read_outline)(file, self.loading.meter)?,
+        };
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
-        let RegionCoordinates { assumed, projection } = *coordinates;
+        let RegionCoordinates { assumed, projection, contour: _, positive: _ } = *coordinates;
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;

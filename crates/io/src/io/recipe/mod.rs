@@ -4,6 +4,7 @@
 
 mod export;
 mod files;
+mod grid_region;
 mod notes;
 mod open;
 #[cfg(test)]

@@ -6,9 +6,11 @@ use rayon::prelude::*;
 
 use super::super::geojson::Outline;
 use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{Layer, RasterSource};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterSource};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::short_name;
 
 /// The share of a rectangle that a raster covers which covers all of it, but for rounding.
 const WHOLE: f64 = 1.0 - 1e-6;
@@ -53,7 +55,36 @@ pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = Strin
             source.and_then(|source| of_raster(layer, source, domain, has_frame))
         }
     };
-    settings.layers.iter().filter(|layer| layer.visible).filter_map(note)
+    let visible = || settings.layers.iter().filter(|layer| layer.visible);
+    visible().filter_map(note).chain(missing_pieces(settings))
+}
+
+/// Returns the names of pieces of the boundary that visible layers measure to, and that no piece has.
+fn missing_pieces(settings: &Settings) -> Vec<String> {
+    let chosen = settings.layers.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
+        LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } if !chosen.names.is_empty() => {
+            Some((layer, chosen))
+        }
+        _ => None,
+    });
+    let chosen: Vec<(&Layer, &PieceChoice)> = chosen.collect();
+    if chosen.is_empty() {
+        return Vec::new();
+    }
+    let pieces = BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks);
+    let names = |(layer, chosen): &(&Layer, &PieceChoice)| -> Vec<String> {
+        let unknown = pieces.iter().flat_map(|pieces| chosen.unknown_names(pieces));
+        unknown.map(|name| missing_piece(layer, name)).collect()
+    };
+    chosen.iter().flat_map(names).collect()
+}
+
+fn missing_piece(layer: &Layer, name: &str) -> String {
+    format!(
+        "No piece of the boundary is called “{}”: the layer “{}” does not measure to it.",
+        short_name(name),
+        short_name(&layer.name)
+    )
 }
 
 fn of_raster(layer: &Layer, source: &RasterSource, domain: Rect, has_frame: bool) -> Option<String> {
