@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
 use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_core::domain::BoundaryPieces;
+use meshbrush_core::layers::Layer;
 
 impl Feature for Boundary {
     type Command = BoundaryCommand;
@@ -32,7 +33,10 @@ impl Feature for Boundary {
     }
 
     fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
-        let is_shown = ctx.tools.tool == &BOUNDARY || ctx.view.dock.tab() == Tab::Domain;
+        let measures_to_pieces = |layer: &Layer| layer.kind.follows_pieces();
+        let is_shown = ctx.tools.tool == &BOUNDARY
+            || ctx.view.dock.tab() == Tab::Domain
+            || ctx.session.document().active_layer().is_some_and(measures_to_pieces);
         is_shown && ctx.session.find_boundary(ctx.jobs)
     }
 }

@@ -314,8 +314,8 @@ pub(super) fn coordinates(third: Third) -> &'static str {
 /// Returns a name to write instead of an unknown one, if one is similar enough.
 pub(super) fn suggestion(name: &str, third: Third) -> Option<String> {
     let name = name.to_lowercase();
-    if let Some(known) = third.name().filter(|known| distance(&name, known) * 2 < known.len()) {
-        return Some(format!("`{known}`"));
+    if third == Third::Depth && distance(&name, "depth") < 3 {
+        return Some("`depth`".to_owned());
     }
     match ELSEWHERE.iter().find(|(other, _)| *other == name) {
         Some((_, here)) => Some((*here).to_owned()),

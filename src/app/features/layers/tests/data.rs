@@ -292,7 +292,8 @@ fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
         window.run();
     };
     toggle(&mut window, "Only some pieces");
-    wait_until(&mut window, |window| warns_or_remarks(window, "No piece of the boundary is chosen"));
+    let remark = "No piece of the boundary is chosen";
+    wait_until(&mut window, |window| window.query_by_label_contains(remark).is_some());
     assert_eq!(level_at(&window, west), coarse, "a rectangle has no land");
     toggle(&mut window, "open west");
     assert!(level_at(&window, west) == fine && level_at(&window, south) < fine);
@@ -306,11 +307,6 @@ fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
     assert!(level_at(&window, south) < fine);
     toggle(&mut window, "All of the type open");
     assert_eq!(level_at(&window, south), fine);
-}
-
-/// Returns whether the panel has a sentence with these words.
-fn warns_or_remarks(window: &Window, words: &str) -> bool {
-    window.query_all_by(|node| node.label().is_some_and(|text| text.contains(words))).next().is_some()
 }
 
 #[test]
@@ -327,8 +323,15 @@ fn a_formula_of_the_depth_needs_a_layer_of_depths() {
     let LayerKind::Formula { formula, .. } = &active(&window).kind else { panic!("a formula") };
     assert!(formula.uses_depth());
     // 30 m deep, at the shore, 60 m high, and unknown.
-    let levels = [(0.2, 0.8), (0.8, 0.8), (0.2, 0.2)].map(|(x, y)| level_at(&window, dvec2(x, y)));
-    assert!(levels[1] > levels[0] && levels[0] >= levels[2], "{levels:?}");
+    let session = window.state().session();
+    let (field, paint) = (session.follower().field(), session.document().paint());
+    for (x, y, expected) in
+        [(0.2, 0.8, Some(0.32)), (0.8, 0.8, Some(0.02)), (0.2, 0.2, Some(0.62)), (0.8, 0.2, None)]
+    {
+        let asked = field.decision_at(paint, dvec2(x, y)).asked;
+        let of_base = asked.into_iter().find(|(id, _)| *id == LayerId(0)).and_then(|(_, asked)| asked);
+        assert_eq!(of_base, expected, "at {x}, {y}");
+    }
 }
 
 #[test]
