@@ -281,7 +281,7 @@ impl Summary {
         let boundary = details.map(|details| &details.boundary);
         Self {
             triangles: extract.triangles().len(),
-            unit: (finished.unit != LengthUnit::None).then(|| finished.unit.name()),
+            unit: (finished.unit() != LengthUnit::None).then(|| finished.unit().name()),
             nodes: extract.nodes().len(),
             area: if extract.is_patched() { extract.area() } else { mesh.area() },
             outline_nodes: finished.derived.fit().map(OutlineNodes::from),

@@ -31,6 +31,7 @@ mod features;
 mod folder;
 pub mod fort14;
 pub mod fvcom;
+mod given;
 pub mod gr3;
 mod interrupt;
 mod mesh_file;
@@ -92,6 +93,7 @@ pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, Place, ReadError};
 pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
+pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;
 pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
 use meshbrush_core::domain::MeshBoundary;
@@ -104,6 +106,7 @@ pub use route_on_earth::RouteOnEarth;
 use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
+pub use values::TextValue;
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 15] = [

@@ -43,17 +43,19 @@ pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
 /// `has_frame` of its own.
 pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = String> {
     let domain = settings.domain.bounds;
-    let note = move |layer: &Layer| match (&layer.kind, &layer.mask) {
+    let visible = settings.layers.iter().filter(|layer| layer.visible);
+    visible.filter_map(move |layer| note(layer, domain, has_frame))
+}
+
+/// Returns the note on a layer that asks for nothing, or only in a part of the domain, as [`notes`] does.
+pub fn note(layer: &Layer, domain: Rect, has_frame: bool) -> Option<String> {
+    match (&layer.kind, &layer.mask) {
         (_, Some(mask)) if mask.bounds().intersection(&domain).is_none() => Some(format!(
             "The mask of the layer “{}” does not meet the domain: it asks for nothing.",
             layer.name
         )),
-        (kind, _) => {
-            let source = kind.raster_source();
-            source.and_then(|source| of_raster(layer, source, domain, has_frame))
-        }
-    };
-    settings.layers.iter().filter(|layer| layer.visible).filter_map(note)
+        (kind, _) => of_raster(layer, kind.raster_source()?, domain, has_frame),
+    }
 }
 
 fn of_raster(layer: &Layer, source: &RasterSource, domain: Rect, has_frame: bool) -> Option<String> {
