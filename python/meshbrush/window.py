@@ -1,0 +1,96 @@
+"""The window: the program on a copy of a document."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sysconfig
+import tempfile
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING
+
+from ._errors import MeshError
+
+if TYPE_CHECKING:
+    from .document import Document
+
+_FILE = "document.meshbrush"
+
+
+def bundled_program() -> FilePath | None:
+    """Returns the program with its window, if it came with the package."""
+    name = "meshbrush.exe" if os.name == "nt" else "meshbrush"
+    program = FilePath(__file__).parent / "bin" / name
+    return program if program.is_file() else None
+
+
+def _program() -> str:
+    """Returns the program: that of the package, or the first on the PATH that is no script of a Python package."""
+    bundled = bundled_program()
+    if bundled is not None:
+        return str(bundled)
+    scripts = FilePath(sysconfig.get_path("scripts")).resolve()
+    for folder in os.get_exec_path():
+        found = shutil.which("meshbrush", path=folder)
+        if found is not None and FilePath(found).parent.resolve() != scripts and not _is_script(found):
+            return found
+    raise MeshError(
+        "There is no window: this package was built without the program, and there is no program meshbrush on the PATH. "
+        "Install it, for example with `cargo install --path .` in the source, or save the document and open it elsewhere."
+    )
+
+
+def _is_script(file: str) -> bool:
+    with open(file, "rb") as start:
+        return start.read(2) == b"#!"
+
+
+def edited(document: bytes) -> bytes | None:
+    """Opens the window on a document, waits, and returns the file if it was saved."""
+    program = _program()
+    with tempfile.TemporaryDirectory(prefix="meshbrush-") as folder:
+        file = FilePath(folder) / _FILE
+        file.write_bytes(document)
+        before = file.stat()
+        status = subprocess.call([program, str(file)])
+        if status != 0:
+            raise MeshError(f"The window ended with status {status}; what it says is above.")
+        after = file.stat()
+        if (before.st_mtime_ns, before.st_size, before.st_ino) == (after.st_mtime_ns, after.st_size, after.st_ino):
+            return None
+        return file.read_bytes()
+
+
+class View:
+    """A window on a copy of a document. It stays open when the script ends."""
+
+    def __init__(self, document: Document) -> None:
+        program = _program()
+        self._document = document
+        self._folder = tempfile.mkdtemp(prefix="meshbrush-")
+        self._file = FilePath(self._folder) / _FILE
+        self.reload()
+        # Ctrl+C in the terminal of the script is not for the window.
+        self._process = subprocess.Popen([program, str(self._file)], start_new_session=True)
+
+    def reload(self) -> None:
+        """Saves the document as it is now into the file of the window, for *Open* there."""
+        self._document.save(self._file)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the window is open."""
+        return self._process.poll() is None
+
+    def close(self) -> None:
+        """Closes the window, without saving, and removes its copy."""
+        if self.is_open:
+            self._process.terminate()
+        self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+
+def shown(document: Document) -> View:
+    """Opens the window on a copy of a document."""
+    return View(document)

@@ -1,0 +1,237 @@
+//! The layers of a document, and strokes on them.
+
+use meshbrush_core::document::Setting;
+use meshbrush_core::layers::{Layer, LayerId, Quantity};
+use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
+use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
+use meshbrush_io::io::recipe::Loading;
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::points_of;
+use crate::document::{Document, State, frame_of, lock};
+use crate::errors::{fault_in, load_error, mesh_error};
+use crate::values::{GivenData, given_of, text_value};
+use crate::work::{Watching, run};
+
+/// Paint of another project is not part of a layer.
+const OTHER_PAINT: &str = "What another project has painted cannot be added to a document that is there. Open that project, or \
+     read a recipe that names it.";
+
+/// A layer as Python shows it: identifier, name, kind, whether it is visible and locked, and how it is combined.
+type LayerRow = (u32, String, &'static str, bool, bool, &'static str);
+
+#[pymethods]
+impl Document {
+    /// Adds a layer on top, from a table with the keys of a recipe, and returns its identifier, with notes for a
+    /// person.
+    fn add_layer(
+        &self,
+        py: Python<'_>,
+        table: &Bound<'_, PyDict>,
+        given: Vec<(String, GivenData<'_>)>,
+    ) -> PyResult<(u32, Vec<String>)> {
+        let (frame, has_smallest) = self.with(py, |state| (frame_of(state), state.has_smallest));
+        let given = given_of(given, Some(frame))?;
+        let table = text_value(table)?;
+        let saved =
+            SavedLayer::of_value(&table, has_smallest, &given).map_err(|fault| fault_in(&table, &fault))?;
+        let state = self.state.clone();
+        let added = run(py, &Watching::QUIET, move |watch| {
+            let loading = Loading { given, ..Loading::for_document(&watch.meter) };
+            let (settings, assumed) = {
+                let state = lock(&state);
+                (state.document.settings().clone(), state.assumed)
+            };
+            let loaded = saved.load_for(LayerId(0), &settings, assumed, &loading);
+            loaded.map(|loaded| match loaded.paint {
+                Some(_) => Err(mesh_error(OTHER_PAINT)),
+                None => add(&mut lock(&state), loaded.layer).map(|id| (id, loaded.notes)),
+            })
+        })?;
+        added.map_err(|error| load_error(&table, &error))?
+    }
+
+    /// The layers, from the bottom to the top.
+    fn layers(&self, py: Python<'_>) -> Vec<LayerRow> {
+        self.with(py, |state| state.document.settings().layers.iter().map(row_of).collect())
+    }
+
+    /// Removes a layer.
+    fn remove_layer(&self, py: Python<'_>, id: u32) -> PyResult<()> {
+        self.with(py, |state| change_layers(state, |layers| layers.retain(|layer| layer.id.0 != id)))
+    }
+
+    /// Moves a layer to a place in the stack, counted from 0 at the bottom.
+    fn move_layer(&self, py: Python<'_>, id: u32, place: usize) -> PyResult<()> {
+        self.with(py, |state| {
+            change_layers(state, |layers| {
+                if let Some(from) = layers.iter().position(|layer| layer.id.0 == id) {
+                    let layer = layers.remove(from);
+                    layers.insert(place.min(layers.len()), layer);
+                }
+            })
+        })
+    }
+
+    /// Changes what a table states of a layer: `name`, `visible`, `locked`, `combine`.
+    fn change_layer(&self, py: Python<'_>, id: u32, table: &Bound<'_, PyDict>) -> PyResult<()> {
+        let change = LayerChange::of(table)?;
+        self.with(py, |state| {
+            change_layers(state, |layers| {
+                layers.iter_mut().filter(|layer| layer.id.0 == id).for_each(|layer| change.apply(layer));
+            })
+        })
+    }
+
+    /// Paints a line through points as one edit. `quantity` is "diameter", "risk" or "eraser".
+    #[expect(clippy::too_many_arguments, reason = "a brush, and where it goes")]
+    fn paint(
+        &self,
+        py: Python<'_>,
+        points: PyReadonlyArray2<'_, f64>,
+        quantity: &str,
+        value: f64,
+        change: &str,
+        radius: f64,
+        hardness: f64,
+        strength: f64,
+        mirror: (Option<f64>, Option<f64>),
+        continues: bool,
+    ) -> PyResult<()> {
+        let points = points_of(&points)?;
+        if let Some(point) = points.iter().find(|point| !point.is_finite()) {
+            return Err(mesh_error(format!("A stroke through {}, {} is impossible.", point.x, point.y)));
+        }
+        let brush = Brush { medium: medium(quantity, value, change)?, radius, hardness, strength };
+        let state = self.state.clone();
+        let painted = run(py, &Watching::QUIET, move |_| {
+            let mut state = lock(&state);
+            if !(continues && state.document.stroke().is_some()) {
+                begin(&mut state, brush, Mirror { x: mirror.0, y: mirror.1 })?;
+            }
+            points.iter().for_each(|&point| state.document.draw_to(point));
+            Ok::<_, String>(())
+        })?;
+        painted.map_err(mesh_error)
+    }
+
+    /// Ends the current stroke: it becomes one edit, or was never drawn.
+    fn end_stroke(&self, py: Python<'_>, keep: bool) {
+        self.with(
+            py,
+            |state| if keep { state.document.end_stroke() } else { state.document.cancel_stroke() },
+        );
+    }
+}
+
+/// Adds a layer on top of a document.
+fn add(state: &mut State, mut layer: Layer) -> PyResult<u32> {
+    let id = state.document.unused_layer_id();
+    layer.id = id;
+    let is_paint = layer.paints().is_some();
+    change_layers(state, |layers| layers.push(layer))?;
+    if is_paint {
+        state.document.activate_layer(id);
+    }
+    Ok(id.0)
+}
+
+fn change_layers(state: &mut State, change: impl FnOnce(&mut Vec<Layer>)) -> PyResult<()> {
+    let mut layers = state.document.settings().layers.clone();
+    change(&mut layers);
+    state.document.end_gesture();
+    let set = state.document.set(Setting::Layers(layers)).map_err(mesh_error);
+    state.document.end_gesture();
+    set
+}
+
+fn row_of(layer: &Layer) -> LayerRow {
+    let kind = SavedLayer::of(layer, None).kind.word();
+    let combine = match layer.combine.into() {
+        SavedCombine::Finest => "finest",
+        SavedCombine::Floor => "floor",
+        SavedCombine::Replace => "replace",
+    };
+    (layer.id.0, layer.name.clone(), kind, layer.visible, layer.locked, combine)
+}
+
+/// What changes of a layer, read with the words of recipes.
+struct LayerChange {
+    name: Option<String>,
+    visible: Option<bool>,
+    locked: Option<bool>,
+    combine: Option<SavedCombine>,
+}
+
+impl LayerChange {
+    fn of(table: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let get = |key: &str| table.get_item(key);
+        let words = [
+            ("finest", SavedCombine::Finest),
+            ("floor", SavedCombine::Floor),
+            ("replace", SavedCombine::Replace),
+        ];
+        let combine = get("combine")?.map(|value| value.extract::<String>()).transpose()?;
+        let combine = combine.map(|word| {
+            let known = words.into_iter().find(|(known, _)| *known == word);
+            known.map(|(_, combine)| combine).ok_or_else(|| {
+                mesh_error(format!(
+                    "combine: \"{word}\" is not possible here; write one of finest, floor, replace."
+                ))
+            })
+        });
+        Ok(Self {
+            name: get("name")?.map(|value| value.extract()).transpose()?,
+            visible: get("visible")?.map(|value| value.extract()).transpose()?,
+            locked: get("locked")?.map(|value| value.extract()).transpose()?,
+            combine: combine.transpose()?,
+        })
+    }
+
+    fn apply(&self, layer: &mut Layer) {
+        layer.name = self.name.clone().unwrap_or_else(|| layer.name.clone());
+        layer.visible = self.visible.unwrap_or(layer.visible);
+        layer.locked = self.locked.unwrap_or(layer.locked);
+        layer.combine = self.combine.map_or(layer.combine, Into::into);
+    }
+}
+
+fn medium(quantity: &str, value: f64, change: &str) -> PyResult<Medium> {
+    let change = match change {
+        "finer" => DiameterChange::Finer,
+        "coarser" => DiameterChange::Coarser,
+        "any" => DiameterChange::Any,
+        word => {
+            let advice = "write one of finer, coarser, any.";
+            return Err(mesh_error(format!("change: \"{word}\" is not possible here; {advice}")));
+        }
+    };
+    match quantity {
+        "diameter" if value > 0.0 && value.is_finite() => Ok(Medium::Diameter(value, change)),
+        "diameter" => Err(mesh_error(format!(
+            "diameter: {value} cannot be used: a length must be positive and finite."
+        ))),
+        "risk" if (0.0..=1.0).contains(&value) => Ok(Medium::Risk(value)),
+        "risk" => Err(mesh_error(format!("risk: {value} cannot be used: a risk lies from 0 to 1."))),
+        _ => Ok(Medium::Eraser),
+    }
+}
+
+/// Begins a stroke, on a new paint layer if there is none for it.
+fn begin(state: &mut State, brush: Brush, mirror: Mirror) -> Result<(), String> {
+    use meshbrush_core::document::NoPaintLayer::Missing;
+    if let Err(Missing(quantity)) = state.document.layer_for(&brush.medium) {
+        let quantity = quantity.unwrap_or(Quantity::Diameter);
+        let kind = meshbrush_core::layers::LayerKind::Paint(quantity);
+        let mut layer = Layer::stack([kind]).remove(0);
+        layer.id = state.document.unused_layer_id();
+        let mut layers = state.document.settings().layers.clone();
+        layers.push(layer);
+        state.document.set(Setting::Layers(layers)).map_err(|error| error.to_string())?;
+    }
+    state.document.layer_for(&brush.medium).map_err(|error| error.to_string())?;
+    state.document.begin_mirrored_stroke(brush, mirror);
+    Ok(())
+}
