@@ -34,7 +34,7 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
     inside = max(mesh.markers.values(), default=0) + 1
     nothing = np.empty(0, dtype=np.int64)
     sets = {name: [nothing, np.flatnonzero(marker == number)] for name, number in mesh.markers.items()}
-    physical = [np.full(count, inside), marker]
+    physical = [np.full(count, inside, dtype=np.int32), marker.astype(np.int32)]
     return meshio.Mesh(
         mesh.nodes,
         [("triangle", mesh.triangles.astype(np.int64)), ("line", edges)],

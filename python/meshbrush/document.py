@@ -119,6 +119,11 @@ class Document:
             if key not in known:
                 raise TypeError(f"There is no option {key} to change; the options are {', '.join(sorted(known))}.")
         self._core.set(_tables(options))
+        self._forget_mesh()
+
+    def _forget_mesh(self) -> None:
+        with self._lock:
+            self._mesh = None
 
     def mesh(self, *, progress: Progress = None, threads: int | None = None, fresh: bool = False) -> Mesh:
         """Returns the mesh of the document as it is.
@@ -142,8 +147,7 @@ class Document:
         """Brings the mesh up to date where it is, as the window does, and says what that changed."""
         with watching(progress, threads) as watch:
             change = self._core.update(watch)
-        with self._lock:
-            self._mesh = None
+        self._forget_mesh()
         return change
 
     def why(self, point: tuple[float, float] | npt.ArrayLike) -> Why:

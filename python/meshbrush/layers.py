@@ -95,12 +95,10 @@ class Layer:
 
     def remove(self) -> None:
         """Takes the layer out of its document."""
-        self._row()
         self._document.remove_layer(self._number)
 
     def move_to(self, place: int) -> None:
         """Moves the layer to a place in the stack, counted from 0 at the bottom."""
-        self._row()
         self._document.move_layer(self._number, place)
 
     def __repr__(self) -> str:

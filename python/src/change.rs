@@ -6,7 +6,7 @@ use std::time::Instant;
 use meshbrush_core::document::{Follower, MeshChange, Stage};
 use pyo3::prelude::*;
 
-use crate::document::{Document, State, ToMake, lock};
+use crate::document::{Document, State, ToMake, lock, sentence};
 use crate::errors::mesh_error;
 use crate::work::{Watch, Watching, run};
 
@@ -80,11 +80,11 @@ fn new_follower(state: &Mutex<State>, watch: &Watch) -> Result<(bool, Follower),
 fn follow(state: &Mutex<State>, follower: &mut Follower, watch: &Watch) -> Result<(), String> {
     loop {
         let mut state = lock(state);
-        let stage = follower.advance(&mut state.document, SLICE).map_err(|error| error.to_string())?;
+        let stage = follower.advance(&mut state.document, SLICE).map_err(|error| sentence(&error))?;
         match stage {
             Stage::InStep => return Ok(()),
             Stage::GaveUp(error) => {
-                let error = error.map(|error| error.to_string());
+                let error = error.map(|error| sentence(&error));
                 return Err(error.unwrap_or_else(|| "The update was cancelled.".to_owned()));
             }
             Stage::Indexing => watch.tell("indexing the outline", 0),

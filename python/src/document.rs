@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use meshbrush_cli::cli::build::{FinishedMesh, MeshOrigin};
-use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
+use meshbrush_core::build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::document::{self as core, Setting, Settings};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::PaintLayers;
@@ -13,7 +13,7 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::recipe::{self, LoadedDocument, Loading};
 use meshbrush_io::io::settings::SavedSettings;
 use meshbrush_io::io::{Given, TextValue, project, write_file_metered};
-use meshbrush_mesh::mesh::{Limits, MemoryLimit, Progress};
+use meshbrush_mesh::mesh::{Limits, MemoryLimit, Progress, RefineError};
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -389,7 +389,7 @@ fn built(spec: MeshSpec, paint: &PaintLayers, watch: &Watch) -> Result<(BuiltMes
             BuildStage::Classifying { triangles } => ("classifying", triangles),
         };
         watch.tell(name, done as u64);
-        let progress = builder.advance(Some(paint), SLICE).map_err(|error| error.to_string())?;
+        let progress = builder.advance(Some(paint), SLICE).map_err(|error| sentence(&error))?;
         if matches!(stage, BuildStage::Refining { .. }) {
             refinement += begun.elapsed();
         }
@@ -401,6 +401,17 @@ fn built(spec: MeshSpec, paint: &PaintLayers, watch: &Watch) -> Result<(BuiltMes
             return Ok((builder.finish(), refinement, capped));
         }
     }
+}
+
+/// Returns what went wrong, with advice.
+pub fn sentence(error: &BuildError) -> String {
+    let advice = match error {
+        BuildError::Refine(RefineError::TooManyTriangles { .. }) => " Raise h_min, or raise max_triangles.",
+        BuildError::Refine(RefineError::TooMuchMemory { .. }) => " Raise h_min, or raise max_memory.",
+        BuildError::Refine(RefineError::TooFine { .. }) => " Raise h_min, or mesh a smaller domain.",
+        _ => "",
+    };
+    format!("{error}{advice}")
 }
 
 fn derived(

@@ -60,17 +60,19 @@ impl Document {
 
     /// Removes a layer.
     fn remove_layer(&self, py: Python<'_>, id: u32) -> PyResult<()> {
-        self.with(py, |state| change_layers(state, |layers| layers.retain(|layer| layer.id.0 != id)))
+        self.with(py, |state| {
+            change_layer(state, id, |layers, place| {
+                layers.remove(place);
+            })
+        })
     }
 
     /// Moves a layer to a place in the stack, counted from 0 at the bottom.
     fn move_layer(&self, py: Python<'_>, id: u32, place: usize) -> PyResult<()> {
         self.with(py, |state| {
-            change_layers(state, |layers| {
-                if let Some(from) = layers.iter().position(|layer| layer.id.0 == id) {
-                    let layer = layers.remove(from);
-                    layers.insert(place.min(layers.len()), layer);
-                }
+            change_layer(state, id, |layers, from| {
+                let layer = layers.remove(from);
+                layers.insert(place.min(layers.len()), layer);
             })
         })
     }
@@ -78,11 +80,7 @@ impl Document {
     /// Changes what a table states of a layer: `name`, `visible`, `locked`, `combine`.
     fn change_layer(&self, py: Python<'_>, id: u32, table: &Bound<'_, PyDict>) -> PyResult<()> {
         let change = LayerChange::of(table)?;
-        self.with(py, |state| {
-            change_layers(state, |layers| {
-                layers.iter_mut().filter(|layer| layer.id.0 == id).for_each(|layer| change.apply(layer));
-            })
-        })
+        self.with(py, |state| change_layer(state, id, |layers, place| change.apply(&mut layers[place])))
     }
 
     /// Paints a line through points as one edit. `quantity` is "diameter", "risk" or "eraser".
@@ -108,6 +106,9 @@ impl Document {
         let state = self.state.clone();
         let painted = run(py, &Watching::QUIET, move |_| {
             let mut state = lock(&state);
+            if matches!(brush.medium, Medium::Risk(_)) && !state.has_smallest {
+                return Err("Risk needs h_min: the smallest target diameter, where the risk is 1.".to_owned());
+            }
             if !(continues && state.document.stroke().is_some()) {
                 begin(&mut state, brush, Mirror { x: mirror.0, y: mirror.1 })?;
             }
@@ -136,6 +137,13 @@ fn add(state: &mut State, mut layer: Layer) -> PyResult<u32> {
         state.document.activate_layer(id);
     }
     Ok(id.0)
+}
+
+/// Changes the layers at the place of one of them.
+fn change_layer(state: &mut State, id: u32, change: impl FnOnce(&mut Vec<Layer>, usize)) -> PyResult<()> {
+    let place = state.document.settings().layers.iter().position(|layer| layer.id.0 == id);
+    let place = place.ok_or_else(|| mesh_error("The layer is no longer in its document."))?;
+    change_layers(state, |layers| change(layers, place))
 }
 
 fn change_layers(state: &mut State, change: impl FnOnce(&mut Vec<Layer>)) -> PyResult<()> {

@@ -77,7 +77,11 @@ impl SavedLayer {
         // Unlike a recipe, a document has paint layers of its own.
         let is_own_paint = alone.layer[0].is_paint() && alone.layer[0].file.is_none();
         let checked = alone.place_files(&|name| found(given, name)).and_then(|()| alone.check());
-        let checked = checked.and_then(|()| if is_own_paint { Ok(()) } else { alone.check_recipe() });
+        let mut as_recipe = alone.clone();
+        if is_own_paint {
+            as_recipe.layer[0].file = Some(PathBuf::new());
+        }
+        let checked = checked.and_then(|()| as_recipe.check_recipe());
         checked
             .map_err(|fault| KeyFault { path: fault.path[2.min(fault.path.len())..].to_vec(), ..fault })?;
         Ok(alone.layer.remove(0))
