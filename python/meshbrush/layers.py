@@ -155,7 +155,8 @@ class Layers(Sequence[Layer]):
         `reads` says that they are "risk" or "diameter"; else `curve` is pairs of a value and the target diameter there.
         The first row of an array is the northern one, unless `origin` is "lower". NaN asks for nothing. Without bounds
         an array covers the rectangle of the domain. Bounds are world units; in a document with a projection they are
-        longitudes and latitudes, or in the system `crs`.
+        longitudes and latitudes, or in the system `crs`, where
+        "plane" is that of the document.
         """
         if (reads is None) == (curve is None):
             raise MeshError(

@@ -261,7 +261,8 @@ impl Document {
                 && let Some((built, origin)) = built_in_place(&state, follower)
             {
                 drop(held);
-                return derived(built, origin, Duration::ZERO, 0, watch);
+                let name = lock(&state).document.settings().name.clone();
+                return derived(built, origin, name, Duration::ZERO, 0, watch);
             }
             let to_make = ToMake::of(&state, held.is_some())?;
             drop(held);
@@ -368,7 +369,7 @@ impl ToMake {
     pub fn made(self, state: &Mutex<State>, watch: &Watch) -> Result<Arc<Shared>, String> {
         let Self { spec, origin, settings, taken } = self;
         let (built, refinement, capped) = built(spec, &origin.paint, watch)?;
-        let mesh = derived(built, origin, refinement, capped, watch)?;
+        let mesh = derived(built, origin, settings.name.clone(), refinement, capped, watch)?;
         let mut state = lock(state);
         if taken == Some(state.taken) {
             state.base = Some((settings, mesh.clone()));
@@ -417,6 +418,7 @@ pub fn sentence(error: &BuildError) -> String {
 fn derived(
     built: BuiltMesh,
     origin: MeshOrigin,
+    name: String,
     refinement: Duration,
     capped: usize,
     watch: &Watch,
@@ -424,7 +426,7 @@ fn derived(
     watch.tell("fitting the mesh to its domain", built.mesh.raw_triangle_count() as u64);
     let derived = DerivedMesh::new(&built.mesh, &built.domain, &origin.cleaning);
     let finished = FinishedMesh::new(built, derived, origin, refinement, capped);
-    Ok(Shared::new(finished.map_err(|error| error.to_string())?, String::new()))
+    Ok(Shared::new(finished.map_err(|error| error.to_string())?, name))
 }
 
 /// Returns where grids without a place lie in a document.

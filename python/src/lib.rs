@@ -34,6 +34,8 @@ fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
 
 #[pymodule]
 mod _core {
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use crate::change::Change;
     #[pymodule_export]
@@ -45,4 +47,10 @@ mod _core {
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "the name of the convention")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_init]
+    fn init(_module: &Bound<'_, PyModule>) -> PyResult<()> {
+        crate::work::note_process();
+        Ok(())
+    }
 }

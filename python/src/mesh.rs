@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use meshbrush_cli::cli::build::FinishedMesh;
 use meshbrush_cli::cli::details::{DetailUses, MeshDetails, provenance_from};
 use meshbrush_cli::cli::earth_args::OutputCoordinates;
+use meshbrush_cli::cli::failure::Failure;
 use meshbrush_cli::cli::requested_files::RequestedFiles;
 use meshbrush_cli::cli::summary::Summary;
 use meshbrush_core::earth::Coordinates;
@@ -284,14 +285,19 @@ impl Mesh {
             Some(text) => text.parse().map_err(|error| mesh_error(format!("crs: {error}")))?,
             None => OutputCoordinates::from(shared.finished.coordinates()),
         };
+        if crs.is_some_and(|text| text != "plane") && shared.finished.domain().projection.is_none() {
+            return Err(mesh_error(NO_PLANE));
+        }
         let values = values_at_nodes(values, shared.counts()[0])?;
         let written = run(slf.py(), &watching, move |watch| {
             watch.tell("writing", 0);
-            let details = shared.details().map_err(str::to_owned)?;
-            let written = requested.write(&shared.finished, details, coordinates, values, &watch.meter);
-            written.map_err(|error| error.to_string())
+            let details = shared.details().map_err(|problem| Failure::Work(problem.to_owned()))?;
+            requested.write(&shared.finished, details, coordinates, values, &watch.meter)
         })?;
-        written.map_err(file_error)
+        written.map_err(|failure| match failure {
+            Failure::Write { .. } => file_error(failure),
+            failure => mesh_error(failure),
+        })
     }
 
     /// A picture of the mesh: rows, columns, and red, green, blue and alpha.

@@ -128,6 +128,7 @@ impl GridData<'_> {
         };
         let raster = raster_of(&values, place, lowest_first, name)?;
         let stated = match &crs {
+            Some(text) if text == "plane" => frame.and_then(|frame| frame.plane),
             Some(text) => {
                 Some(text.parse::<Coordinates>().map_err(|error| mesh_error(format!("crs: {error}")))?)
             }

@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use meshbrush_io::io::Meter;
@@ -69,10 +69,14 @@ pub fn run<T: Send + 'static>(
     work: impl FnOnce(&Watch) -> T + Send + 'static,
 ) -> PyResult<T> {
     let watch = Watch::default();
-    let (own, pool) = (watch.clone(), pool(*threads)?);
+    let (own, pool) = (watch.clone(), own_pool(*threads)?);
     let (send, mut receive) = channel();
     let doing = move || {
-        let result = pool.install(|| catch_unwind(AssertUnwindSafe(|| work(&own))));
+        let work = || catch_unwind(AssertUnwindSafe(|| work(&own)));
+        let result = match pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        };
         // Nobody may be listening any more.
         let _ = send.send(result);
     };
@@ -106,27 +110,26 @@ pub fn run<T: Send + 'static>(
     }
 }
 
-/// The threads of this process; a process that was forked has none of its parent's.
-static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+/// The process that imported the module.
+static IMPORTED_BY: OnceLock<u32> = OnceLock::new();
 
-fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
-    let new = |threads: usize| {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.map(Arc::new).map_err(|error| PyRuntimeError::new_err(error.to_string()))
-    };
-    match threads {
+/// Notes which process has the threads of rayon: one that was forked from it has none.
+pub fn note_process() {
+    IMPORTED_BY.get_or_init(std::process::id);
+}
+
+/// Returns threads for one piece of work alone, where the usual ones are not wanted or not there.
+///
+/// The usual ones are used from outside: within them, a thread that waits takes up any other work, which could
+/// wait for a document that the first has locked.
+fn own_pool(threads: Option<usize>) -> PyResult<Option<ThreadPool>> {
+    let is_forked = IMPORTED_BY.get().is_some_and(|&process| process != std::process::id());
+    let threads = match threads {
         Some(0) => return Err(crate::errors::mesh_error("threads = 0: there must be 1 thread at least.")),
-        Some(threads) => return new(threads),
-        None => {}
-    }
-    let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((process, pool)) = &*known
-        && *process == std::process::id()
-    {
-        return Ok(pool.clone());
-    }
-    let pool = new(0)?;
-    // Threads of the parent are not waited for.
-    std::mem::forget(known.replace((std::process::id(), pool.clone())));
-    Ok(pool)
+        Some(threads) => threads,
+        None if is_forked => 0,
+        None => return Ok(None),
+    };
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map(Some).map_err(|error| PyRuntimeError::new_err(error.to_string()))
 }

@@ -235,6 +235,9 @@ def test_why_and_path() -> None:
     (lambda d: d.mesh().write("a.msh", values={"a b": [1]}), mb.MeshError, "letters, digits"),
     (lambda d: d.mesh().write("a.msh", values={"a": [1]}), mb.MeshError, "nodes"),
     (lambda d: d.mesh().nodes_in("lonlat"), mb.MeshError, "projection"),
+    (lambda d: d.mesh().write("a.msh", crs="EPSG:32635"), mb.MeshError, "projection"),
+    (lambda d: d.mesh().write("a.msh", quantities=["a = 1/(x-x)"]), mb.MeshError, "finite number at every node"),
+    (lambda d: d.mesh().write("a.png", quantities=["a = 1"]), mb.MeshError, "no values at the nodes"),
     (lambda d: d.to_world([[1, 2]]), mb.MeshError, "projection"),
 ])
 def test_errors_are_sentences_of_their_class(fault: Any, kind: type[Exception], part: str) -> None:

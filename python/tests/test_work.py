@@ -104,7 +104,7 @@ def test_eight_threads_with_documents_of_their_own_and_with_one() -> None:
             assert mesh.violations() == 0 and mesh.locate(mesh.nodes[:10]).triangle.min() >= 0
             return mesh.fingerprint
 
-        list(pool.map(work, range(24)))
+        list(pool.map(work, range(48)))
         shared.update()
         assert shared.mesh().fingerprint == shared.mesh(fresh=True).fingerprint
         mesh = shared.mesh()
