@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
 import sys
 
 from . import _core
@@ -15,8 +14,10 @@ def main() -> int:
     """Runs the program of the package, or the command line where the package has none. Returns the exit status."""
     program = bundled_program()
     if program is not None:
-        command = [str(program), *sys.argv[1:]]
+        command = [program, *sys.argv[1:]]
         if os.name == "nt":
+            import subprocess
+
             return subprocess.call(command)
         os.execv(command[0], command)
     # As every program: Ctrl+C ends it. Python would only note the signal.

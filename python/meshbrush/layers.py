@@ -93,6 +93,14 @@ class Layer:
     def combine(self, combine: str) -> None:
         self._document.change_layer(self._number, {"combine": combine})
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Layer):
+            return NotImplemented
+        return self._document is other._document and self._number == other._number
+
+    def __hash__(self) -> int:
+        return hash((id(self._document), self._number))
+
     def remove(self) -> None:
         """Takes the layer out of its document."""
         self._document.remove_layer(self._number)

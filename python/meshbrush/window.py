@@ -3,37 +3,36 @@
 from __future__ import annotations
 
 import os
-import shutil
-import subprocess
-import sysconfig
-import tempfile
-from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
 from ._errors import MeshError
 
+# What starts processes takes a third of the time of the import, and few scripts open a window.
 if TYPE_CHECKING:
     from .document import Document
 
 _FILE = "document.meshbrush"
 
 
-def bundled_program() -> FilePath | None:
+def bundled_program() -> str | None:
     """Returns the program with its window, if it came with the package."""
     name = "meshbrush.exe" if os.name == "nt" else "meshbrush"
-    program = FilePath(__file__).parent / "bin" / name
-    return program if program.is_file() else None
+    program = os.path.join(os.path.dirname(__file__), "bin", name)
+    return program if os.path.isfile(program) else None
 
 
 def _program() -> str:
     """Returns the program: that of the package, or the first on the PATH that is no script of a Python package."""
+    import shutil
+    import sysconfig
+
     bundled = bundled_program()
     if bundled is not None:
-        return str(bundled)
-    scripts = FilePath(sysconfig.get_path("scripts")).resolve()
+        return bundled
+    scripts = os.path.realpath(sysconfig.get_path("scripts"))
     for folder in os.get_exec_path():
         found = shutil.which("meshbrush", path=folder)
-        if found is not None and FilePath(found).parent.resolve() != scripts and not _is_script(found):
+        if found is not None and os.path.realpath(os.path.dirname(found)) != scripts and not _is_script(found):
             return found
     raise MeshError(
         "There is no window: this package was built without the program, and there is no program meshbrush on the PATH. "
@@ -48,31 +47,39 @@ def _is_script(file: str) -> bool:
 
 def edited(document: bytes) -> bytes | None:
     """Opens the window on a document, waits, and returns the file if it was saved."""
+    import subprocess
+    import tempfile
+
     program = _program()
     with tempfile.TemporaryDirectory(prefix="meshbrush-") as folder:
-        file = FilePath(folder) / _FILE
-        file.write_bytes(document)
-        before = file.stat()
-        status = subprocess.call([program, str(file)])
+        file = os.path.join(folder, _FILE)
+        with open(file, "wb") as out:
+            out.write(document)
+        before = os.stat(file)
+        status = subprocess.call([program, file])
         if status != 0:
             raise MeshError(f"The window ended with status {status}; what it says is above.")
-        after = file.stat()
+        after = os.stat(file)
         if (before.st_mtime_ns, before.st_size, before.st_ino) == (after.st_mtime_ns, after.st_size, after.st_ino):
             return None
-        return file.read_bytes()
+        with open(file, "rb") as saved:
+            return saved.read()
 
 
 class View:
     """A window on a copy of a document. It stays open when the script ends."""
 
     def __init__(self, document: Document) -> None:
+        import subprocess
+        import tempfile
+
         program = _program()
         self._document = document
         self._folder = tempfile.mkdtemp(prefix="meshbrush-")
-        self._file = FilePath(self._folder) / _FILE
+        self._file = os.path.join(self._folder, _FILE)
         self.reload()
         # Ctrl+C in the terminal of the script is not for the window.
-        self._process = subprocess.Popen([program, str(self._file)], start_new_session=True)
+        self._process = subprocess.Popen([program, self._file], start_new_session=True)
 
     def reload(self) -> None:
         """Saves the document as it is now into the file of the window, for *Open* there."""
@@ -85,6 +92,8 @@ class View:
 
     def close(self) -> None:
         """Closes the window, without saving, and removes its copy."""
+        import shutil
+
         if self.is_open:
             self._process.terminate()
         self._process.wait()

@@ -28,6 +28,7 @@ def test_layers_are_a_sequence_that_can_be_changed() -> None:
     before = document.mesh().fingerprint
     layer = document.layers.formula(0.01, name="fine")
     assert [l.name for l in document.layers] == ["near", "fine"] and len(document.layers) == 2
+    assert layer in document.layers and document.layers.index(layer) == 1 and layer != document.layers[0]
     assert document.layers["fine"].kind == "formula" and document.layers[-1].name == "fine"
     assert document.mesh().fingerprint != before
     layer.visible = False

@@ -96,7 +96,7 @@ def test_a_document_is_shown_in_the_window(program: Path) -> None:
     file = view._file
     assert [layer.name for layer in mb.open(file).layers][0] == "later"
     view.close()
-    assert not view.is_open and not file.exists()
+    assert not view.is_open and not Path(file).exists()
 
 
 def test_without_a_window_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
