@@ -43,11 +43,11 @@ impl Document {
             };
             let before = follower.mesh().triangle_count();
             follower.take_change();
-            let result = follow(&state, &mut follower, watch);
+            // After an error, another mesh is made: this one has given up until the document changes.
+            follow(&state, &mut follower, watch)?;
             let replaced = first || follower.take_change() == Some(MeshChange::Replaced);
             let triangles = follower.mesh().triangle_count();
             *held = Some(follower);
-            result?;
             Ok(Change { before, triangles, replaced, seconds: begun.elapsed().as_secs_f64() })
         })?;
         updated.map_err(mesh_error)
@@ -93,7 +93,6 @@ fn follow(state: &Mutex<State>, follower: &mut Follower, watch: &Watch) -> Resul
             Stage::Refining { triangles } => watch.tell("refining", triangles as u64),
         }
         if watch.is_cancelled() {
-            follower.cancel(&state.document);
             return Err("it was cancelled".to_owned());
         }
     }

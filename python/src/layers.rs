@@ -4,7 +4,7 @@ use meshbrush_core::document::Setting;
 use meshbrush_core::layers::{Layer, LayerId, Quantity};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
 use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
-use meshbrush_io::io::recipe::Loading;
+use meshbrush_io::io::recipe::{LoadedLayer, Loading};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -38,19 +38,20 @@ impl Document {
         let saved =
             SavedLayer::of_value(&table, has_smallest, &given).map_err(|fault| fault_in(&table, &fault))?;
         let state = self.state.clone();
-        let added = run(py, &Watching::QUIET, move |watch| {
+        let loaded = run(py, &Watching::QUIET, move |watch| {
             let loading = Loading { given, ..Loading::for_document(&watch.meter) };
             let (settings, assumed) = {
                 let state = lock(&state);
                 (state.document.settings().clone(), state.assumed)
             };
-            let loaded = saved.load_for(LayerId(0), &settings, assumed, &loading);
-            loaded.map(|loaded| match loaded.paint {
-                Some(_) => Err(mesh_error(OTHER_PAINT)),
-                None => add(&mut lock(&state), loaded.layer).map(|id| (id, loaded.notes)),
-            })
+            saved.load_for(LayerId(0), &settings, assumed, &loading)
         })?;
-        added.map_err(|error| load_error(&table, &error))?
+        let LoadedLayer { layer, paint, notes } = loaded.map_err(|error| load_error(&table, &error))?;
+        if paint.is_some() {
+            return Err(mesh_error(OTHER_PAINT));
+        }
+        let id = self.with(py, |state| add(state, layer))?;
+        Ok((id, notes))
     }
 
     /// The layers, from the bottom to the top.
@@ -104,7 +105,7 @@ impl Document {
         }
         let brush = Brush { medium: medium(quantity, value, change)?, radius, hardness, strength };
         let state = self.state.clone();
-        let painted = run(py, &Watching::QUIET, move |_| {
+        let painted = run(py, &Watching::QUIET, move |watch| {
             let mut state = lock(&state);
             if matches!(brush.medium, Medium::Risk(_)) && !state.has_smallest {
                 return Err("Risk needs h_min: the smallest target diameter, where the risk is 1.".to_owned());
@@ -112,7 +113,8 @@ impl Document {
             if !(continues && state.document.stroke().is_some()) {
                 begin(&mut state, brush, Mirror { x: mirror.0, y: mirror.1 })?;
             }
-            points.iter().for_each(|&point| state.document.draw_to(point));
+            let unheard = points.iter().take_while(|_| !watch.is_cancelled());
+            unheard.for_each(|&point| state.document.draw_to(point));
             Ok::<_, String>(())
         })?;
         painted.map_err(mesh_error)

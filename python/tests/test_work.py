@@ -54,6 +54,31 @@ def test_ctrl_c_is_heard_within_a_tenth_of_a_second() -> None:
     assert len(document.mesh()) > 0
 
 
+def test_an_update_that_was_ended_begins_again() -> None:
+    document = small()
+    before = document.mesh().fingerprint
+    document.layers.formula("0.0008 + 0.0003*sin(40*x)*sin(30*y)")
+
+    def stop(stage: str, done: int) -> None:
+        raise LookupError(stage)
+
+    with pytest.raises(LookupError):
+        document.update(progress=stop)
+    document.undo()
+    document.update()
+    assert document.mesh().fingerprint == before == document.mesh(fresh=True).fingerprint
+    with document.stroke(mb.Brush(radius=0.05, diameter=0.01)) as stroke:
+        stroke.dot((0.8, 0.8))
+    document.update()
+    assert document.mesh().fingerprint == document.mesh(fresh=True).fingerprint != before
+    document.set(max_triangles=500)
+    for _ in range(2):
+        with pytest.raises(mb.MeshError, match="max_triangles"):
+            document.update()
+    document.set(max_triangles=100_000)
+    assert document.update().triangles == len(document.mesh(fresh=True))
+
+
 def test_an_error_of_the_progress_function_ends_the_work() -> None:
     def stop(stage: str, done: int) -> None:
         raise LookupError(stage)
