@@ -344,7 +344,8 @@ pub struct ToMake {
 }
 
 impl ToMake {
-    /// Returns what to make of a document as it is. Without a follower, changes of the paint count from here on.
+    /// Returns what to make of a document as it is. Without a follower, changes of the paint count from here
+    /// on.
     ///
     /// # Errors
     /// Fails when there is no coarse grid.

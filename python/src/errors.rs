@@ -43,7 +43,8 @@ pub fn mistake_in(name: &str, formula: &str, mistake: &ParseError) -> PyErr {
     formula_error(format!("{name}: {mistake}"), mistake.pointer(), formula, position)
 }
 
-/// Returns the error for a value of a table that cannot be used. Of a formula it has the place of the mistake.
+/// Returns the error for a value of a table that cannot be used. Of a formula it has the place of the
+/// mistake.
 pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
     let Some(pointer) = &fault.pointer else { return mesh_error(without_table(fault)) };
     let formula = text_at(tables, &fault.path);

@@ -19,13 +19,14 @@ use crate::work::{Watching, run};
 const OTHER_PAINT: &str = "What another project has painted cannot be added to a document that is there. Open that project, or \
      read a recipe that names it.";
 
-/// A layer as Python shows it: identifier, name, kind, whether it is visible and locked, and how it is combined.
+/// A layer as Python shows it: identifier, name, kind, whether it is visible and locked, and how it is
+/// combined.
 type LayerRow = (u32, String, &'static str, bool, bool, &'static str);
 
 #[pymethods]
 impl Document {
-    /// Adds a layer on top, from a table with the keys of a recipe, and returns its identifier, with notes for a
-    /// person.
+    /// Adds a layer on top, from a table with the keys of a recipe, and returns its identifier, with notes
+    /// for a person.
     fn add_layer(
         &self,
         py: Python<'_>,

@@ -1,8 +1,8 @@
 //! The module `meshbrush._core` for Python: what the package `meshbrush` cannot do in Python itself.
 //!
-//! Tables of options and layers come as dictionaries with the keys of a recipe, and are read and checked by the
-//! code that reads recipes. Long work runs on a thread of its own while the calling thread looks for signals,
-//! so that Ctrl+C is heard at once, and no lock is held meanwhile.
+//! Tables of options and layers come as dictionaries with the keys of a recipe, and are read and checked by
+//! the code that reads recipes. Long work runs on a thread of its own while the calling thread looks for
+//! signals, so that Ctrl+C is heard at once, and no lock is held meanwhile.
 
 mod answers;
 mod arrays;

@@ -40,9 +40,9 @@ type PathArrays<'py> = (Bound<'py, PyArray2<f64>>, [f64; 6], Vec<usize>, Option<
 
 #[pymethods]
 impl Mesh {
-    /// Finds the path of least cost between places. `table` has keys of the table `paths` of a recipe. Returns
-    /// points, cost, lower and upper bound of the least cost, length, risk and highest risk, the numbers of the
-    /// stops, and why no narrower interval was proved.
+    /// Finds the path of least cost between places. `table` has keys of the table `paths` of a recipe.
+    /// Returns points, cost, lower and upper bound of the least cost, length, risk and highest risk, the
+    /// numbers of the stops, and why no narrower interval was proved.
     fn path<'py>(
         slf: &Bound<'py, Self>,
         places: PyReadonlyArray2<'py, f64>,

@@ -10,8 +10,8 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use crate::arrays::raster_of;
 use crate::errors::mesh_error;
 
-/// Returns a value as the text of a recipe would have it. Anything with `__float__` or `__index__` is a number,
-/// and a path is a text. `None` is left out of tables.
+/// Returns a value as the text of a recipe would have it. Anything with `__float__` or `__index__` is a
+/// number, and a path is a text. `None` is left out of tables.
 pub fn text_value(value: &Bound<'_, PyAny>) -> PyResult<TextValue> {
     if value.is_none() {
         return Ok(TextValue::Nothing);

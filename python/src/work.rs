@@ -61,8 +61,8 @@ impl Watching {
 /// Does work on another thread, with no lock of Python held.
 ///
 /// # Errors
-/// Fails at once with the error of a signal's handler, such as `KeyboardInterrupt`, or of the function that is
-/// told the progress. The work is then cancelled, and its result is dropped when it comes.
+/// Fails at once with the error of a signal's handler, such as `KeyboardInterrupt`, or of the function that
+/// is told the progress. The work is then cancelled, and its result is dropped when it comes.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
     Watching { progress, threads }: &Watching,
@@ -120,8 +120,8 @@ pub fn note_process() {
 
 /// Returns threads for one piece of work alone, where the usual ones are not wanted or not there.
 ///
-/// The usual ones are used from outside: within them, a thread that waits takes up any other work, which could
-/// wait for a document that the first has locked.
+/// The usual ones are used from outside: within them, a thread that waits takes up any other work, which
+/// could wait for a document that the first has locked.
 fn own_pool(threads: Option<usize>) -> PyResult<Option<ThreadPool>> {
     let is_forked = IMPORTED_BY.get().is_some_and(|&process| process != std::process::id());
     let threads = match threads {
