@@ -21,7 +21,8 @@ def main() -> int:
             return subprocess.call(command)
         os.execv(command[0], command)
     # As every program: Ctrl+C ends it. Python would only note the signal.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
     return _core.main(["meshbrush", *sys.argv[1:]])
 
 

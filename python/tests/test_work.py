@@ -32,6 +32,8 @@ def small() -> mb.Document:
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 def test_ctrl_c_is_heard_within_a_tenth_of_a_second() -> None:
+    # A job in the background of a shell ignores the signal, and so would Python.
+    former = signal.signal(signal.SIGINT, signal.default_int_handler)
     document = large()
     layers = len(document.layers)
     sent: list[float] = []
@@ -43,10 +45,13 @@ def test_ctrl_c_is_heard_within_a_tenth_of_a_second() -> None:
 
     sender = threading.Thread(target=send)
     sender.start()
-    with pytest.raises(KeyboardInterrupt):
-        document.mesh()
-    heard = time.monotonic()
-    sender.join()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            document.mesh()
+        heard = time.monotonic()
+        sender.join()
+    finally:
+        signal.signal(signal.SIGINT, former)
     assert sent and heard - sent[0] < 0.1
     # The document is as it was, and works.
     assert len(document.layers) == layers
@@ -116,7 +121,7 @@ def test_other_threads_run_meanwhile() -> None:
 def test_eight_threads_with_documents_of_their_own_and_with_one() -> None:
     expected = small().mesh().fingerprint
     with ThreadPoolExecutor(8) as pool:
-        assert {mesh.fingerprint for mesh in pool.map(lambda _: small().mesh(threads=2), range(16))} == {expected}
+        assert {mesh.fingerprint for mesh in pool.map(lambda _: small().mesh(threads=2), range(8))} == {expected}
         shared = small()
 
         def work(number: int) -> str:
@@ -129,7 +134,7 @@ def test_eight_threads_with_documents_of_their_own_and_with_one() -> None:
             assert mesh.violations() == 0 and mesh.locate(mesh.nodes[:10]).triangle.min() >= 0
             return mesh.fingerprint
 
-        list(pool.map(work, range(48)))
+        list(pool.map(work, range(16)))
         shared.update()
         assert shared.mesh().fingerprint == shared.mesh(fresh=True).fingerprint
         mesh = shared.mesh()
