@@ -202,7 +202,7 @@ class Document:
 
     def edit(self) -> Document | None:
         """Opens the window on a copy, waits until it is closed, and returns what was saved; None for nothing."""
-        saved = edited(self._core.to_bytes())
+        saved = edited(self._core.to_bytes(), self.options["name"])
         return None if saved is None else Document._of(_core.Document.of_bytes(saved))
 
     def show(self) -> View:

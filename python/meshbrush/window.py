@@ -11,7 +11,11 @@ from ._errors import MeshError
 if TYPE_CHECKING:
     from .document import Document
 
-_FILE = "document.meshbrush"
+
+def _file_name(name: str) -> str:
+    """Returns the name of the copy of a document, which the title of the window shows."""
+    kept = "".join(letter for letter in name if letter.isalnum() or letter in " -_").strip()
+    return f"{kept[:60] or 'document'}.meshbrush"
 
 
 def bundled_program() -> str | None:
@@ -45,14 +49,14 @@ def _is_script(file: str) -> bool:
         return start.read(2) == b"#!"
 
 
-def edited(document: bytes) -> bytes | None:
+def edited(document: bytes, name: str) -> bytes | None:
     """Opens the window on a document, waits, and returns the file if it was saved."""
     import subprocess
     import tempfile
 
     program = _program()
     with tempfile.TemporaryDirectory(prefix="meshbrush-") as folder:
-        file = os.path.join(folder, _FILE)
+        file = os.path.join(folder, _file_name(name))
         with open(file, "wb") as out:
             out.write(document)
         before = os.stat(file)
@@ -76,7 +80,7 @@ class View:
         program = _program()
         self._document = document
         self._folder = tempfile.mkdtemp(prefix="meshbrush-")
-        self._file = os.path.join(self._folder, _FILE)
+        self._file = os.path.join(self._folder, _file_name(document.options["name"]))
         self.reload()
         # Ctrl+C in the terminal of the script is not for the window.
         self._process = subprocess.Popen([program, self._file], start_new_session=True)

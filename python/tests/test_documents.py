@@ -260,6 +260,7 @@ def test_a_mistake_in_a_formula_has_its_place() -> None:
     assert str(caught.value).endswith("θ + größe\n        ^^^^^")
 
 
+@pytest.mark.filterwarnings("ignore::meshbrush.MeshbrushWarning")
 def test_documents_on_the_earth() -> None:
     document = mb.Document(feature(bay(0.4, (24.0, 38.0))), projection="auto", h_min=500, h_max=9000)
     assert document.options["unit"] == "m" and "+proj=" in document.options["projection"] and document.notes

@@ -175,6 +175,7 @@ KINDS: list[Callable[[Path], Made]] = [
 ]
 
 
+@pytest.mark.filterwarnings("ignore::meshbrush.MeshbrushWarning")
 @pytest.mark.parametrize("make", KINDS, ids=lambda make: make.__name__)
 def test_fingerprints_are_those_of_the_command_line(make: Any, tmp_path: Path, summary_of: Any) -> None:
     recipe, document = make(tmp_path)
