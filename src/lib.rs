@@ -76,7 +76,7 @@ pub use meshbrush_mesh::text::LengthUnit;
 #[doc(inline)]
 pub use meshbrush_core::path::{
     Certificate, CertificateEnd, CertificateTask, Corridor, CostDensity, CostRange, Effort, FormulaCost,
-    Passage, PathArea, PathCertificate, PathError, PathMesh, PathRequest, PathSample, Placement,
+    GroundCost, Passage, PathArea, PathCertificate, PathError, PathMesh, PathRequest, PathSample, Placement,
     PlacementTest, Planner, Solution, TriangleCosts, Waypoint, WeightedCost, Weights,
 };
 
@@ -94,8 +94,8 @@ pub use meshbrush_study::levels::{Bisections, LevelFigures};
 // Read and write files.
 #[doc(inline)]
 pub use meshbrush_core::earth::{
-    Coordinates, CoordinatesTextError, EdgeLengths, GeographicExtent, Projection, ProjectionChoice,
-    ProjectionError, ProjectionKind, ProjectionTextError, Reprojection, projected_polygons,
+    Coordinates, CoordinatesTextError, EdgeLengths, GeographicExtent, InverseScale, Projection,
+    ProjectionChoice, ProjectionError, ProjectionKind, ProjectionTextError, Reprojection, projected_polygons,
 };
 #[doc(inline)]
 pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, OutlineFollower};

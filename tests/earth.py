@@ -90,6 +90,20 @@ def compare(name, system, degrees, plane, tolerance_m):
     return off
 
 
+def compare_figures(name, plane, summary, degrees, triangles, lengths):
+    """Fails where lengths and areas that the program says are not those on the ellipsoid."""
+    equal_area = CRS.from_proj4("+proj=laea +lat_0={1} +lon_0={0} +ellps=WGS84".format(*degrees[len(degrees) // 2]))
+    flat = np.column_stack(Transformer.from_crs(equal_area.geodetic_crs, equal_area, always_xy=True).transform(*degrees.T))
+    a, b, c = (flat[triangles[:, n] - triangles.min()] for n in range(3))
+    (p, q) = (b - a, c - a)
+    area = 0.5 * np.abs(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum()
+    found = summary["statistics"]
+    # Edges are straight in the plane, geodesics are a little shorter.
+    off = [found["shortest_edge"] / lengths.min() - 1, found["longest_edge"] / lengths.max() - 1, summary["area"] / area - 1]
+    assert all(-1e-8 < one < 1e-5 for one in off[:2]) and abs(off[2]) < 1e-4, f"{name} in {plane}: {off}"
+    return max(map(abs, off))
+
+
 def check_mesh(folder, name, projection, known):
     """Compares a mesh with PROJ, unless it is in a plane that is known, and returns its nodes and edges."""
     target_m, text = target_of(folder, projection)
@@ -101,7 +115,7 @@ def check_mesh(folder, name, projection, known):
     if plane in known:
         return 0, 0
     known.add(plane)
-    status, text, _ = mesh_of(folder, projection, target_m, "-o", "m.node")
+    status, text, summary = mesh_of(folder, projection, target_m, "--json", "-o", "m.node")
     assert status == 0, text
     degrees, triangles = table(folder / "m.node", 2), table(folder / "m.ele", 3).astype(int)
     status, text, _ = mesh_of(folder, projection, target_m, "--out-crs", "plane", "-o", "p.node")
@@ -114,7 +128,8 @@ def check_mesh(folder, name, projection, known):
     lengths = GEOD.inv(a[:, 0], a[:, 1], b[:, 0], b[:, 1])[2]
     # Where the plane is true to scale, edges are as long as the target, but for rounding.
     over = int((lengths > target_m * (1 + 1e-9)).sum())
-    print(f"{name:10} {projection:5} {len(degrees):7} nodes within {off:.0e} m, longest edge {lengths.max() / target_m:.6f} of its target")
+    figures = compare_figures(name, plane, json.loads(summary), degrees, triangles, lengths)
+    print(f"{name:10} {projection:5} figures within {figures:.0e}, {len(degrees):7} nodes within {off:.0e} m, longest edge {lengths.max() / target_m:.6f} of its target")
     assert over == 0, f"{name} in {plane}: {over} edges are longer than {target_m} m on the ellipsoid"
     return len(degrees), len(lengths)
 

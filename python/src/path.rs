@@ -96,7 +96,7 @@ impl Asked {
         let domain = finished.domain();
         let sentence =
             |error: meshbrush_core::path::PathError| error.in_domain(domain, &self.places).to_string();
-        let density = self.cost.density(finished.risk()).map_err(sentence)?;
+        let density = self.cost.density(finished.risk(), domain).map_err(sentence)?;
         let plane = domain.projection.map(DocumentPlane::from);
         let keep_out =
             self.keep_out.iter().map(|text| mask(text, plane.as_ref())).collect::<Result<_, _>>()?;

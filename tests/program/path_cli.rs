@@ -283,7 +283,8 @@ fn a_project_or_its_recipe_decides_places_cost_and_regions_unless_options_do() {
     let mut builder = MeshBuilder::new(spec);
     while builder.advance(Some(document.paint()), 100_000).unwrap() != Progress::Done {}
     let mesh = builder.finish().mesh;
-    let density = cost.density(RiskField::new(&document.settings().layers, document.paint())).unwrap();
+    let risk = RiskField::new(&document.settings().layers, document.paint());
+    let density = cost.density(risk, &document.settings().domain).unwrap();
     let masks = document.settings().paths.keep_out_masks();
     let mut planner =
         Planner::new(PathMesh::with_keep_out(mesh.extract().view(), &masks), &*density).unwrap();

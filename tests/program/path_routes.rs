@@ -143,7 +143,9 @@ fn routes_follow_the_path_within_the_stated_distance() {
     let projection: Projection = PLANE.parse().unwrap();
     let (all, route) = gpx(&folder, "a.gpx");
     assert_is_drawn_along(&route, &points, |at| projection.plane_from_geographic(at));
-    assert!(route.len() > 3 * points.len() && route.len() < 400, "{} {}", route.len(), points.len());
+    // Geodesics are bent in the plane, and are polylines there.
+    assert!(route.len() >= points.len() && points.len() < 300, "{} {}", route.len(), points.len());
+    assert!(route.len() < 500, "{}", route.len());
     assert_eq!(kml(&folder, "a.kml"), route);
     assert!(all[0].name == "gpx" && all[0].attributes.contains("http://www.topografix.com/GPX/1/1"));
     let named = |depth: usize| {

@@ -22,7 +22,7 @@ use coast::{Coast, RemovedTriangles};
 
 use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
-use meshbrush_core::domain::{DomainOnLattice, FitQuality, Region};
+use meshbrush_core::domain::{Domain, DomainOnLattice, FitQuality, Region};
 use meshbrush_core::outline::{DerivedMesh, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
     Changes, Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology,
@@ -324,6 +324,7 @@ impl Derivation {
             key: key.clone(),
             mesh: follower.shared_mesh(),
             domain: follower.domain().clone(),
+            in_world: follower.settings().domain.clone(),
             has_coast: self.coast.is_of(follower),
         };
         // Dropping a large one takes longer than a frame.
@@ -341,6 +342,7 @@ struct Work {
     key: Key,
     mesh: Arc<Mesh>,
     domain: DomainOnLattice,
+    in_world: Domain,
     /// Whether the coast is kept in step already.
     has_coast: bool,
 }
@@ -348,7 +350,7 @@ struct Work {
 impl Work {
     /// Derives the mesh, begins to keep its coast in step, and compares it with the outline.
     fn derive(self, output: &Output<Outcome>) {
-        let Self { key, mesh, domain, has_coast } = self;
+        let Self { key, mesh, domain, in_world, has_coast } = self;
         let (cleaning, region) = (key.cleaning, key.region.clone());
         let mut extract = None;
         let send = |derived: DerivedMesh| {
@@ -362,7 +364,7 @@ impl Work {
         }
         drop(mesh);
         if let Some(extract) = extract.filter(|_| output.is_wanted()) {
-            output.send(Outcome::Quality(FitQuality::of(&extract, &region)));
+            output.send(Outcome::Quality(FitQuality::of(&extract, &region, &in_world.ground())));
         }
     }
 }

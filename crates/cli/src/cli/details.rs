@@ -6,7 +6,7 @@ use super::build::FinishedMesh;
 use super::earth_args::OutputCoordinates;
 use super::input::Input;
 use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
-use meshbrush_core::earth::Coordinates;
+use meshbrush_core::earth::{Coordinates, Ground};
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -65,7 +65,8 @@ impl MeshDetails {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
             false => None,
         };
-        let straits = uses.json.then(|| StraitSummary::of(layers, extract)).flatten();
+        let straits =
+            uses.json.then(|| StraitSummary::of(layers, extract, &finished.domain().ground())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         Ok(Self { boundary, parts, provenance, depths, straits })
     }
@@ -169,7 +170,7 @@ pub struct StraitSummary {
 pub struct NarrowStrait {
     /// The middle of the strait.
     pub at: [f64; 2],
-    /// Its width, in world units.
+    /// Its width in world units, with a projection in metres on the ellipsoid.
     pub width: f64,
     /// Triangles across it.
     pub triangles: usize,
@@ -180,7 +181,7 @@ const MOST_STRAITS: usize = 1000;
 
 impl StraitSummary {
     /// Counts triangles for the uppermost visible layer that asks for them.
-    fn of(layers: &[Layer], extract: &Extract) -> Option<Self> {
+    fn of(layers: &[Layer], extract: &Extract, ground: &Ground) -> Option<Self> {
         let straits =
             layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| match &layer.kind {
                 LayerKind::Straits(straits) => Some(straits),
@@ -190,7 +191,7 @@ impl StraitSummary {
         let is_below = |count: &&StraitCount| (count.triangles as f64) < straits.across;
         let place = |count: &StraitCount| NarrowStrait {
             at: count.disc.center.into(),
-            width: count.disc.width,
+            width: count.disc.width * ground.inverse_scale_at(count.disc.center),
             triangles: count.triangles,
         };
         Some(Self {
@@ -216,7 +217,7 @@ pub struct PieceSummary {
     pub boundary_type: &'static str,
     /// Edges of the mesh.
     pub edges: usize,
-    /// Their length in world units.
+    /// Their length in world units, with a projection in metres on the ellipsoid.
     pub length: f64,
 }
 

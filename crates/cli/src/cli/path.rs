@@ -70,7 +70,7 @@ pub fn run(
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
     let extract = finished.extract();
-    let density = asked.cost.density(finished.risk())?;
+    let density = asked.cost.density(finished.risk(), finished.domain())?;
     let start = Instant::now();
     let area = asked.area(finished.domain())?;
     let search = || asked.path(&*density, extract.view(), &area);

@@ -7,7 +7,8 @@ use super::build::FinishedMesh;
 use super::details::{
     DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
 };
-use meshbrush_core::domain::{FitQuality, MeshBoundary, Region};
+use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
+use meshbrush_core::earth::Ground;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::outline::OutlineFit;
 use meshbrush_mesh::mesh::{Extract, MeshStatistics, Removed, RemovedPart, Topology};
@@ -31,7 +32,7 @@ pub struct Summary {
     pub hash: String,
     /// Seconds of refinement, without reading and writing.
     pub seconds: f64,
-    /// The area of the mesh, in square world units.
+    /// The area of the mesh, in square world units, with a projection on the ellipsoid.
     pub area: f64,
     /// How the mesh renders the outline of a region.
     #[serde(flatten)]
@@ -79,14 +80,12 @@ pub struct OutlineNodes {
     pub corners: usize,
 }
 
-impl From<OutlineFit> for OutlineNodes {
-    fn from(fit: OutlineFit) -> Self {
-        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
-        Self { boundary: nodes, on_outline, farthest, corners }
-    }
-}
-
 impl OutlineNodes {
+    fn new(fit: OutlineFit, domain: &Domain) -> Self {
+        let OutlineFit { nodes, on_outline, farthest, corners } = fit;
+        Self { boundary: nodes, on_outline, farthest: domain.longest_on_earth(farthest), corners }
+    }
+
     fn for_people(&self) -> String {
         let off = match self.boundary - self.on_outline {
             0 => String::new(),
@@ -100,7 +99,8 @@ impl OutlineNodes {
     }
 }
 
-/// A region compared with its mesh. Lengths and areas are in world units.
+/// A region compared with its mesh. Lengths and areas are in world units, with a projection in metres on the
+/// ellipsoid.
 #[derive(Clone, Debug, Serialize)]
 pub struct Outline {
     /// The area that the polygons cover.
@@ -158,20 +158,19 @@ pub struct RemovedPartSummary {
     pub area: f64,
 }
 
-impl From<&Removed> for RemovedSummary {
-    fn from(removed: &Removed) -> Self {
+impl RemovedSummary {
+    fn new(removed: &Removed, ground: &Ground) -> Self {
+        // The parts are small compared with the Earth.
         let part = |part: &RemovedPart| RemovedPartSummary {
             place: part.place.into(),
             triangles: part.triangles,
-            area: part.area,
+            area: part.area * ground.inverse_scale_at(part.place).powi(2),
         };
-        let Removed { parts, pinches, triangles, area, .. } = removed;
-        Self {
-            parts: parts.iter().map(part).collect(),
-            pinches: *pinches,
-            triangles: *triangles,
-            area: *area,
-        }
+        let Removed { parts, pinches, triangles, area: in_plane, .. } = removed;
+        let removed: Vec<RemovedPartSummary> = parts.iter().map(part).collect();
+        let at_pinches = in_plane - parts.iter().map(|part| part.area).sum::<f64>();
+        let area = removed.iter().map(|part| part.area).sum::<f64>() + at_pinches;
+        Self { parts: removed, pinches: *pinches, triangles: *triangles, area }
     }
 }
 
@@ -182,15 +181,16 @@ impl Outline {
         region: &Region,
         boundary: Option<&MeshBoundary>,
     ) -> Self {
-        let fit = FitQuality::of(extract, region);
+        let ground = finished.domain().ground();
+        let fit = FitQuality::of(extract, region, &ground);
         let Topology { parts, holes, .. } = extract.topology();
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
         Self {
-            region_area: region.area(),
+            region_area: fit.region_area,
             region_holes: region.hole_count(),
             holes,
             parts,
-            removed: finished.derived.removed().into(),
+            removed: RemovedSummary::new(finished.derived.removed(), &ground),
             misclassified_area: fit.misclassified_area,
             boundary_length: fit.boundary_length,
             outline_length: fit.outline_length,
@@ -277,19 +277,26 @@ impl Summary {
     ) -> Self {
         let mesh = finished.mesh();
         let levels = extract.level_counts();
+        let ground = finished.domain().ground();
         let region = finished.region();
         let boundary = details.map(|details| &details.boundary);
         Self {
             triangles: extract.triangles().len(),
             unit: (finished.unit() != LengthUnit::None).then(|| finished.unit().name()),
             nodes: extract.nodes().len(),
-            area: if extract.is_patched() { extract.area() } else { mesh.area() },
-            outline_nodes: finished.derived.fit().map(OutlineNodes::from),
+            area: match ground.inverse_scale() {
+                Some(_) => extract.area_by(|corners| ground.triangle_area(corners)),
+                None if extract.is_patched() => extract.area(),
+                None => mesh.area(),
+            },
+            outline_nodes: finished.derived.fit().map(|fit| OutlineNodes::new(fit, finished.domain())),
             outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
             boundary: boundary.map(PieceSummary::of_present),
             lost_pieces: boundary.map(LostPiece::all),
             part_triangles: details.map(MeshDetails::part_triangles),
-            statistics: details.and_then(|_| extract.statistics()),
+            statistics: details.and_then(|_| {
+                extract.statistics_by(|ends| ground.length(ends), |corners| ground.triangle_area(corners))
+            }),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

@@ -8,7 +8,7 @@ use crate::domain::Domain;
 use crate::field::CostFormula;
 use crate::layers::{Mask, RiskField};
 use crate::path::{
-    CostDensity, FormulaCost, PathArea, PathError, Waypoint, WeightedCost, Weights, check_clearance,
+    CostDensity, FormulaCost, PathArea, PathError, Waypoint, WeightedCost, Weights, check_clearance, in_plane,
 };
 
 /// The paths of a document. They do not change the mesh.
@@ -36,7 +36,7 @@ pub struct KeepOut {
     pub mask: Mask,
 }
 
-/// The cost of a path per unit of length.
+/// The cost of a path per unit of length: on the Earth, per metre on the ellipsoid.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathCost {
     /// λ + κ · risk.
@@ -52,15 +52,24 @@ impl Default for PathCost {
 }
 
 impl PathCost {
-    /// Returns the cost density over a risk.
+    /// Returns the cost density over a risk in a domain: on the Earth, of lengths on the ellipsoid.
     ///
     /// # Errors
     /// Fails when the weights make no cost.
-    pub fn density(&self, risk: RiskField) -> Result<Arc<dyn CostDensity>, PathError> {
+    pub fn density(&self, risk: RiskField, domain: &Domain) -> Result<Arc<dyn CostDensity>, PathError> {
+        let ground = domain.ground();
         Ok(match self {
-            Self::Weighted(weights) => Arc::new(WeightedCost::new(*weights, risk)?),
-            Self::Formula(formula) => Arc::new(FormulaCost { formula: formula.clone(), risk }),
+            Self::Weighted(weights) => in_plane(WeightedCost::new(*weights, risk)?, &ground),
+            Self::Formula(formula) => in_plane(FormulaCost { formula: formula.clone(), risk }, &ground),
         })
+    }
+
+    /// Checks the weights.
+    fn check(&self) -> Result<(), PathError> {
+        match self {
+            Self::Weighted(weights) => WeightedCost::new(*weights, RiskField::default()).map(|_| ()),
+            Self::Formula(_) => Ok(()),
+        }
     }
 }
 
@@ -80,7 +89,7 @@ impl PathPlan {
             }
         }
         check_clearance(self.clearance)?;
-        self.cost.density(RiskField::default()).map(|_| ())
+        self.cost.check()
     }
 
     /// Returns the name of a path by the number of its route: the one given to it, or its number from 1.

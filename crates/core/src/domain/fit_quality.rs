@@ -7,14 +7,17 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use super::farthest::farthest;
 use super::holes::{HoleComparison, HoleFigures, compare_holes};
 use super::segments::Segments;
-use super::{Region, Ring, signed_area};
+use super::{Region, Ring};
+use crate::earth::Ground;
 use crate::mesh::{Extract, NodeId};
 
 /// A mesh as files have it, compared with the region that it should cover. Lengths and areas are in world
-/// units.
+/// units, with a projection in metres on the ellipsoid.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FitQuality {
+    /// The area of the region.
+    pub region_area: f64,
     /// The area of the mesh minus the area of the region.
     pub net_area: f64,
     /// The area that only one of the two covers.
@@ -44,23 +47,30 @@ pub struct FitQuality {
 impl FitQuality {
     /// Compares the extract that files get with the region of its domain. Takes time in proportion to the
     /// triangles, and to n log n of the edges of boundary and outline.
-    pub fn of(extract: &Extract, region: &Region) -> Self {
+    pub fn of(extract: &Extract, region: &Region, ground: &Ground) -> Self {
         let ring =
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
         let loops: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
         let [boundary, outline] = [edges(loops.iter()), edges(region.rings())];
         let [boundary_length, outline_length] =
-            [&boundary, &outline].map(|edges| edges.iter().map(length).sum());
+            [&boundary, &outline].map(|edges| edges.iter().map(|&edge| ground.length(edge)).sum());
         let HoleComparison { lost, new } = compare_holes(region, &loops);
+        let on_ground =
+            |holes: Vec<HoleFigures>| holes.into_iter().map(|hole| hole.on_ground(ground)).collect();
+        let area = |ring: &Ring| ground.signed_area(ring);
+        let region_area = region.rings().map(area).sum::<f64>();
+        let only_one = region.overlaid(&loops, OverlayRule::Xor, FillRule::EvenOdd);
         let [smallest_angle, largest_angle] = extract.angle_range();
         Self {
-            net_area: loops.iter().map(|ring| signed_area(ring)).sum::<f64>() - region.area(),
-            misclassified_area: region.area_of(&loops, OverlayRule::Xor, FillRule::EvenOdd),
+            region_area,
+            net_area: loops.iter().map(area).sum::<f64>() - region_area,
+            // The empty sum is -0.
+            misclassified_area: only_one.rings().map(area).sum::<f64>().max(0.0),
             islands: region.hole_count(),
-            lost_islands: lost,
-            new_holes: new,
-            farthest_from_outline: farthest_from(&boundary, &outline),
-            farthest_from_mesh: farthest_from(&outline, &boundary),
+            lost_islands: on_ground(lost),
+            new_holes: on_ground(new),
+            farthest_from_outline: farthest_from(&boundary, &outline, ground),
+            farthest_from_mesh: farthest_from(&outline, &boundary, ground),
             boundary_length,
             outline_length,
             smallest_angle,
@@ -69,14 +79,11 @@ impl FitQuality {
     }
 }
 
-fn length([a, b]: &[DVec2; 2]) -> f64 {
-    a.distance(*b)
-}
-
 fn edges<'a>(rings: impl Iterator<Item = &'a Ring>) -> Vec<[DVec2; 2]> {
     rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| [a, b])).collect()
 }
 
-fn farthest_from(edges: &[[DVec2; 2]], others: &[[DVec2; 2]]) -> Option<(f64, DVec2)> {
-    farthest(edges, &Segments::new(others.to_vec())?)
+fn farthest_from(edges: &[[DVec2; 2]], others: &[[DVec2; 2]], ground: &Ground) -> Option<(f64, DVec2)> {
+    let (distance, at) = farthest(edges, &Segments::new(others.to_vec())?)?;
+    Some((ground.longest(distance, at), at))
 }

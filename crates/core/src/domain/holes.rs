@@ -4,14 +4,24 @@ use glam::DVec2;
 
 use super::segments::Segments;
 use super::{Region, Ring, signed_area};
+use crate::earth::Ground;
 
 /// A hole of a region or of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoleFigures {
     /// A point in world units: one of the corners of a hole of a region, or a point in a hole of a mesh.
     pub place: DVec2,
-    /// The area of the hole without the parts of the domain in it, in square world units.
+    /// The area of the hole without the parts of the domain in it, in square world units; of
+    /// [`FitQuality`](super::FitQuality) as its other areas.
     pub area: f64,
+}
+
+impl HoleFigures {
+    /// Returns the hole with its area on the ground. It is small compared with the Earth.
+    pub(super) fn on_ground(self, ground: &Ground) -> Self {
+        let scale = ground.inverse_scale_at(self.place);
+        Self { area: self.area * (scale * scale), ..self }
+    }
 }
 
 /// How the holes of a region and of a mesh of it correspond.

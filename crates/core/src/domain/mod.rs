@@ -22,12 +22,13 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use crate::earth::{Coordinates, GeographicExtent, Projection, Reprojection};
+use crate::earth::{Coordinates, GeographicExtent, Ground, Projection, Reprojection};
 use crate::field::Formula;
 use crate::geometry::{LatticePoint, Rect};
 use crate::mesh::Extract;
 use crate::text::Grouped;
 
+pub use crate::geometry::signed_area;
 pub use boundary::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts, FrameSide,
     LONGEST_NAME, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, coasts,
@@ -42,7 +43,7 @@ pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::Outline;
 pub(crate) use outline_query::OutlineNearby;
-pub use region::{Polygon, Region, Ring, corners, signed_area};
+pub use region::{Polygon, Region, Ring, corners};
 
 /// Scales that differ from 1 by less than this are 1.
 const TRUE_TO_SCALE: f64 = 1e-9;
@@ -199,6 +200,11 @@ impl Domain {
         let extent = GeographicExtent::of_plane(&projection, self.bounds);
         // The scale has no greatest value but on the rim.
         extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
+    }
+
+    /// Returns how lengths and areas in the bounds are measured: on the Earth with a projection.
+    pub fn ground(&self) -> Ground {
+        Ground::new(self.projection.as_ref(), &self.bounds)
     }
 
     /// Returns the domain with other bounds. Polygons are clipped to them.

@@ -7,7 +7,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::i_float::int::point::IntPoint;
 
-use crate::geometry::Rect;
+use crate::geometry::{Rect, signed_area};
 
 /// A closed polyline in world units; an edge joins the last point to the first, which is not repeated.
 pub type Ring = Vec<DVec2>;
@@ -124,13 +124,11 @@ impl Region {
         self.polygons.iter().map(|rings| rings.len() - 1).sum()
     }
 
-    /// Returns the area of an overlay of the region with rings in its frame, in square world units.
-    pub(super) fn area_of(&self, rings: &[Ring], rule: OverlayRule, fill: FillRule) -> f64 {
+    /// Returns an overlay of the region with rings in its frame.
+    pub(super) fn overlaid(&self, rings: &[Ring], rule: OverlayRule, fill: FillRule) -> Self {
         let grid = Grid::over(&self.frame);
         let operation = OverlayOperation(rule, fill);
-        let area = grid.region(overlay(&grid.contours_of(self), &grid.contours(rings), operation)).area;
-        // The empty sum is -0, and `max` may return either zero.
-        if area > 0.0 { area } else { 0.0 }
+        grid.region(overlay(&grid.contours_of(self), &grid.contours(rings), operation))
     }
 
     /// Returns the bounded connected parts of the plane that neither the region nor the domain of some rings
@@ -237,14 +235,6 @@ pub fn corners(rect: &Rect) -> Ring {
 /// Returns the length of a ring, in world units.
 fn perimeter(ring: &[DVec2]) -> f64 {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| a.distance(*b)).sum()
-}
-
-/// Returns the area enclosed by a ring in square world units, positive when it runs anticlockwise.
-pub fn signed_area(ring: &[DVec2]) -> f64 {
-    let Some(&origin) = ring.first() else { return 0.0 };
-    let ends = ring.iter().skip(1).chain(ring.first());
-    // Relative to a corner of the ring: large coordinates would cost digits.
-    0.5 * ring.iter().zip(ends).map(|(&a, &b)| (a - origin).perp_dot(b - origin)).sum::<f64>()
 }
 
 type Contour = Vec<IntPoint<i64>>;

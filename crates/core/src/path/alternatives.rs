@@ -140,6 +140,11 @@ impl Raised<'_> {
     fn factor(&self, distance: f64) -> f64 {
         1.0 + PENALTY * (1.0 - distance / self.width).max(0.0)
     }
+
+    fn raised(&self, CostRange { least, greatest }: CostRange, rectangle: &Rect) -> CostRange {
+        let Bounds { least: nearest, greatest: farthest, .. } = self.shapes.bounds(rectangle);
+        CostRange { least: least * self.factor(farthest), greatest: greatest * self.factor(nearest) }
+    }
 }
 
 impl CostDensity for Raised<'_> {
@@ -148,9 +153,7 @@ impl CostDensity for Raised<'_> {
     }
 
     fn range(&self, rectangle: &Rect) -> CostRange {
-        let CostRange { least, greatest } = self.density.range(rectangle);
-        let Bounds { least: nearest, greatest: farthest, .. } = self.shapes.bounds(rectangle);
-        CostRange { least: least * self.factor(farthest), greatest: greatest * self.factor(nearest) }
+        self.raised(self.density.range(rectangle), rectangle)
     }
 
     fn risk_at(&self, point: DVec2) -> f64 {
@@ -159,5 +162,13 @@ impl CostDensity for Raised<'_> {
 
     fn risk_range(&self, rectangle: &Rect) -> CostRange {
         self.density.risk_range(rectangle)
+    }
+
+    fn inverse_scale_at(&self, point: DVec2) -> f64 {
+        self.density.inverse_scale_at(point)
+    }
+
+    fn range_on_ground(&self, rectangle: &Rect) -> CostRange {
+        self.raised(self.density.range_on_ground(rectangle), rectangle)
     }
 }

@@ -9,6 +9,9 @@ use crate::layers::RiskField;
 
 /// A cost per unit of length, in world units: positive and finite.
 ///
+/// On the Earth, where lengths are those on the ellipsoid, [`GroundCost`](super::GroundCost) makes one of a
+/// cost per metre there.
+///
 /// Where it jumps, the smaller value counts (it is lower semicontinuous), so that a path of least cost
 /// exists.
 pub trait CostDensity: Send + Sync {
@@ -37,6 +40,18 @@ pub trait CostDensity: Send + Sync {
     fn risk_range(&self, _rectangle: &Rect) -> CostRange {
         CostRange { least: 0.0, greatest: 0.0 }
     }
+
+    /// Returns the length on the Earth of a short line of length 1 at a point, in the plane of a projection:
+    /// 1/k; 1 elsewhere.
+    fn inverse_scale_at(&self, _point: DVec2) -> f64 {
+        1.0
+    }
+
+    /// Returns bounds over a closed rectangle in world units of the cost per unit of length on the Earth. In
+    /// a plane without a projection they are those of [`Self::range`].
+    fn range_on_ground(&self, rectangle: &Rect) -> CostRange {
+        self.range(rectangle)
+    }
 }
 
 /// No cost in a rectangle is smaller than the one or greater than the other.
@@ -52,6 +67,22 @@ impl CostRange {
     /// Returns whether the range has positive, finite numbers only.
     pub fn is_valid(&self) -> bool {
         self.least > 0.0 && self.greatest < f64::INFINITY
+    }
+
+    /// Returns whether all costs are the same.
+    pub fn is_constant(&self) -> bool {
+        self.least == self.greatest
+    }
+
+    /// Returns the range of products of a number of each.
+    pub(super) fn times(self, other: Self) -> Self {
+        let Self { least: a, greatest: b } = self;
+        let Self { least: c, greatest: d } = other;
+        let products = [a * c, a * d, b * c, b * d];
+        Self {
+            least: products.into_iter().fold(f64::INFINITY, f64::min),
+            greatest: products.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        }
     }
 
     /// Returns the range of the costs of both.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights};
+use super::{PathError, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights, in_plane};
+use crate::earth::Ground;
 use crate::layers::RiskField;
 use crate::text::rounded;
 
@@ -25,6 +26,7 @@ pub struct FrontPoint {
 pub struct Front {
     mesh: Arc<PathMesh>,
     risk: RiskField,
+    ground: Ground,
     places: Vec<DVec2>,
     /// The risk weights still to do, the smallest last.
     waiting: Vec<f64>,
@@ -49,7 +51,13 @@ impl Front {
         let weight =
             |n: usize| rounded(least * libm::pow(greatest / least, n as f64 / steps as f64), WEIGHT_DIGITS);
         let waiting = (0..=steps).rev().map(weight).chain([0.0]).collect();
-        Self { mesh: mesh.into(), risk, places, waiting, points: Vec::new() }
+        Self { mesh: mesh.into(), risk, ground: Ground::default(), places, waiting, points: Vec::new() }
+    }
+
+    /// Measures lengths as a domain does.
+    #[must_use]
+    pub fn measured_on(self, ground: Ground) -> Self {
+        Self { ground, ..self }
     }
 
     /// Returns how many paths are still to be found.
@@ -80,21 +88,22 @@ impl Front {
     }
 
     fn solve(&self, weights: Weights) -> Result<Solution, PathError> {
-        let density = WeightedCost::new(weights, self.risk.clone())?;
+        let density = in_plane(WeightedCost::new(weights, self.risk.clone())?, &self.ground);
         let request = PathRequest { has_bounds: false, ..PathRequest::FULL };
-        Planner::new(self.mesh.clone(), &density)?.solve(&density, &self.places, request)
+        Planner::new(self.mesh.clone(), &*density)?.solve(&*density, &self.places, request)
     }
 
     /// Adds a path, unless one in the list is as good in both; removes those that it is as good as.
     fn insert(&mut self, point: FrontPoint) {
         let is_covered = |a: &Solution, by: &Solution| {
-            by.length <= a.length * (1.0 + EQUAL) && by.risk <= a.risk * (1.0 + EQUAL)
+            by.length_on_ground <= a.length_on_ground * (1.0 + EQUAL) && by.risk <= a.risk * (1.0 + EQUAL)
         };
         if self.points.iter().any(|other| is_covered(&point.solution, &other.solution)) {
             return;
         }
         self.points.retain(|other| !is_covered(&other.solution, &point.solution));
-        let place = self.points.partition_point(|other| other.solution.length < point.solution.length);
+        let length = |point: &FrontPoint| point.solution.length_on_ground;
+        let place = self.points.partition_point(|other| length(other) < length(&point));
         self.points.insert(place, point);
     }
 }

@@ -14,6 +14,8 @@ pub struct PathFigures {
     pub upper: f64,
     /// Length in world units.
     pub length: f64,
+    /// Length on the Earth, in the plane of a projection; otherwise the same.
+    pub length_on_ground: f64,
 }
 
 /// How often a piece is halved at most.
@@ -47,6 +49,7 @@ impl PathFigures {
             self.cost += length * mean.clamp(range.least, range.greatest);
             self.upper += length * range.greatest;
             self.length += length;
+            self.length_on_ground += length * mean_inverse_scale(p, q, density);
             return;
         }
         let middle = p.midpoint(q);
@@ -58,7 +61,7 @@ impl PathFigures {
 /// The risk along a polyline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RiskAlong {
-    /// The integral of the risk over the length.
+    /// The integral of the risk over the length, on the Earth where the plane lies there.
     pub integral: f64,
     /// The greatest risk at the points that were looked at.
     pub highest: f64,
@@ -103,7 +106,7 @@ impl RiskAlong {
         let range = density.risk_range(&Rect::spanning(p, q));
         if range.greatest - range.least <= MOST_RISK_SPREAD || halvings == 0 {
             let risk = self.look_at(middle, walked + p.distance(middle), density);
-            self.integral += p.distance(q) * risk;
+            self.integral += p.distance(q) * risk * mean_inverse_scale(p, q, density);
             return;
         }
         self.add_piece([p, middle], walked, density, halvings - 1);
@@ -164,6 +167,15 @@ fn rises_as_said(
 }
 
 /// Returns the mean of the cost over a segment, by Gauss's rule with two points.
-fn gauss(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
-    0.5 * super::refine::GAUSS.iter().map(|&share| density.at(p.lerp(q, share))).sum::<f64>()
+pub(super) fn gauss(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
+    by_gauss(p, q, |at| density.at(at))
+}
+
+/// Returns the mean of the inverse scale over a segment, by the same rule.
+fn mean_inverse_scale(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
+    by_gauss(p, q, |at| density.inverse_scale_at(at))
+}
+
+fn by_gauss(p: DVec2, q: DVec2, value_at: impl Fn(DVec2) -> f64) -> f64 {
+    0.5 * super::refine::GAUSS.iter().map(|&share| value_at(p.lerp(q, share))).sum::<f64>()
 }

@@ -3,6 +3,7 @@
 //! ```text
 //!   domain, keep-out regions, clearance → PathArea: where paths may go
 //!   mesh, PathArea         → PathMesh: triangles that paths go through, smaller along the rim of the area
+//!   cost on the Earth      → GroundCost: the same in the plane of a projection
 //!   CostDensity            → TriangleCosts: the mean and the least cost of each triangle; finer triangles
 //!                            where the cost varies much
 //!   March                  → distance to each node: fast marching on triangles
@@ -25,6 +26,7 @@ mod cost;
 mod detail;
 mod error;
 mod front;
+mod ground;
 mod integral;
 mod lines;
 mod lower;
@@ -58,6 +60,7 @@ pub use corridor::Corridor;
 pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
 pub use front::{Front, FrontPoint};
+pub use ground::{GroundCost, in_plane};
 pub use integral::PathFigures;
 pub use lower::LowerBound;
 pub use march::{March, Seed};

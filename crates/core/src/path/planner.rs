@@ -368,13 +368,33 @@ impl Planner {
             self.take_better(solution, refined, density, request);
             self.take_better(solution, along, density, request);
         }
-        if is_constant_along(&solution.points, density) {
-            let cost = self.costs.mean[ends[0].triangle as usize];
-            let shortest = Shortest { mesh: &self.mesh, costs: &self.costs.mean, walls: &self.walls, cost };
-            if let Some(points) = shortest.way(ends, solution.length) {
-                self.take_better(solution, points, density, request);
-            }
+        if is_constant_along(&solution.points, |rectangle| density.range_on_ground(rectangle))
+            && let Some(points) = self.shortest(density, ends, solution)
+        {
+            let refined = refine(&points, density, &self.walls, request.effort);
+            self.take_better(solution, points, density, request);
+            self.take_better(solution, refined, density, request);
         }
+    }
+
+    /// Returns the shortest way in the plane, where the solution has one cost all along. `None` where the
+    /// solution is no longer than that.
+    fn shortest(
+        &self,
+        density: &dyn CostDensity,
+        ends: [Place; 2],
+        solution: &Solution,
+    ) -> Option<Vec<DVec2>> {
+        let (first, means) = (ends[0].triangle, &self.costs.mean);
+        let range = |triangle: u32| density.range_on_ground(&self.mesh.rectangle(triangle));
+        let cost = range(first);
+        let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
+        let shortest = Shortest { mesh: &self.mesh, walls: &self.walls, has_cost: &has_cost };
+        // On the Earth a longer line in the plane can be the shorter one.
+        let scales = solution.points.iter().map(|&at| density.inverse_scale_at(at));
+        let [least, greatest] =
+            scales.fold([f64::INFINITY, 0.0_f64], |[a, b], scale| [a.min(scale), b.max(scale)]);
+        shortest.way(ends, solution.length * (greatest / least))
     }
 
     /// A march from the goal as far as the start. It errs elsewhere than one from the start, and can find the

@@ -27,6 +27,10 @@ impl Effort {
     pub(super) const SKETCH: Self = Self { pieces: &[32], steps: 8 };
 }
 
+/// Pieces of a path with one cost per metre on the Earth. It is hardly bent in the plane, and a person who
+/// follows it wants few points: with this many the cost is off by 10⁻⁶ at most.
+const MOST_OF_GEODESIC: usize = 128;
+
 /// Returns a path of less cost near a polyline that the walls admit; they admit it, too.
 ///
 /// Its vertices move along their normals only: along the path they would slide together. Each round divides
@@ -41,10 +45,12 @@ pub(super) fn refine(
 ) -> Vec<DVec2> {
     let Some(&first) = effort.pieces.first() else { return points.to_vec() };
     let mut points = taut(&thin_out(points, walls, first), density, walls);
-    if is_constant_along(&points, density) {
+    if is_constant_along(&points, |rectangle| density.range(rectangle)) {
         return points;
     }
-    for &pieces in effort.pieces {
+    let is_geodesic = is_constant_along(&points, |rectangle| density.range_on_ground(rectangle));
+    let most = if is_geodesic { MOST_OF_GEODESIC } else { usize::MAX };
+    for &pieces in effort.pieces.iter().filter(|&&pieces| pieces <= most) {
         divide(&mut points, walls, pieces);
         Relaxation { points: &mut points, density, walls, damping: 1e-2 }.run(effort.steps);
     }

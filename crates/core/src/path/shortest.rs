@@ -1,4 +1,5 @@
-//! The shortest way through triangles of one cost, exactly.
+//! The shortest way through triangles of one cost, exactly. In a plane on the Earth it is the shortest in the
+//! plane, which is nearly the shortest on the ellipsoid.
 //!
 //! It is straight but for bends at corners of the walls. The search looks from the start, and from each
 //! corner that it sees, through the triangles: what is seen through an edge is an interval of it.
@@ -28,12 +29,12 @@ const MOST_INTERVALS: usize = 200_000;
 /// A way is shorter than a known one by this share at least.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Where a shortest way is sought: through the open triangles with a cost.
+/// Where a shortest way is sought: through the open triangles with the cost of the first one.
 pub(super) struct Shortest<'a> {
     pub mesh: &'a PathMesh,
-    pub costs: &'a [f64],
     pub walls: &'a Walls,
-    pub cost: f64,
+    /// Returns whether a triangle has that cost.
+    pub has_cost: &'a dyn Fn(u32) -> bool,
 }
 
 /// The point that a part of the way begins with: the start, or a corner by the number of its node.
@@ -94,9 +95,7 @@ impl Shortest<'_> {
     }
 
     fn is_open(&self, triangle: u32) -> bool {
-        triangle != NONE
-            && self.mesh.passage(triangle) == Passage::Open
-            && self.costs[triangle as usize] == self.cost
+        triangle != NONE && self.mesh.passage(triangle) == Passage::Open && (self.has_cost)(triangle)
     }
 }
 

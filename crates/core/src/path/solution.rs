@@ -18,7 +18,9 @@ pub struct Solution {
     pub upper: f64,
     /// Length in world units.
     pub length: f64,
-    /// The integral of the risk over the length.
+    /// Length on the Earth, in the plane of a projection; otherwise the same.
+    pub length_on_ground: f64,
+    /// The integral of the risk over the length, on the Earth where the plane lies there.
     pub risk: f64,
     /// The highest risk on the way.
     pub highest_risk: f64,
@@ -43,7 +45,8 @@ impl PartialEq for Solution {
 /// A place on a path, for a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSample {
-    /// Distance from the start along the path, in world units.
+    /// Distance from the start along the path: on the Earth, in the plane of a projection, else in world
+    /// units.
     pub distance: f64,
     /// The place, in world units.
     pub point: DVec2,
@@ -51,7 +54,7 @@ pub struct PathSample {
     pub cost: f64,
     /// The risk there.
     pub risk: f64,
-    /// The cost per unit of length there.
+    /// The cost per unit of length there, on the Earth where the plane lies there.
     pub density: f64,
 }
 
@@ -81,7 +84,8 @@ impl Solution {
 
     /// Returns the solution of a polyline. `tolerance` is that of [`PathFigures::of`].
     pub(super) fn of(points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Self {
-        let PathFigures { cost, upper, length } = PathFigures::of(&points, density, tolerance);
+        let PathFigures { cost, upper, length, length_on_ground } =
+            PathFigures::of(&points, density, tolerance);
         let RiskAlong { integral: risk, highest: highest_risk, highest_at: highest_risk_at } =
             RiskAlong::of(&points, density);
         let stops = vec![0, points.len() - 1];
@@ -90,6 +94,7 @@ impl Solution {
             lower: 0.0,
             upper,
             length,
+            length_on_ground,
             risk,
             highest_risk,
             highest_risk_at,
@@ -137,6 +142,7 @@ impl Solution {
             self.highest_risk_at = self.length + next.highest_risk_at;
         }
         self.length += next.length;
+        self.length_on_ground += next.length_on_ground;
         self.risk += next.risk;
         let end = self.points.len() - 1;
         self.points.extend(&next.points[1..]);
@@ -150,11 +156,12 @@ impl Solution {
         let mut samples = Vec::with_capacity(self.points.len());
         for (n, &point) in self.points.iter().enumerate() {
             if n > 0 {
-                distance += self.points[n - 1].distance(point);
                 let piece = [self.points[n - 1], point];
-                cost += PathFigures::of(&piece, density, PROFILE_TOLERANCE).cost;
+                let figures = PathFigures::of(&piece, density, PROFILE_TOLERANCE);
+                distance += figures.length_on_ground;
+                cost += figures.cost;
             }
-            let (risk, density) = (density.risk_at(point), density.at(point));
+            let (risk, density) = at_place(point, density);
             samples.push(PathSample { distance, point, cost, risk, density });
         }
         samples
@@ -165,14 +172,21 @@ impl Solution {
     pub fn profile(&self, density: &dyn CostDensity, count: usize) -> Vec<PathSample> {
         let distances = self.profile_distances(count.max(2));
         let mut samples = Vec::with_capacity(distances.len());
-        let (mut piece, mut walked, mut cost) = (0, 0.0, 0.0);
+        let (mut piece, mut walked) = (0, 0.0);
+        // Along the path so far.
+        let mut along = PathFigures::default();
         let mut last = self.points.first().copied().unwrap_or_default();
+        let walk = |along: &mut PathFigures, last: &mut DVec2, to: DVec2| {
+            let figures = PathFigures::of(&[*last, to], density, PROFILE_TOLERANCE);
+            along.cost += figures.cost;
+            along.length_on_ground += figures.length_on_ground;
+            *last = to;
+        };
         for distance in distances {
             let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
             while piece + 2 < self.points.len() && walked + length(piece) < distance {
                 walked += length(piece);
-                cost += PathFigures::of(&[last, self.points[piece + 1]], density, PROFILE_TOLERANCE).cost;
-                last = self.points[piece + 1];
+                walk(&mut along, &mut last, self.points[piece + 1]);
                 piece += 1;
             }
             let point = match piece + 1 < self.points.len() && length(piece) > 0.0 {
@@ -182,11 +196,11 @@ impl Solution {
                 }
                 false => last,
             };
-            cost += PathFigures::of(&[last, point], density, PROFILE_TOLERANCE).cost;
-            last = point;
-            let (risk, density) = (density.risk_at(point), density.at(point));
+            walk(&mut along, &mut last, point);
+            let (risk, density) = at_place(point, density);
             // Where the risk jumps, the point may lie on the other side by a rounding error.
             let risk = if distance == self.highest_risk_at { self.highest_risk.max(risk) } else { risk };
+            let PathFigures { cost, length_on_ground: distance, .. } = along;
             samples.push(PathSample { distance, point, cost, risk, density });
         }
         samples
@@ -228,6 +242,11 @@ impl Solution {
         solution.lower = self.lower.min(solution.upper);
         Ok(solution)
     }
+}
+
+/// Returns the risk at a point, and the cost per unit of length, on the Earth where the plane lies there.
+fn at_place(point: DVec2, density: &dyn CostDensity) -> (f64, f64) {
+    (density.risk_at(point), density.at(point) / density.inverse_scale_at(point))
 }
 
 /// Bounds of the cost of a piece of a profile differ by this share.

@@ -1,9 +1,13 @@
 //! Paths pulled taut where the cost is constant: there they are as short as any near them.
+//!
+//! On the Earth a cost is constant where it is so per metre on the ellipsoid. There a straight line in the
+//! plane is nearly the shortest way, and replaces another one where it costs less.
 
 use glam::DVec2;
 
-use super::CostDensity;
+use super::integral::gauss;
 use super::walls::Walls;
+use super::{CostDensity, CostRange};
 use crate::geometry::{Rect, Side, side_of_points};
 
 /// The most points that are looked at, as a multiple of the number of points of the path.
@@ -28,12 +32,13 @@ pub(super) fn taut(points: &[DVec2], density: &dyn CostDensity, walls: &Walls) -
             pulled.push(at);
             continue;
         };
-        if left == 0 || !is_constant(density, [before, at, after]) {
+        if left == 0 || !density.range_on_ground(&around([before, at, after])).is_constant() {
             pulled.push(at);
             continue;
         }
         left -= 1;
-        match shortest(walls, [before, at, after]) {
+        let chain = shortest(walls, [before, at, after]);
+        match chain.filter(|chain| costs_less([before, at, after], chain, density)) {
             None => pulled.push(at),
             Some(chain) => {
                 rest.extend(chain.iter().rev());
@@ -47,19 +52,31 @@ pub(super) fn taut(points: &[DVec2], density: &dyn CostDensity, walls: &Walls) -
     pulled
 }
 
-/// Whether the cost is constant around all points of a path and their neighbours: a taut path is as short
-/// there as any near it.
-pub(super) fn is_constant_along(points: &[DVec2], density: &dyn CostDensity) -> bool {
+/// Whether costs are constant around all points of a path and their neighbours: a taut path is as short there
+/// as any near it. `range` returns those over a rectangle.
+pub(super) fn is_constant_along(points: &[DVec2], range: impl Fn(&Rect) -> CostRange) -> bool {
+    let is_constant = |three: [DVec2; 3]| range(&around(three)).is_constant();
     match *points {
-        [p, q] => is_constant(density, [p, p, q]),
-        _ => points.windows(3).all(|three| is_constant(density, [three[0], three[1], three[2]])),
+        [p, q] => is_constant([p, p, q]),
+        _ => points.windows(3).all(|three| is_constant([three[0], three[1], three[2]])),
     }
 }
 
-/// Whether the cost has one value around some points.
-fn is_constant(density: &dyn CostDensity, [a, b, c]: [DVec2; 3]) -> bool {
-    let range = density.range(&Rect::new(a.min(b).min(c), a.max(b).max(c)));
-    range.least == range.greatest
+fn around([a, b, c]: [DVec2; 3]) -> Rect {
+    Rect::new(a.min(b).min(c), a.max(b).max(c))
+}
+
+/// Whether the way between two points by a chain costs no more than that by a third one. In a plane without
+/// a scale it does: it is shorter, and the cost is constant.
+fn costs_less([p, at, q]: [DVec2; 3], chain: &[DVec2], density: &dyn CostDensity) -> bool {
+    if density.range(&around([p, at, q])).is_constant() {
+        return true;
+    }
+    let cost = |way: &[DVec2]| -> f64 {
+        way.windows(2).map(|pair| pair[0].distance(pair[1]) * gauss(pair[0], pair[1], density)).sum()
+    };
+    let way: Vec<DVec2> = [p].into_iter().chain(chain.iter().copied()).chain([q]).collect();
+    cost(&way) <= cost(&[p, at, q])
 }
 
 /// The points of the shortest way between two points that stays in the triangle with a third one, between

@@ -93,7 +93,7 @@ fn assert_farthest(found: Option<(f64, DVec2)>, from: &[Edge], to: &[Edge], samp
 }
 
 fn assert_agrees(extract: &Extract, domain: &Domain, samples: u32, name: &str) -> FitQuality {
-    let quality = FitQuality::of(extract, domain.region().unwrap());
+    let quality = FitQuality::of(extract, domain.region().unwrap(), &domain.ground());
     let (boundary, outline) = (boundary_of(extract), outline_of(domain));
     let [lost, new] = holes_by_brute_force(&boundary, &outline);
     let side = domain.bounds.size().max_element();

@@ -30,6 +30,7 @@ mod path_bounds;
 mod path_choices;
 mod path_coast;
 mod path_edits;
+mod path_ground;
 mod path_random;
 mod path_referees;
 mod path_threads;

@@ -9,6 +9,7 @@ mod lattice_rect;
 mod octagon;
 mod predicates;
 mod rect;
+mod ring;
 mod segment;
 mod z_order;
 
@@ -19,5 +20,6 @@ pub use lattice_rect::LatticeRect;
 pub use octagon::Octagon;
 pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line, side_of_points};
 pub use rect::Rect;
+pub use ring::signed_area;
 pub use segment::{nearest_on_segment, nearest_share};
 pub use z_order::{interleaved, z_order};

@@ -20,8 +20,10 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(region) = state.session.follower().settings().domain.region() else { return };
     let derived = state.session.derived();
     let quality = derived.and_then(|derived| derived.quality.as_ref());
-    let share = |area: f64| format!("{} %", format::digits(100.0 * area / region.area(), 2));
-    let note = quality.map_or("…".into(), |quality| format!("{} wrong", share(quality.misclassified_area)));
+    let note = quality.map_or("…".into(), |quality| {
+        let share = 100.0 * quality.misclassified_area / quality.region_area;
+        format!("{} % wrong", format::digits(share, 2))
+    });
     Section::new("Fit to outline").note(&note).closed().show(ui, |ui| {
         let Some(derived) = derived else {
             value_row(ui, "Mesh", "being derived");
@@ -29,7 +31,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         };
         count_rows(ui, derived, region);
         if let Some(quality) = quality {
-            quality_rows(ui, state, quality, region, commands);
+            quality_rows(ui, state, quality, commands);
         }
         if let Some(fit) = derived.outline_fit {
             let nodes = format!("{} of {}", count(fit.on_outline), count(fit.nodes));
@@ -52,13 +54,7 @@ fn count_rows(ui: &mut Ui, derived: &Derived, region: &Region) {
     }
 }
 
-fn quality_rows(
-    ui: &mut Ui,
-    state: &FrameState<'_>,
-    quality: &FitQuality,
-    region: &Region,
-    commands: &mut Vec<Command>,
-) {
+fn quality_rows(ui: &mut Ui, state: &FrameState<'_>, quality: &FitQuality, commands: &mut Vec<Command>) {
     let kept = quality.islands - quality.lost_islands.len();
     let islands = format!("{} of {}", count(kept), count(quality.islands));
     if let Some(lost) = quality.lost_islands.first() {
@@ -68,7 +64,7 @@ fn quality_rows(
     } else if quality.islands > 0 {
         value_row(ui, "Islands kept", &islands);
     }
-    let percent = |area: f64| 100.0 * area / region.area();
+    let percent = |area: f64| 100.0 * area / quality.region_area;
     if let Some(largest) = quality.new_holes.first() {
         let value = format!(
             "{}, up to {} %",

@@ -43,7 +43,8 @@ pub fn export(
     let (look, file) = (view.picture(&settings), path.to_owned());
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<usize> {
-            let density = settings.paths.cost.density(risk).map_err(std::io::Error::other)?;
+            let density =
+                settings.paths.cost.density(risk, &settings.domain).map_err(std::io::Error::other)?;
             let export = PathExport::new(&solution, &*density, tolerance).map_err(std::io::Error::other)?;
             let export = export.named(name, plane).at_speed(speed, settings.unit);
             let whole = derived.is_none().then(|| mesh.extract());

@@ -182,7 +182,7 @@ impl PathFinder {
         self.work.start(
             key,
             move || {
-                let density = plan.cost.density(risk.clone()).ok()?;
+                let density = plan.cost.density(risk.clone(), &domain).ok()?;
                 let planner = mesh.planner(&density, (plan.clone(), risk), &domain, is_live);
                 Some(find(planner, density, (&plan.routes, &domain, unit), is_live))
             },

@@ -8,9 +8,9 @@ use super::finder::{Key, MeshKey};
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::session::Session;
 use meshbrush_core::document::KeepOut;
+use meshbrush_core::domain::{Domain, DomainShape};
 use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
 use meshbrush_core::path::{Front, FrontPoint, PathMesh, Weights};
-use meshbrush_mesh::geometry::Rect;
 
 /// Paths of a front, at most.
 pub const FRONT_PATHS: usize = 20;
@@ -41,7 +41,8 @@ struct FrontKey {
     clearance: f64,
     layers: Vec<Layer>,
     paint: PaintLayers,
-    domain: Rect,
+    /// Its bounds, and where it lies on the Earth.
+    domain: Domain,
 }
 
 /// The front so far.
@@ -122,7 +123,7 @@ impl FrontFinder {
             let settings = session.document().settings();
             let (places, keep_out) = (settings.paths.routes[route].clone(), settings.paths.keep_out.clone());
             let (layers, paint) = (settings.layers.clone(), session.document().paint().clone());
-            let domain = settings.domain.bounds;
+            let domain = Domain { shape: DomainShape::Whole, ..settings.domain };
             let clearance = settings.paths.clearance;
             let of = FrontKey { mesh: key.mesh, places, keep_out, clearance, layers, paint, domain };
             if self.of.as_ref() != Some(&of) {
@@ -141,10 +142,12 @@ impl FrontFinder {
     fn start(&mut self, mesh: Arc<PathMesh>, of: FrontKey, jobs: &Jobs) {
         (self.points, self.pointed, self.remaining) = (Vec::new(), None, FRONT_PATHS);
         let places = of.places.clone();
-        let risk = RiskField::new(&of.layers, &of.paint).within(&of.domain);
+        let risk = RiskField::new(&of.layers, &of.paint).within(&of.domain.bounds);
+        let domain = of.domain.clone();
         self.of = Some(of);
         let find = move |output: &Output<News>| {
-            let mut front = Front::new(mesh, risk, places, FRONT_PATHS);
+            let front = Front::new(mesh, risk, places, FRONT_PATHS);
+            let mut front = front.measured_on(domain.ground());
             while output.is_wanted() {
                 let goes_on = front.advance().unwrap_or(false);
                 let news = News { points: front.points().to_vec(), remaining: front.remaining() };

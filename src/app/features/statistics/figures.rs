@@ -68,15 +68,18 @@ impl Statistics {
         let extract = session.derived().map(|derived| derived.shared_extract());
         let (mesh, domain, field) =
             (follower.shared_mesh(), follower.domain().clone(), follower.field().clone());
+        let ground_of = session.document().settings().domain.clone();
         let (rule, paint) = (follower.settings().rule, session.document().paint().clone());
         let measure = move |wanted: &Wanted| {
             let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
             let go_on = || wanted.goes_on().then_some(());
             go_on()?;
-            let statistics = extract.statistics();
+            let ground = ground_of.ground();
+            let area_of = |corners| ground.triangle_area(corners);
+            let statistics = extract.statistics_by(|ends| ground.length(ends), area_of);
             go_on()?;
-            let (area, part_sizes) = (extract.area(), extract.part_sizes());
+            let (area, part_sizes) = (extract.area_by(area_of), extract.part_sizes());
             go_on()?;
             let fingerprint = mesh.fingerprint().to_string();
             go_on()?;

@@ -6,6 +6,7 @@ use super::super::Domain;
 use super::labels::{Choice, cheapest_labels};
 use super::stretches::compare;
 use super::{BoundaryKind, BoundaryMarks, BoundaryPieces, FrameSide};
+use crate::earth::Ground;
 use crate::geometry::Rect;
 use crate::mesh::{Extract, NodeId};
 
@@ -29,7 +30,7 @@ pub struct MeshBoundary {
 pub struct PieceFigures {
     /// How many.
     pub edges: usize,
-    /// The length of these edges in world units.
+    /// The length of these edges in world units, with a projection in metres on the ellipsoid.
     pub length: f64,
 }
 
@@ -46,7 +47,8 @@ impl MeshBoundary {
     /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
     /// corners of the domain that are near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
-        Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
+        let pieces = BoundaryPieces::of(domain, extract, marks);
+        Self::measured(extract, pieces, &domain.ground())
     }
 
     /// Returns the boundary of a mesh in pieces that follow from the mesh alone: sides of the frame, outer
@@ -55,8 +57,12 @@ impl MeshBoundary {
         Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
     }
 
-    /// Returns the boundary of a mesh in pieces that were found before.
+    /// Returns the boundary of a mesh in pieces that were found before. Lengths are those in the plane.
     pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
+        Self::measured(extract, pieces, &Ground::default())
+    }
+
+    fn measured(extract: &Extract, pieces: BoundaryPieces, ground: &Ground) -> Self {
         let edges: Vec<[DVec2; 2]> = extract
             .boundary_edges()
             .map(|edge| edge.ends.map(|node| extract.world(NodeId::from_index(node))))
@@ -79,10 +85,10 @@ impl MeshBoundary {
             }
         }
         let mut figures = vec![PieceFigures::default(); pieces.list().len()];
-        for (&piece, [a, b]) in piece_of_edge.iter().zip(edges) {
+        for (&piece, edge) in piece_of_edge.iter().zip(edges) {
             let figures = &mut figures[piece as usize];
             figures.edges += 1;
-            figures.length += a.distance(b);
+            figures.length += ground.length(edge);
         }
         Self { pieces, piece_of_edge, figures }
     }

@@ -145,6 +145,12 @@ impl Extract<'_> {
         0.5 * doubled.sum::<f64>() * self.lattice.step().x * self.lattice.step().y
     }
 
+    /// Returns the area of the triangles by another measure of the area of one.
+    pub fn area_by(&self, area: impl Fn([DVec2; 3]) -> f64) -> f64 {
+        let corners = |triangle: &Triangle| triangle.edge_nodes().map(|(from, _)| self.world(from));
+        self.triangles.iter().map(|triangle| area(corners(triangle))).sum()
+    }
+
     /// Returns the lattice coordinates of a node.
     ///
     /// # Panics

@@ -35,10 +35,25 @@ pub struct MeshStatistics {
 impl Extract<'_> {
     /// Returns the figures of all triangles; `None` without triangles.
     pub fn statistics(&self) -> Option<MeshStatistics> {
+        let area = |[a, b, c]: [DVec2; 3]| 0.5 * (b - a).perp_dot(c - a).abs();
+        self.statistics_by(|[from, to]| from.distance(to), area)
+    }
+
+    /// Returns the figures with other measures: of the length between two points, and of the area of a
+    /// triangle.
+    pub fn statistics_by(
+        &self,
+        length: impl Fn([DVec2; 2]) -> f64,
+        area: impl Fn([DVec2; 3]) -> f64,
+    ) -> Option<MeshStatistics> {
+        let diameter =
+            |triangle: &Triangle| self.edge_ends(triangle).map(&length).into_iter().fold(0.0, f64::max);
         let mut extremes = Extremes::default();
         for triangle in self.triangles() {
-            extremes.note_edges(self, triangle);
-            extremes.note_ratios(self, triangle);
+            let ends = self.edge_ends(triangle);
+            extremes.note_edges(ends.map(|[from, to]| (length([from, to]), 0.5 * (from + to))));
+            extremes.note_area(area(ends.map(|[from, _]| from)));
+            extremes.note_ratios(self, triangle, &diameter);
         }
         let (shortest, longest) = (extremes.shortest?, extremes.longest?);
         let [smallest_angle, largest_angle] = self.angle_range();
@@ -62,11 +77,6 @@ impl Extract<'_> {
     fn edge_ends(&self, triangle: &Triangle) -> [[DVec2; 2]; 3] {
         triangle.edge_nodes().map(|(from, to)| [self.world(from), self.world(to)])
     }
-
-    /// Returns the longest edge of a triangle, in world units.
-    fn diameter_of(&self, triangle: &Triangle) -> f64 {
-        self.edge_ends(triangle).map(|[from, to]| from.distance(to)).into_iter().fold(0.0, f64::max)
-    }
 }
 
 /// A length or a ratio, and where it was found.
@@ -81,10 +91,8 @@ struct Extremes {
 }
 
 impl Extremes {
-    fn note_edges(&mut self, extract: &Extract, triangle: &Triangle) {
-        let ends = extract.edge_ends(triangle);
-        for [from, to] in ends {
-            let edge = (from.distance(to), 0.5 * (from + to));
+    fn note_edges(&mut self, edges: [Placed; 3]) {
+        for edge in edges {
             if self.shortest.is_none_or(|shortest| edge.0 < shortest.0) {
                 self.shortest = Some(edge);
             }
@@ -92,18 +100,24 @@ impl Extremes {
                 self.longest = Some(edge);
             }
         }
-        let [[a, b], [_, c], _] = ends;
-        let area = 0.5 * (b - a).perp_dot(c - a).abs();
+    }
+
+    fn note_area(&mut self, area: f64) {
         let [low, high] = self.areas.unwrap_or([area; 2]);
         self.areas = Some([low.min(area), high.max(area)]);
     }
 
     /// Compares a triangle with its neighbours that are not larger.
-    fn note_ratios(&mut self, extract: &Extract, triangle: &Triangle) {
-        let diameter = extract.diameter_of(triangle);
+    fn note_ratios(
+        &mut self,
+        extract: &Extract,
+        triangle: &Triangle,
+        diameter_of: impl Fn(&Triangle) -> f64,
+    ) {
+        let diameter = diameter_of(triangle);
         for ((from, to), across) in triangle.edge_nodes().into_iter().zip(triangle.raw_neighbours) {
             let Some(neighbour) = across.triangle() else { continue };
-            let ratio = diameter / extract.diameter_of(&extract.triangles()[neighbour.index()]);
+            let ratio = diameter / diameter_of(&extract.triangles()[neighbour.index()]);
             if ratio >= 1.0 && self.ratio.is_none_or(|largest| ratio > largest.0) {
                 self.ratio = Some((ratio, middle(extract, from, to)));
             }

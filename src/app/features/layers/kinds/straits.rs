@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow, ValueRow, format};
-use meshbrush_core::layers::{Layer, LayerKind, StraitDiscs, Straits};
+use meshbrush_core::layers::{Layer, LayerKind, StraitDisc, StraitDiscs, Straits};
 
 /// Triangles across straits.
 pub static STRAITS: LayerKindRow = LayerKindRow {
@@ -40,9 +40,12 @@ fn parameters(
     if domain.region().is_none() {
         remark(ui, "The domain has no coast, as it has no polygons: the layer asks for nothing.");
     }
-    let narrowest = found.discs().first();
+    let width = |disc: &StraitDisc| {
+        disc.width / domain.projection.map_or(1.0, |projection| projection.scale_in_plane(disc.center))
+    };
+    let narrowest = found.discs().first().map(width);
     let narrowest =
-        narrowest.map_or("none".to_owned(), |disc| state.unit().after(&format::digits(disc.width, 4)));
+        narrowest.map_or("none".to_owned(), |width| state.unit().after(&format::digits(width, 4)));
     ValueRow::new("Narrowest strait", &narrowest)
         .help("Width of the narrowest strait of the domain.")
         .show(ui);

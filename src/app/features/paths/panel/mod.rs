@@ -42,8 +42,8 @@ const LEAST_POSSIBLE: &str = "Two proved bounds of the cost of the best path: no
                               the first number, and one that was found costs the second.";
 const IN_THE_PLANE: &str =
     "The length in the plane, in the unit of the document. Costs are summed up over this length.";
-const ON_THE_ELLIPSOID: &str = "The length in metres on the ellipsoid WGS 84. Costs are summed up over the length in the \
-                                plane of the projection.";
+const ON_THE_ELLIPSOID: &str =
+    "The length in metres on the ellipsoid WGS 84. Costs are summed up over this length.";
 const IN_DEGREES: &str = "The length in degrees, as if one of longitude were as long as one of latitude. Costs are summed \
                           up over this length, so a path of least cost is not the shortest in metres.";
 
@@ -181,7 +181,8 @@ fn former_row(
     commands: &mut Vec<Command>,
 ) {
     let Some((former, excess)) = found.former.as_ref().zip(found.former_excess()) else { return };
-    let (excess, length) = (format::percent_above(excess), format::length(former.length, state.unit()));
+    let (excess, length) =
+        (format::percent_above(excess), format::length(former.length_on_ground, state.unit()));
     let value = format!("+{excess} · {length}");
     let help = "The proof found the better path that is shown; this is the one before it, thin on the canvas, with its \
                 cost above the better one and its length. A click leads the path along it, by a place in between.";

@@ -92,7 +92,7 @@ fn alternative_row(
     is_current: bool,
 ) -> eframe::egui::Response {
     let percent = format::significant(100.0 * state.features.paths.finder.alternatives.excess(path), 2);
-    let length = format::length(path.length, state.unit());
+    let length = format::length(path.length_on_ground, state.unit());
     let risk = format::significant(path.risk, 3);
     let label = format!("Alternative {}", number + 1);
     let value = format!("+{percent} % · {length} · {risk}");
@@ -142,7 +142,7 @@ fn front(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath, commands: &mut 
 fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
     format!(
         "Length {}, accumulated risk {}\nWeight of risk {}; a click takes it.",
-        format::length(point.solution.length, state.unit()),
+        format::length(point.solution.length_on_ground, state.unit()),
         format::significant(point.solution.risk, 3),
         format::significant(point.weights.risk, 3),
     )
@@ -150,7 +150,7 @@ fn tip_of(point: &FrontPoint, state: &FrameState<'_>) -> String {
 
 /// Returns the paths of the front, and the path as it is.
 fn front_plot(state: &FrameState<'_>, found: &FoundPath) -> Plot {
-    let place = |path: &Solution| [path.length, path.risk];
+    let place = |path: &Solution| [path.length_on_ground, path.risk];
     let front =
         state.features.paths.finder.front.points().iter().map(|point| place(&point.solution)).collect();
     Plot {
