@@ -29,8 +29,9 @@ pub use meshbrush_core::build::{
 #[doc(inline)]
 pub use meshbrush_core::domain::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape,
-    Domain, DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary, NamedPolygon, PieceFigures, PieceRun,
-    Polygon, Region, RegionError, RegionOnLattice, Ring,
+    DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary,
+    NamedPolygon, PieceChoice, PieceFigures, PieceRun, PixelLengths, Polygon, Region, RegionError,
+    RegionOnLattice, Ring,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;
@@ -62,10 +63,11 @@ pub use meshbrush_core::document::{
 #[doc(inline)]
 pub use meshbrush_core::layers::{
     Combine, Coverage, CurveError, Decision, DepthError, DepthFit, DepthRule, DepthSizes, Depths,
-    DiameterLimit, DistanceTo, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget, Mask, NoDepth,
-    NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading, RasterSource, RiskField,
-    SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec, StraitCount, StraitDisc,
-    StraitDiscs, Straits, Threat, ThreatError, ThreatLaw, Threats, ValueCurve,
+    DiameterLimit, DistanceTo, FeatureSize, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget,
+    Mask, NoDepth, NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading,
+    RasterSource, RiskField, SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec,
+    StraitCount, StraitDisc, StraitDiscs, Straits, Threat, ThreatError, ThreatLaw, Threats, ValueCurve,
+    WaterMiddle,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};

@@ -24,9 +24,19 @@ from .window import View, edited, shown
 
 #: The options by the table of a recipe that has them.
 _TABLES = {
-    "domain": ("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits"),
+    "domain": (
+        *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits"),
+        *("contour", "positive", "smallest_island", "smallest_inlet"),
+    ),
     "mesh": ("spacing", "rule", "max_triangles", "max_level", "max_memory"),
     "limits": ("h_min", "h_risk", "h_max", "shape", "gradation"),
+}
+
+
+#: Options that belong to the domain, and are not changed later.
+_OF_DOMAIN = {
+    *("unit", "crs", "projection", "splits"),
+    *("contour", "positive", "smallest_island", "smallest_inlet"),
 }
 
 
@@ -48,7 +58,8 @@ class Document:
     `spacing` is the longest side of a coarse cell; `h_min`, `h_max` and `h_risk` limit the target diameter, and
     `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
     diameter `boundary_diameter` along the outline. `names` and `types` are names and types of the piece of the boundary
-    at a point, as in {(24.5, 37.9): "harbour"}. `rule` is "area" or "vertex". Other keywords are those of a recipe.
+    at a point, as in {(24.5, 37.9): "harbour"}. Where the domain is a file with a grid of heights, `contour` is the depth
+    of its shore. `rule` is "area" or "vertex". Other keywords are those of a recipe.
     """
 
     def __init__(
@@ -72,6 +83,10 @@ class Document:
         names: Mapping[tuple[float, float], str] | None = None,
         types: Mapping[tuple[float, float], str] | None = None,
         splits: Sequence[tuple[float, float]] | None = None,
+        contour: float | None = None,
+        positive: str | None = None,
+        smallest_island: float | None = None,
+        smallest_inlet: float | None = None,
         rule: str | None = None,
         max_triangles: int | None = None,
         max_level: int | None = None,
@@ -114,7 +129,7 @@ class Document:
 
     def set(self, **options: Any) -> None:
         """Changes options of the mesh: those that are lengths, limits and words, with the names of `Document`."""
-        known = {key for keys in _TABLES.values() for key in keys} - {"unit", "crs", "projection", "splits"}
+        known = {key for keys in _TABLES.values() for key in keys} - _OF_DOMAIN
         for key in options:
             if key not in known:
                 raise TypeError(f"There is no option {key} to change; the options are {', '.join(sorted(known))}.")

@@ -287,16 +287,20 @@ class Layers(Sequence[Layer]):
 
     def distance(
         self,
-        to: ShapesLike,
+        to: ShapesLike = None,
         *,
         at_zero: float,
         slope: float,
         range: float | None = None,  # noqa: A002
+        pieces: Sequence[str] | None = None,
+        types: Sequence[str] | None = None,
         **common: Unpack[Common],
     ) -> Layer:
-        """Adds a target diameter that grows with the distance to "outline", "coasts", a file, or shapes. An array is
-        points."""
-        keys = {"at_zero": at_zero, "slope": slope, "range": range, **common}
+        """Adds a target diameter that grows with the distance to "outline", "coasts", a file, or shapes, where an array is
+        points; or to the pieces of the boundary with some names or types."""
+        keys = {"at_zero": at_zero, "slope": slope, "range": range, "pieces": pieces, "types": types, **common}
+        if to is None:
+            return self._add("distance", keys, {})
         if isinstance(to, str) and to in ("outline", "coasts"):
             return self._add("distance", {"to": to, **keys}, {})
         return self._along("distance", keys, to, "MultiPoint")
@@ -327,6 +331,11 @@ class Layers(Sequence[Layer]):
         """Adds a number of triangles across straits of these widths."""
         keys = {"across": across, "width_from": width_from, "width_to": width_to, **common}
         return self._add("straits", keys, {})
+
+    def feature_size(self, *, across: float, width_from: float, width_to: float, **common: Unpack[Common]) -> Layer:
+        """Adds a number of triangles across the water between its shores and its middle."""
+        keys = {"across": across, "width_from": width_from, "width_to": width_to, **common}
+        return self._add("feature-size", keys, {})
 
     def paint(self, quantity: str = "diameter", **common: Unpack[Common]) -> Layer:
         """Adds a layer for strokes of "diameter" or "risk". A stroke adds one where there is none."""

@@ -49,7 +49,7 @@ pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
     let Some(pointer) = &fault.pointer else { return mesh_error(without_table(fault)) };
     let formula = text_at(tables, &fault.path);
     let position = formula.and_then(|text| {
-        let mistake = Formula::parse(text).err()?;
+        let mistake = Formula::parse_of_size(text).err()?;
         Some(text[..mistake.span().start].chars().count())
     });
     formula_error(

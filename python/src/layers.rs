@@ -1,10 +1,10 @@
 //! The layers of a document, and strokes on them.
 
 use meshbrush_core::document::Setting;
-use meshbrush_core::layers::{Layer, LayerId, Quantity};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, Quantity};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
 use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
-use meshbrush_io::io::recipe::{LoadedLayer, Loading};
+use meshbrush_io::io::recipe::{BesideLayer, LoadedLayer, Loading};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -33,11 +33,11 @@ impl Document {
         table: &Bound<'_, PyDict>,
         given: Vec<(String, GivenData<'_>)>,
     ) -> PyResult<(u32, Vec<String>)> {
-        let (frame, has_smallest) = self.with(py, |state| (frame_of(state), state.has_smallest));
+        let (frame, others) = self.with(py, |state| (frame_of(state), beside_layer(state)));
         let given = given_of(given, Some(frame))?;
         let table = text_value(table)?;
         let saved =
-            SavedLayer::of_value(&table, has_smallest, &given).map_err(|fault| fault_in(&table, &fault))?;
+            SavedLayer::of_value(&table, &others, &given).map_err(|fault| fault_in(&table, &fault))?;
         let state = self.state.clone();
         let loaded = run(py, &Watching::QUIET, move |watch| {
             let loading = Loading { given, ..Loading::for_document(&watch.meter) };
@@ -128,6 +128,12 @@ impl Document {
             |state| if keep { state.document.end_stroke() } else { state.document.cancel_stroke() },
         );
     }
+}
+
+fn beside_layer(state: &State) -> BesideLayer {
+    let layers = &state.document.settings().layers;
+    let depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+    BesideLayer { smallest: state.has_smallest, depths }
 }
 
 /// Adds a layer on top of a document.
@@ -235,7 +241,7 @@ fn begin(state: &mut State, brush: Brush, mirror: Mirror) -> Result<(), String> 
     use meshbrush_core::document::NoPaintLayer::Missing;
     if let Err(Missing(quantity)) = state.document.layer_for(&brush.medium) {
         let quantity = quantity.unwrap_or(Quantity::Diameter);
-        let kind = meshbrush_core::layers::LayerKind::Paint(quantity);
+        let kind = LayerKind::Paint(quantity);
         let mut layer = Layer::stack([kind]).remove(0);
         layer.id = state.document.unused_layer_id();
         let mut layers = state.document.settings().layers.clone();

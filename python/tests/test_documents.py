@@ -70,12 +70,15 @@ def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
         document.layers.distance(feature(bay(100.0)), at_zero=30, slope=0.2),
         document.layers.corridor([(-500, 0), (500, 100)], width=50, at_zero=30, slope=0.2),
         document.layers.straits(across=3, width_from=50, width_to=400),
+        document.layers.feature_size(across=3, width_from=50, width_to=400),
+        document.layers.distance(types=["land"], at_zero=30, slope=0.2),
+        document.layers.formula("60 + depth"),
         document.layers.paint("risk"),
         document.layers.add("formula", quantity="diameter", formula="90"),
     ]
     kinds = [layer.kind for layer in added]
     assert kinds == [layer.kind for layer in document.layers]
-    assert {"formula", "raster", "band", "depth", "threats", "distance", "corridor", "straits", "paint"} == set(kinds)
+    assert {"formula", "raster", "band", "depth", "threats", "distance", "corridor", "straits", "paint"} == set(kinds) - {"feature-size"}
     mesh = document.mesh()
     assert mesh.violations() == 0
     document.save(tmp_path / "all.meshbrush")

@@ -116,7 +116,7 @@ fn triangles_are_as_small_as_the_formulas_ask_for_and_no_smaller() {
     let bay = Bay::new();
     folder.file("bay.asc", bay.grid(|_, _| true));
     let wet = |depth: f64, size: f64| if depth > 0.0 { size } else { f64::INFINITY };
-    let cases: [(&str, Asked); 3] = [
+    let cases: [(&str, Asked); 4] = [
         (
             "--per-wavelength 12 --period 300",
             Box::new(move |bay, x, y| {
@@ -136,6 +136,13 @@ fn triangles_are_as_small_as_the_formulas_ask_for_and_no_smaller() {
             Box::new(move |bay, x, y| {
                 let depth = bay.depth(x, y).max(1.0);
                 wet(bay.depth(x, y), ((G * depth).sqrt() + (G / depth).sqrt()) * 40.0 / 0.4)
+            }),
+        ),
+        (
+            "--target if(depth>0,400+4*depth+0.01*x,inf)",
+            Box::new(move |bay, x, y| {
+                let east = (x as f64 + 0.5) * PIXEL;
+                wet(bay.depth(x, y), 400.0 + 4.0 * bay.depth(x, y) + 0.01 * east)
             }),
         ),
     ];
@@ -180,10 +187,78 @@ fn the_largest_courant_number_is_a_floor_for_all_other_sizes() {
         ("--max-courant 0.5", "--time-step <SECONDS>"),
         ("--max-courant 0 --time-step 2", "--max-courant"),
         ("--per-wavelength 5 --period -1", "--per-wavelength"),
+        ("--risk depth/100", "only target diameters have depths"),
     ] {
         let ran = folder.run(format!("mesh {DOMAIN} --depth bay.asc {options}"));
         assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
     }
+}
+
+#[test]
+fn the_domain_is_the_water_of_a_grid() {
+    let folder = Folder::new("depth-domain");
+    let bay = Bay::new();
+    folder.file("bay.asc", bay.grid(|column, row| column < 150 || row > 20));
+    folder.file("bay.geojson", r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]}"#);
+    let boundary = "--spacing 10000 --boundary-diameter 400 --target 4000";
+    let summary = folder.json("mesh", format!("--region bay.asc --contour 20 {boundary} -o m.14"));
+    let (nodes, triangles) = fort14(&folder.read("m.14"));
+    let area: f64 = triangles
+        .iter()
+        .map(|triangle| {
+            let [a, b, c] = triangle.map(|node| nodes[node]);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        })
+        .sum();
+    let is_water = |column: usize, row: usize| (column < 150 || row > 20) && bay.depth(column, row) > 20.0;
+    let pixels = (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (column, row)));
+    let deep = pixels.filter(|&(column, row)| is_water(column, row)).count();
+    let expected = deep as f64 * PIXEL * PIXEL;
+    assert!((area / expected - 1.0).abs() < 0.01, "{area} of {expected}: {summary}");
+    // A node on the coast is where the depth between the centres of pixels is that of the contour.
+    let names = |options: &str| {
+        let ran = folder.run(format!("mesh --region bay.asc {options} {boundary} -o m.msh"));
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let text = folder.read("m.msh");
+        let islands = text.lines().filter(|line| line.contains("\"island ")).count();
+        (text.contains("\"open east\""), islands)
+    };
+    let (is_open, islands) = names("--contour 20");
+    assert!(is_open && islands > 0, "{islands}");
+    assert_eq!(names("--contour 20 --smallest-island 1e9").1, 0, "islands are left out");
+    for (options, sentence) in [
+        ("--region bay.asc --contour 5000", "bay.asc: no pixel is deeper than 5000 m"),
+        ("--region bay.asc --contour 20 --depth-positive down", "no pixel is deeper than 20 m"),
+        ("--region bay.geojson --contour 20", "--contour: this is for a region that is a grid"),
+        ("--region bay.asc --smallest-inlet -1", "--smallest-inlet: The smallest inlet is -1"),
+    ] {
+        let ran = folder.run(format!("mesh {options}"));
+        assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+    // A recipe says the same.
+    folder.file(
+        "a.toml",
+        "[domain]\nregion = \"bay.asc\"\ncontour = 20\nsmallest_inlet = 3000\nboundary_diameter = 400\n\
+         [mesh]\nspacing = 10000\n[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"4000\"\n",
+    );
+    let by_recipe = folder.json("mesh", "a.toml".to_owned());
+    let by_options =
+        folder.json("mesh", format!("--region bay.asc --contour 20 --smallest-inlet 3000 {boundary}"));
+    assert_eq!(by_recipe["hash"], by_options["hash"]);
+    assert_ne!(by_recipe["hash"], summary["hash"], "inlets are closed");
+}
+
+#[test]
+fn a_formula_of_the_depth_needs_depths() {
+    let folder = Folder::new("depth-formula");
+    let ran = folder.run(format!("mesh {DOMAIN} --target 400+depth"));
+    assert_eq!(ran.status, 2);
+    assert!(ran.err.contains("--target: it uses `depth`, and there are no depths."), "{}", ran.err);
+    let recipe = "[domain]\nbounds = [0, 0, 9, 9]\n[[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\n\
+                  formula = \"1 + depth\"\n";
+    folder.file("a.toml", recipe);
+    let ran = folder.run("mesh a.toml".to_owned());
+    assert!(ran.status != 0 && ran.err.contains("a.toml, line 6, column 11: it uses"), "{}", ran.err);
 }
 
 #[test]

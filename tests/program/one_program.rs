@@ -7,13 +7,13 @@ use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, KeepOut, PathCost, PathPlan, Settings};
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape, PieceChoice,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
-    Combine, DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth,
-    Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw,
-    Threats, ValueCurve,
+    Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
+    PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat,
+    ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -152,10 +152,13 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
-        13 => LayerKind::Straits(Straits {
-            across: between(random, 1.0, 5.0),
-            found: StraitDiscs::unknown([0.3, 1.5]),
-        }),
+        13 => {
+            let (across, widths) = (between(random, 1.0, 5.0), [0.3, 1.5]);
+            match random.bool() {
+                true => LayerKind::Straits(Straits { across, found: StraitDiscs::unknown(widths) }),
+                false => LayerKind::FeatureSize(FeatureSize { across, found: WaterMiddle::unknown(widths) }),
+            }
+        }
         _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
 }
@@ -175,7 +178,16 @@ fn depths(random: &mut fastrand::Rng) -> Depths {
 }
 
 fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {
-    if random.bool() { DistanceTo::Outline } else { DistanceTo::Coasts }
+    match random.u8(..4) {
+        0 => DistanceTo::Outline,
+        1 => DistanceTo::Coasts,
+        _ => {
+            let names = ["mainland", "Rock", "open south", "land"].map(str::to_owned);
+            let names = names.into_iter().filter(|_| random.u8(..3) == 0).collect();
+            let types = BoundaryType::ALL.into_iter().filter(|_| random.u8(..3) == 0).collect();
+            DistanceTo::Pieces(PieceChoice { names, types })
+        }
+    }
 }
 
 fn threats(random: &mut fastrand::Rng) -> Threats {
@@ -232,7 +244,12 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         let kind = kind(random, has_outline);
         Layer { id: LayerId(2 * id + 1), ..layer(random, kind) }
     });
-    let layers: Vec<Layer> = layers.collect();
+    let mut layers: Vec<Layer> = layers.collect();
+    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+    if has_depths && random.bool() {
+        let of_depth = Formula::parse_of_size("0.3 + 0.01*abs(depth) + 0.02*x").unwrap();
+        layers.push(Layer::new(LayerId(99), "Of the depth", LayerKind::target(of_depth)));
+    }
     let spacing = between(random, 0.25, 0.6);
     let diameter = between(random, 0.1, 0.3);
     let transfer = Transfer {
@@ -251,7 +268,6 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         1 => KeptParts::Largest,
         _ => KeptParts::Share(between(random, 0.0, 0.2)),
     };
-    let has_depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
     let settings = Settings {
         pins: Arc::new((0..random.usize(..4)).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),

@@ -107,7 +107,8 @@ fn the_page_of_options_is_the_help() {
 #[test]
 fn the_page_of_formulas_has_every_function_and_constant() {
     let mut page = "# Formulas\n\nWhat formulas in the window, in recipes and on the command line can say. Written by a test.\n\n\
-                    Formulas use `x` and `y`, or the polar coordinates `r` and `theta`; those of a cost also `risk`. \
+                    Formulas use `x` and `y`, or the polar coordinates `r` and `theta`; those of a cost also `risk`, and those of a \
+                    target diameter also `depth`, the depth of the water in metres, positive downwards. \
                     Constants are `pi`, `tau`, `e` and `inf`.\n\n\
                     | lowest precedence first | |\n|---|---|\n\
                     | logic | `a or b`, `a and b`, `not a` (also `\\|\\|`, `&&`, `!`); 0 is false, any other value is true |\n\

@@ -16,6 +16,7 @@ use crate::app::command::{Command, EditCommand, InspectCommand, LayerCommand, Sh
 use crate::app::features::ROWS;
 use crate::app::kit::{Tab, all_tools};
 use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::domain::PieceChoice;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, PositiveDepth, RasterSource, ShapeList, Shapes,
@@ -82,6 +83,8 @@ fn every_control_of_the_panels_has_a_sentence() {
     open_tab(&mut window, Tab::Size);
     assert_eq!(unexplained(&window), [""; 0]);
     let distance = LayerKind::Distance { to: DistanceTo::Outline, at_zero: 0.1, slope: 0.3, range: 0.2 };
+    let to = DistanceTo::Pieces(PieceChoice::of_land());
+    let pieces = LayerKind::Distance { to, at_zero: 0.1, slope: 0.3, range: 0.2 };
     let raster = || {
         let raster = Raster::from_values(Rect::UNIT, [2, 1], vec![0.0, 1.0]);
         RasterSource { name: "depth.asc".into(), raster: Arc::new(RasterPyramid::new(raster)) }
@@ -92,12 +95,15 @@ fn every_control_of_the_panels_has_a_sentence() {
     let line = ShapeList { lines: vec![vec![FREE, DVec2::ZERO]], ..ShapeList::default() };
     let corridor = LayerKind::corridor(Shapes::new(line, true).unwrap(), 1.0, &transfer, 0.2);
     let (formula, risk) = (LayerKind::constant(0.2), LayerKind::risk(Formula::constant_of(0.1)));
-    let straits = LayerKind::straits(&transfer);
+    let [straits, feature_size] = [LayerKind::straits(&transfer), LayerKind::feature_size(&transfer)];
     let depths = [DepthRule::Nothing, DepthRule::USUAL_WAVELENGTH, SLOPE, COURANT].map(|rule| {
         let sizes = DepthSizes { positive: PositiveDepth::Up, offset: 0.0, between: [0.0, 9.0], rule };
         LayerKind::Depth(Depths::new(raster(), sizes))
     });
-    for kind in [formula, risk, distance, corridor, curve, band, straits].into_iter().chain(depths) {
+    for kind in [formula, risk, distance, pieces, corridor, curve, band, straits, feature_size]
+        .into_iter()
+        .chain(depths)
+    {
         send(&mut window, Command::Layer(LayerCommand::Add(Box::new(kind))));
         assert_eq!(unexplained(&window), [""; 0]);
     }

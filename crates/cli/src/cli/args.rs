@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
+use super::distance_args::DistanceArguments;
 use super::earth_args::{EarthArguments, OutputCoordinates};
 use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
@@ -156,10 +157,12 @@ pub struct InputArguments {
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub inside: Option<String>,
 
-    /// Domain with holes: a GeoJSON file or shapefile (.shp) with polygons, in its own coordinates; - is
-    /// GeoJSON from standard input
+    /// Domain with holes: a GeoJSON file, shapefile (.shp) or GeoPackage (.gpkg) with polygons, in its own
+    /// coordinates; - is GeoJSON from standard input. Or a grid of heights or depths: the water below
+    /// --contour
     ///
-    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons.
+    /// The coarse grid covers their bounding rectangle. The domain is the union of all polygons. In a grid,
+    /// the outline runs between the centres of pixels, linear in the depth; pixels without a value are land.
     #[arg(long, value_name = "FILE.geojson", conflicts_with_all = ["domain", "inside"])]
     pub region: Option<PathBuf>,
 
@@ -198,7 +201,8 @@ pub struct InputArguments {
     /// wins
     ///
     /// Written as in `if(abs(x)+abs(y)<0.4, 0.0125, 1)`; there are comparisons, and, or, not, the usual
-    /// functions, and the polar r and theta.
+    /// functions, and the polar r and theta. With --depth, `depth` is the depth of the water in metres,
+    /// positive downwards; where no file has a value, the formula asks for nothing.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub target: Vec<String>,
 
@@ -224,22 +228,8 @@ pub struct InputArguments {
     #[arg(long, value_name = "FILE.csv")]
     pub threats: Vec<PathBuf>,
 
-    /// Points, lines or polygons (.geojson, .shp) from which the target diameter grows with the distance; may
-    /// be repeated
-    #[arg(long, value_name = "FILE.geojson")]
-    pub distance: Vec<PathBuf>,
-
-    /// Target diameter at distance 0; the default is --h-min
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
-    pub distance_at_zero: Option<Length>,
-
-    /// How much the target diameter grows with the distance: 0.2 is 2 in 10 [default: 0.2]
-    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true, requires = "distance")]
-    pub distance_slope: Option<f64>,
-
-    /// The distance beyond which --distance asks for nothing [default: unlimited]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, requires = "distance")]
-    pub distance_range: Option<Length>,
+    #[command(flatten)]
+    pub distances: DistanceArguments,
 
     #[command(flatten)]
     pub water: WaterArguments,

@@ -13,7 +13,7 @@ fn raster_endings(are_grids: bool) -> String {
 /// Returns the help of the file that the window opens.
 pub fn file_help() -> String {
     format!(
-        "File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson, .shp), or a \
+        "File to open in the window: a project (.meshbrush), a recipe (.toml), a domain (.geojson, .shp, .gpkg), or a \
          greyscale picture ({}) or grid ({}) as risk",
         raster_endings(false),
         raster_endings(true)

@@ -222,9 +222,12 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--target-raster", !typed.target_raster.is_empty()),
         ("--risk-raster", !typed.risk_raster.is_empty()),
         ("--threats", !typed.threats.is_empty()),
-        ("--distance", !typed.distance.is_empty()),
+        ("--distance", !typed.distances.distance.is_empty()),
+        ("--distance-to-piece", !typed.distances.distance_to_piece.is_empty()),
+        ("--distance-to-type", !typed.distances.distance_to_type.is_empty()),
         ("--depth", !typed.water.depth.is_empty()),
         ("--straits", typed.water.straits.is_some()),
+        ("--feature-size", typed.water.feature_size.is_some()),
     ];
     let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
     let rule = "domain and layers are those of the file, and other options override its settings";

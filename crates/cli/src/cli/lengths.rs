@@ -65,8 +65,8 @@ impl LengthWithUnit {
         let lengths = [
             ("--boundary-diameter", &typed.boundary_diameter),
             ("--spacing", &typed.spacing),
-            ("--distance-at-zero", &typed.distance_at_zero),
-            ("--distance-range", &typed.distance_range),
+            ("--distance-at-zero", &typed.distances.distance_at_zero),
+            ("--distance-range", &typed.distances.distance_range),
             ("--smoothing", &typed.water.smoothing),
             ("--widest-strait", &typed.water.widest_strait),
             ("--h-min", &typed.h_min),

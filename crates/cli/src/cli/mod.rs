@@ -8,6 +8,7 @@ mod args;
 pub mod build;
 mod command_line;
 pub mod details;
+mod distance_args;
 pub mod earth_args;
 pub mod failure;
 mod help;

@@ -16,8 +16,6 @@ use meshbrush_io::io::{KeyFault, Step};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
-/// Growth of the target diameter by unit of distance, unless an option says otherwise.
-const USUAL_SLOPE: f64 = 0.2;
 /// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
 const METRES: &str = "metres";
 
@@ -41,6 +39,10 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.clone(),
             region: typed.region.clone(),
+            contour: typed.water.contour,
+            positive: typed.water.contour.and(typed.water.depth_positive).map(Into::into),
+            smallest_island: typed.water.smallest_island,
+            smallest_inlet: typed.water.smallest_inlet,
             crs: typed.earth.crs.clone(),
             projection,
             boundary: typed.boundary.map(Into::into),
@@ -113,37 +115,56 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         }));
     }
     layers.extend(typed.threats.iter().map(|path| of_file("--threats", SavedKind::Threats, path)));
-    for path in &typed.distance {
-        let (option, layer) = of_file("--distance", SavedKind::Distance, path);
-        let at_zero = value(&typed.distance_at_zero).or(value(&typed.h_min)).ok_or_else(|| {
-            let problem =
-                "at distance 0 there is no target diameter. Give it with --distance-at-zero, or --h-min";
-            Failure::Usage(format!("{option}: {problem}."))
-        })?;
-        let slope = typed.distance_slope.unwrap_or(USUAL_SLOPE);
-        let (at_zero, slope) = (Some(at_zero), Some(slope));
-        layers.push((option, SavedLayer { at_zero, slope, range: value(&typed.distance_range), ..layer }));
-    }
+    layers.extend(typed.distances.layers(value(&typed.h_min))?);
     layers.extend(typed.water.depth_layers());
-    layers.extend(straits(typed)?);
+    let water = &typed.water;
+    let widths = [
+        ("--straits", SavedKind::Straits, water.straits, &water.widest_strait, "--widest-strait"),
+        (
+            "--feature-size",
+            SavedKind::FeatureSize,
+            water.feature_size,
+            &water.widest_feature,
+            "--widest-feature",
+        ),
+    ];
+    for (option, kind, across, widest, widest_option) in widths {
+        let of_water = OfWater { option, kind, widest: value(widest), widest_option };
+        layers.extend(of_water.layer(across, typed)?);
+    }
     Ok(layers)
 }
 
-/// Returns the layer of `--straits`.
-fn straits(typed: &InputArguments) -> Result<Option<(String, SavedLayer)>, Failure> {
-    let (Some(across), Some(h_min)) = (typed.water.straits, value(&typed.h_min)) else { return Ok(None) };
-    let widest = value(&typed.water.widest_strait).or(value(&typed.h_max).map(|h_max| across * h_max));
-    let widest = widest.ok_or_else(|| {
-        let problem = "the widest strait is not known. Give it with --widest-strait, or --h-max";
-        Failure::Usage(format!("--straits {across}: {problem}."))
-    })?;
-    let layer = SavedLayer {
-        across: Some(across),
-        width_from: Some(across * h_min),
-        width_to: Some(widest),
-        ..SavedLayer::of_kind(SavedKind::Straits)
-    };
-    Ok(Some((format!("--straits {across}"), layer)))
+/// An option on the width of water.
+struct OfWater {
+    option: &'static str,
+    kind: SavedKind,
+    widest: Option<f64>,
+    widest_option: &'static str,
+}
+
+impl OfWater {
+    /// Returns the layer of the option, with this many triangles across, if it is given.
+    fn layer(
+        &self,
+        across: Option<f64>,
+        typed: &InputArguments,
+    ) -> Result<Option<(String, SavedLayer)>, Failure> {
+        let (Some(across), Some(h_min)) = (across, value(&typed.h_min)) else { return Ok(None) };
+        let Self { option, kind, widest, widest_option } = *self;
+        let widest = widest.or(value(&typed.h_max).map(|h_max| across * h_max));
+        let widest = widest.ok_or_else(|| {
+            let problem = format!("the widest water is not known. Give it with {widest_option}, or --h-max");
+            Failure::Usage(format!("{option} {across}: {problem}."))
+        })?;
+        let layer = SavedLayer {
+            across: Some(across),
+            width_from: Some(across * h_min),
+            width_to: Some(widest),
+            ..SavedLayer::of_kind(kind)
+        };
+        Ok(Some((format!("{option} {across}"), layer)))
+    }
 }
 
 /// Returns the sentence for a value that cannot be used, with its option.
@@ -155,18 +176,27 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
     let length = |option: &str, value: Option<&Length>| with(option, value.map(Length::to_string));
     let option = match &fault.path[..] {
         [Step::Key(table), Step::Index(layer), Step::Key(key), ..] if table == "layer" => match &**key {
-            "at_zero" => {
-                length("--distance-at-zero", typed.distance_at_zero.as_ref().or(typed.h_min.as_ref()))
+            "at_zero" => length(
+                "--distance-at-zero",
+                typed.distances.distance_at_zero.as_ref().or(typed.h_min.as_ref()),
+            ),
+            "slope" => {
+                with("--distance-slope", typed.distances.distance_slope.map(|slope| slope.to_string()))
             }
-            "slope" => with("--distance-slope", typed.distance_slope.map(|slope| slope.to_string())),
-            "range" => length("--distance-range", typed.distance_range.as_ref()),
-            "width_to" => length("--widest-strait", typed.water.widest_strait.as_ref()),
+            "range" => length("--distance-range", typed.distances.distance_range.as_ref()),
+            "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
+                length("--widest-strait", typed.water.widest_strait.as_ref())
+            }
+            "width_to" => length("--widest-feature", typed.water.widest_feature.as_ref()),
             _ => layers[*layer].0.clone(),
         },
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
             "projection" => "--projection".to_owned(),
             "crs" => "--crs".to_owned(),
+            "contour" => "--contour".to_owned(),
+            "smallest_island" => "--smallest-island".to_owned(),
+            "smallest_inlet" => "--smallest-inlet".to_owned(),
             "boundary_diameter" => length("--boundary-diameter", typed.boundary_diameter.as_ref()),
             "spacing" => length("--spacing", typed.spacing.as_ref()),
             "h_min" => length("--h-min", typed.h_min.as_ref()),

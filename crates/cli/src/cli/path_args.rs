@@ -31,8 +31,8 @@ pub struct PathArguments {
     #[arg(long, value_name = "N", conflicts_with = "from", help_heading = "Path")]
     pub route: Option<usize>,
 
-    /// Polygons (.geojson, .shp) that the path stays out of, in place of those of the project or recipe; may
-    /// be repeated
+    /// Polygons (.geojson, .shp, .gpkg) that the path stays out of, in place of those of the project or
+    /// recipe; may be repeated
     #[arg(long, value_name = "FILE.geojson", help_heading = "Path")]
     pub keep_out: Vec<PathBuf>,
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 
 use super::lengths::Length;
 use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
@@ -12,7 +12,28 @@ const TIDE: f64 = 44_712.0;
 
 /// Depths of water and straits, and the sizes that they ask for.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("depths").multiple(true).args(["depth", "contour"]))]
 pub struct WaterArguments {
+    /// Where --region is a grid: the domain is where the depth is more than this, in metres [default: 0, the
+    /// shore]
+    #[arg(long, value_name = "DEPTH", requires = "region", allow_hyphen_values = true)]
+    pub contour: Option<f64>,
+
+    /// Area of the smallest island, and of the smallest water, of --contour; smaller ones are left out
+    /// [default: none are]
+    ///
+    /// In square metres where the grid is in longitudes and latitudes, otherwise in its unit.
+    #[arg(long, value_name = "AREA", requires = "region", allow_hyphen_values = true)]
+    pub smallest_island: Option<f64>,
+
+    /// Width of the narrowest inlet of --contour; narrower ones are closed [default: none are]
+    ///
+    /// Water stays where a disc of this diameter and one pixel, around the centre of a pixel, has no centre
+    /// of a pixel of land in it. In metres where the grid is in longitudes and latitudes, otherwise in its
+    /// unit.
+    #[arg(long, value_name = "WIDTH", requires = "region", allow_hyphen_values = true)]
+    pub smallest_inlet: Option<f64>,
+
     /// Depths of water: a grid of heights in metres, for the nodes of files and the options below; may be
     /// repeated, the first that has a value at a place counts
     ///
@@ -21,8 +42,9 @@ pub struct WaterArguments {
     #[arg(long, value_name = "FILE")]
     pub depth: Vec<PathBuf>,
 
-    /// Whether the values of --depth are heights, so that water is below 0, or depths [default: up]
-    #[arg(long, value_name = "up|down", requires = "depth")]
+    /// Whether the values of --depth, and of the grid of --contour, are heights, so that water is below 0, or
+    /// depths [default: up]
+    #[arg(long, value_name = "up|down", requires = "depths")]
     pub depth_positive: Option<PositiveArgument>,
 
     /// Metres that are added to the depths of each file of --depth, in their order: for charts of depths
@@ -70,6 +92,18 @@ pub struct WaterArguments {
     /// Width of the widest strait of --straits [default: K times --h-max]
     #[arg(long, value_name = "LENGTH", requires = "straits", allow_hyphen_values = true)]
     pub widest_strait: Option<Length>,
+
+    /// This many triangles across the water everywhere, growing with the way from the shore and from the
+    /// middle of the water: the feature size of a region
+    ///
+    /// The target diameter is 2 W / R, where W is the distance to the shore and the middle of the water
+    /// together: half of the width of a channel. It changes by at most 4 / R times the way.
+    #[arg(long, value_name = "R", requires = "region", requires = "h_min", allow_hyphen_values = true)]
+    pub feature_size: Option<f64>,
+
+    /// Width of the widest water of --feature-size [default: R times --h-max]
+    #[arg(long, value_name = "LENGTH", requires = "feature_size", allow_hyphen_values = true)]
+    pub widest_feature: Option<Length>,
 }
 
 /// The direction in which values grow.

@@ -5,7 +5,7 @@
 use super::Settings;
 use crate::domain::Domain;
 use crate::field::RefinementRule;
-use crate::layers::{Circumstances, PaintLayers};
+use crate::layers::{Circumstances, Layer, PaintLayers};
 
 /// The work that brings the mesh of some settings up to date with others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            boundary_marks: _,
             pins: _,
             paths: _,
             // This one decides what is derived from the mesh.
@@ -49,6 +48,7 @@ impl Settings {
             max_memory: _,
             domain,
             boundary,
+            boundary_marks,
             spacing,
             transfer,
             layers,
@@ -59,7 +59,6 @@ impl Settings {
             name: _,
             unit: _,
             background: _,
-            boundary_marks: _,
             pins: _,
             paths: _,
             cleaning: _,
@@ -67,6 +66,7 @@ impl Settings {
             max_memory: _,
             domain: old_domain,
             boundary: old_boundary,
+            boundary_marks: old_boundary_marks,
             spacing: old_spacing,
             transfer: old_transfer,
             layers: old_layers,
@@ -74,17 +74,17 @@ impl Settings {
             rule: old_rule,
         } = old;
         // Only polygons are met in one way or another; nodes are moved onto them in the derived mesh.
-        let is_fitted_alike = boundary.diameter() == old_boundary.diameter()
-            || [domain, old_domain].iter().all(|domain| domain.region().is_none());
+        let has_polygons = [domain, old_domain].iter().any(|domain| domain.region().is_some());
+        let is_fitted_alike = boundary.diameter() == old_boundary.diameter() || !has_polygons;
         let outline = domain != old_domain;
         let has_other_grid = spacing != old_spacing || rule != old_rule || !is_fitted_alike;
         if has_other_grid || (outline && !self.can_follow_outline(old_domain)) {
             return Change::NewMesh { is_similar: !outline && rule == old_rule };
         }
-        let field = transfer != old_transfer
-            || layers != old_layers
-            || gradation != old_gradation
-            || (outline && layers.iter().any(|layer| layer.visible && layer.follows_outline()));
+        let field = (transfer, layers, gradation) != (old_transfer, old_layers, old_gradation)
+            || (outline && self.shows(Layer::follows_outline))
+            // Names and types of pieces matter to distances alone.
+            || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()));
         match rule {
             _ if !outline && !field => Change::Nothing,
             RefinementRule::Area => Change::Update { outline, field },
@@ -92,6 +92,11 @@ impl Settings {
             RefinementRule::Vertex if self.has_same_field(old, paint) => Change::Update { outline, field },
             RefinementRule::Vertex => Change::NewMesh { is_similar: true },
         }
+    }
+
+    /// Returns whether some visible layer is of a sort.
+    fn shows(&self, is_of: impl Fn(&Layer) -> bool) -> bool {
+        self.layers.iter().any(|layer| layer.visible && is_of(layer))
     }
 
     /// Returns whether the mesh can follow from another domain to this one in place: only where it is fitted,

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use super::{Setting, Settings};
-use crate::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use crate::domain::{
+    BoundaryMarks, DepthContour, DepthContourError, Domain, NamedPolygon, PixelLengths, Polygon, RegionError,
+};
 use crate::geometry::{GridError, Rect};
-use crate::text::Number;
+use crate::layers::Depths;
+use crate::text::{LengthUnit, Number};
 
 /// Why polygons cannot be added to a document.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -14,6 +17,9 @@ pub enum OutlineError {
     /// They are not a domain.
     #[error(transparent)]
     Region(#[from] RegionError),
+    /// There is no such contour.
+    #[error(transparent)]
+    Contour(#[from] DepthContourError),
     /// The domain is given by a formula.
     #[error(
         "The domain of this document is given by a formula, and polygons cannot be added to that. Empty the row \"Domain \
@@ -74,5 +80,27 @@ impl Settings {
         let grown = Self { domain: domain.clone(), ..self.clone() };
         grown.lattice().map_err(OutlineError::TooLarge)?;
         Ok(Setting::Outline { domain, boundary_marks: Arc::new(marks) })
+    }
+
+    /// Returns the setting that makes a contour of depths the domain: their water, as far as it is in the
+    /// bounds of the domain. Names and types of the boundary stay where they were.
+    ///
+    /// # Errors
+    /// Fails when there is no water, the depths lie outside the bounds, or need too large a coarse grid.
+    pub fn with_contour(&self, depths: &Depths, contour: &DepthContour) -> Result<Setting, OutlineError> {
+        let (before, raster) = (&self.domain, depths.source().raster.raster());
+        let lengths = match (self.unit, before.projection) {
+            (LengthUnit::Degree, None) => PixelLengths::Degrees,
+            _ => PixelLengths::Plane,
+        };
+        let polygons = contour.polygons(raster, lengths, |value| depths.sizes().depth_of(value))?;
+        let bounds = before.bounds.intersection(&raster.bounds()).filter(Rect::is_proper);
+        let outside = OutlineError::Outside { outline: raster.bounds(), document: before.bounds };
+        let bounds = bounds.ok_or(outside)?;
+        let projection = before.projection;
+        let domain = Domain { projection, ..Domain::of_stored_polygons(polygons, bounds)? };
+        let changed = Self { domain: domain.clone(), ..self.clone() };
+        changed.lattice().map_err(OutlineError::TooLarge)?;
+        Ok(Setting::Outline { domain, boundary_marks: self.boundary_marks.clone() })
     }
 }

@@ -8,7 +8,7 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, SizeFieldSpec};
+use crate::layers::{DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, ShapesError, SizeFieldSpec};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
@@ -101,6 +101,25 @@ pub enum SettingsError {
         layer: String,
         /// The unit of the document.
         unit: LengthUnit,
+    },
+    /// A formula uses the depth, and nothing gives it.
+    #[error(
+        "The layer “{}”: its formula uses the depth, and there are no depths. Add a layer of depths, or change the \
+         formula first.",
+        short_name(layer)
+    )]
+    NoDepths {
+        /// The name of the layer.
+        layer: String,
+    },
+    /// A formula of risk uses the depth.
+    #[error(
+        "The layer “{}”: a formula of risk cannot use the depth, only one of a target diameter can.",
+        short_name(layer)
+    )]
+    RiskOfDepth {
+        /// The name of the layer.
+        layer: String,
     },
     /// A paint layer has pixels of the other quantity.
     #[error(
@@ -200,9 +219,26 @@ impl Settings {
                 return Err(SettingsError::Constant(value));
             }
         }
+        self.check_depth_formulas()?;
         self.check_depth_unit()?;
         let pixels = self.raster_pixels();
         if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
+    }
+
+    /// Checks that formulas that use the depth have one. A hidden layer of depths is enough: without depths
+    /// in sight they ask for nothing.
+    fn check_depth_formulas(&self) -> Result<(), SettingsError> {
+        let has_depths = self.layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
+        for layer in self.layers.iter().filter(|layer| layer.kind.uses_depth()) {
+            let name = layer.name.clone();
+            if layer.is_of_risk() {
+                return Err(SettingsError::RiskOfDepth { layer: name });
+            }
+            if !has_depths {
+                return Err(SettingsError::NoDepths { layer: name });
+            }
+        }
+        Ok(())
     }
 
     /// Checks that lengths are in metres where sizes from depths are asked for.
@@ -255,20 +291,24 @@ impl Settings {
         }
     }
 
-    /// Returns a layer as the size field has it: shapes take the place of the coasts of the domain.
+    /// Returns a layer as the size field has it: shapes take the place of coasts and pieces of the boundary.
     pub fn field_layer(&self, layer: &Layer) -> Layer {
         let mut layer = layer.clone();
-        if let LayerKind::Distance { to, .. } = &mut layer.kind
-            && *to == DistanceTo::Coasts
-            && let Ok(shapes) = Shapes::coasts(&self.domain)
-        {
-            *to = DistanceTo::Shapes { name: String::new(), shapes };
+        if let LayerKind::Distance { to, .. } = &mut layer.kind {
+            let shapes = match to {
+                DistanceTo::Coasts => Shapes::coasts(&self.domain),
+                DistanceTo::Pieces(chosen) => Shapes::lines(chosen.lines(&self.domain, &self.boundary_marks)),
+                _ => Err(ShapesError::Empty),
+            };
+            if let Ok(shapes) = shapes {
+                *to = DistanceTo::Shapes { name: String::new(), shapes };
+            }
         }
         self.find_straits_of(&mut layer);
         layer
     }
 
-    /// Finds the straits of the domain for the layers that ask for them.
+    /// Finds the straits and the middle of the water of the domain for the layers that ask for them.
     pub(super) fn find_straits(&mut self) {
         let mut layers = std::mem::take(&mut self.layers);
         layers.iter_mut().for_each(|layer| self.find_straits_of(layer));
@@ -276,8 +316,10 @@ impl Settings {
     }
 
     fn find_straits_of(&self, layer: &mut Layer) {
-        if let LayerKind::Straits(straits) = &mut layer.kind {
-            *straits = straits.for_domain(&self.domain);
+        match &mut layer.kind {
+            LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain),
+            LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain),
+            _ => {}
         }
     }
 

@@ -12,6 +12,7 @@ mod outline_query;
 mod region;
 mod region_builder;
 mod cut_shape;
+mod depth_contour;
 mod complexity;
 mod segments;
 mod farthest;
@@ -31,12 +32,13 @@ use crate::text::Grouped;
 pub use crate::geometry::signed_area;
 pub use boundary::{
     BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts, FrameSide,
-    LONGEST_NAME, MeshBoundary, NamedPolygon, PieceFigures, PieceRun, coasts,
+    LONGEST_NAME, MeshBoundary, NamedPolygon, PieceChoice, PieceFigures, PieceRun, coasts,
 };
 pub use comparison::RegionComparison;
 use complexity::check_complexity;
 pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
 pub use cut_shape::CutShape;
+pub use depth_contour::{DepthContour, DepthContourError, PixelLengths};
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::FitQuality;
 pub use holes::HoleFigures;

@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
-use super::engine::analytic::Analytic;
+use super::engine::CompiledLayer;
 use super::engine::cells::Cells;
-use super::{Layer, SizeField};
+use super::{Layer, SizeField, surface_changes};
 use crate::geometry::Lattice;
 use crate::mesh::Progress;
 use crate::text::{Number, short_name};
@@ -43,16 +43,21 @@ impl LayerCheck {
     /// Creates the work that checks all visible layers of a field.
     pub fn new(field: &SizeField) -> Self {
         let all = Cells::all(field.lattice().extent());
-        let analytic = |n: &usize| field.compiled()[*n].analytic().is_some();
-        Self { left: (0..field.compiled().len()).rev().filter(analytic).map(|n| (n, all)).collect() }
+        let is_checked = |n: &usize| field.compiled()[*n].can_be_invalid();
+        Self { left: (0..field.compiled().len()).rev().filter(is_checked).map(|n| (n, all)).collect() }
     }
 
     /// Returns the work that checks the visible layers of a field that differ from all visible ones of
     /// `checked`, which were found valid on the same lattice.
     pub fn of_changed(field: &SizeField, checked: &[Layer]) -> Self {
         let mut check = Self::new(field);
-        let visible: Vec<&Layer> = field.spec().layers.iter().filter(|layer| layer.visible).collect();
-        let is_known = |n: usize| checked.iter().any(|old| old.visible && old.kind == visible[n].kind);
+        let layers = &field.spec().layers;
+        let visible: Vec<&Layer> = layers.iter().filter(|layer| layer.visible).collect();
+        let has_same_depths =
+            |n: usize| !visible[n].kind.uses_depth() || surface_changes(layers, checked).is_empty();
+        let is_known = |n: usize| {
+            checked.iter().any(|old| old.visible && old.kind == visible[n].kind) && has_same_depths(n)
+        };
         check.left.retain(|(n, _)| !is_known(*n));
         check
     }
@@ -70,14 +75,13 @@ impl LayerCheck {
         for _ in 0..budget {
             let Some((number, cells)) = self.left.pop() else { return Ok(Progress::Done) };
             let layer = &field.compiled()[number];
-            let Some(analytic) = layer.analytic() else { continue };
-            match checked(analytic, &cells, field.lattice()) {
+            match checked(layer, &cells, field.lattice()) {
                 Checked::Valid => {}
                 Checked::Divided(parts) => self.left.extend(parts.map(|part| (number, part))),
-                Checked::Invalid { at, value } => {
+                Checked::Invalid { at, value, rule } => {
                     let named = field.spec().layers.iter().find(|named| named.id == layer.id);
                     let layer = named.map_or_else(String::new, |named| named.name.clone());
-                    return Err(InvalidLayer { layer, at, value, rule: analytic.rule() });
+                    return Err(InvalidLayer { layer, at, value, rule });
                 }
             }
         }
@@ -88,13 +92,13 @@ impl LayerCheck {
 enum Checked {
     Valid,
     Divided([Cells; 2]),
-    Invalid { at: DVec2, value: f64 },
+    Invalid { at: DVec2, value: f64, rule: &'static str },
 }
 
-fn checked(analytic: &Analytic, cells: &Cells, lattice: &Lattice) -> Checked {
+fn checked(layer: &CompiledLayer, cells: &Cells, lattice: &Lattice) -> Checked {
     let extent = lattice.extent();
     let bits = extent.x.max(extent.y).next_power_of_two().ilog2().saturating_sub(FINEST_LOG);
-    if analytic.is_valid_within(&cells.world_rect(lattice)) {
+    if layer.is_valid_in(cells, lattice) {
         return Checked::Valid;
     }
     let is_large = (0..2).any(|axis| cells.max[axis] - cells.min[axis] > 1 << bits);
@@ -102,8 +106,8 @@ fn checked(analytic: &Analytic, cells: &Cells, lattice: &Lattice) -> Checked {
         Some(cut) => Checked::Divided(cells.divided(cut)),
         None => {
             let at = cells.center(lattice);
-            let value = analytic.raw(at);
-            if analytic.is_valid(value) { Checked::Valid } else { Checked::Invalid { at, value } }
+            let invalid = layer.invalid_number_at(at);
+            invalid.map_or(Checked::Valid, |(value, rule)| Checked::Invalid { at, value, rule })
         }
     }
 }

@@ -70,6 +70,22 @@ pub(super) fn hidden_differently(layer: &Layer, new: &[Layer], old: &[Layer]) ->
     only(new, old).chain(only(old, new)).map(|(_, depths)| depths.source().raster.raster().bounds()).collect()
 }
 
+/// Returns rectangles that hold the places where the surfaces of depths of two stacks differ. Below files
+/// that both have at the top, and above those that both have at the bottom, each file counts somewhere.
+pub(super) fn surface_changes(new: &[Layer], old: &[Layer]) -> Vec<Rect> {
+    let files = |stack| DepthSurface::of(stack).map_or_else(Vec::new, |surface| surface.0);
+    let (new, old) = (files(new), files(old));
+    let is_same = |(a, b): &(&(&Layer, &Depths), &(&Layer, &Depths))| {
+        let meaning = |depths: &Depths| (depths.sizes().positive, depths.sizes().offset);
+        a.0.mask == b.0.mask && meaning(a.1) == meaning(b.1) && a.1.source() == b.1.source()
+    };
+    let first = new.iter().zip(&old).take_while(is_same).count();
+    let (new, old) = (&new[first..], &old[first..]);
+    let last = new.iter().rev().zip(old.iter().rev()).take_while(is_same).count();
+    let changed = new[..new.len() - last].iter().chain(&old[..old.len() - last]);
+    changed.map(|(_, depths)| depths.source().raster.raster().bounds()).collect()
+}
+
 pub(super) fn covers(layer: &Layer, at: DVec2) -> bool {
     layer.mask.as_ref().is_none_or(|mask| mask.contains(at))
 }

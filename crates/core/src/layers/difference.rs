@@ -15,13 +15,15 @@
 //! specifications are taken apart completely, without `..`: a new field does not compile until somebody has
 //! decided what it changes.
 
+mod distance;
+
 use std::sync::Arc;
 
 use super::extent::{Extent, ExtentContext};
 use super::risk::{RiskField, RiskLayer, RiskSource};
 use super::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
-    hidden_differently,
+    Combine, Layer, LayerId, LayerKind, PaintLayers, Quantity, SizeFieldSpec, Threat, Threats,
+    hidden_differently, surface_changes,
 };
 use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
@@ -207,6 +209,9 @@ impl Steps<'_> {
                 self.add_layer(layer, before);
                 let hidden = Extent::of(hidden_differently(layer, new, old));
                 self.add(layer, Combine::Replace, hidden, Any);
+                if layer.kind.uses_depth() {
+                    self.add(layer, layer.combine, Extent::of(surface_changes(new, old)), Any);
+                }
             }
         }
         for layer in new.iter().filter(|layer| layer.visible && !visible(old, layer)) {
@@ -274,6 +279,7 @@ impl Steps<'_> {
             _ if self.has_new_outline && (new.is_of_outline() || old.is_of_outline()) => {
                 return self.add_distance_to_outline(new, old);
             }
+            _ if self.add_other_lines(new, old) => return,
             (new_kind, old_kind) => values_change(new_kind, old_kind, new.combine),
         };
         if let Some(change) = change {
@@ -302,28 +308,6 @@ impl Steps<'_> {
         for (rects, change) in [(finer, Finer), (coarser, Coarser)] {
             let area = Extent::of(rects).within_mask(layer.mask.as_ref());
             self.add(layer, layer.combine, area, if is_finest { change } else { Any });
-        }
-    }
-
-    /// A layer of the distance to the outline, where the outline differs, and perhaps the layer besides.
-    ///
-    /// Where a distance differs, the nearest edge before or after is one that the other outline does not
-    /// have.
-    fn add_distance_to_outline(&mut self, new: &Layer, old: &Layer) {
-        let farthest = |layer: &Layer, context: &ExtentContext| match &layer.kind {
-            LayerKind::Distance { to: DistanceTo::Outline, at_zero, slope, range } => {
-                layer.farthest_in_plane([*at_zero, *slope, *range], context)
-            }
-            _ => f64::INFINITY,
-        };
-        let reach = farthest(new, &self.new).max(farthest(old, &self.old));
-        let both_have_outlines = [self.new, self.old].iter().all(|context| context.spec.outline.is_some());
-        match self.outline_areas {
-            Some(edges) if new.kind == old.kind && both_have_outlines && reach.is_finite() => {
-                let area = Extent::of(edges.iter().map(|edge| edge.expanded(reach.max(0.0))));
-                self.add(new, new.combine, area.within_mask(new.mask.as_ref()), Any);
-            }
-            _ => self.add_both(new, old, Any),
         }
     }
 }
@@ -427,7 +411,7 @@ fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<T
             }
             _ => Some(Any),
         },
-        LayerKind::Depth(_) | LayerKind::Straits(_) => Some(Any),
+        LayerKind::Depth(_) | LayerKind::Straits(_) | LayerKind::FeatureSize(_) => Some(Any),
     }
 }
 

@@ -201,12 +201,20 @@ impl Shapes {
         Self::new(ShapeList { polygons: region.polygons().to_vec(), ..ShapeList::default() }, false)
     }
 
+    /// Returns polylines.
+    ///
+    /// # Errors
+    /// Fails when there is none, or a coordinate is not finite.
+    pub fn lines(lines: Vec<Vec<DVec2>>) -> Result<Self, ShapesError> {
+        Self::new(ShapeList { lines, ..ShapeList::default() }, false)
+    }
+
     /// Returns the coasts of a domain: its boundary without the open parts.
     ///
     /// # Errors
     /// Fails when there is no coast.
     pub fn coasts(domain: &Domain) -> Result<Self, ShapesError> {
-        Self::new(ShapeList { lines: coasts(domain), ..ShapeList::default() }, false)
+        Self::lines(coasts(domain))
     }
 
     /// Returns the shapes as they were given.

@@ -1,8 +1,8 @@
 //! The area in which a layer can have a target diameter.
 
 use super::{
-    Combine, DepthRule, DistanceTo, Layer, LayerKind, Mask, PaintLayers, Quantity, RasterReading,
-    SizeFieldSpec, Threats,
+    Combine, DepthRule, DistanceTo, FeatureSize, Layer, LayerKind, Mask, PaintLayers, Quantity,
+    RasterReading, SizeFieldSpec, Threats, surface_changes,
 };
 use crate::geometry::{Rect, z_order};
 use crate::raster::ValueRanges;
@@ -89,16 +89,18 @@ impl Layer {
             LayerKind::Distance { .. }
             | LayerKind::Band { .. }
             | LayerKind::Depth(_)
-            | LayerKind::Straits(_) => false,
+            | LayerKind::Straits(_)
+            | LayerKind::FeatureSize(_) => false,
         }
     }
 
     /// Returns whether it changes with the boundary of the domain.
     pub fn follows_outline(&self) -> bool {
-        matches!(
-            self.kind,
-            LayerKind::Distance { to: DistanceTo::Outline | DistanceTo::Coasts, .. } | LayerKind::Straits(_)
-        )
+        match &self.kind {
+            LayerKind::Distance { to, .. } => to.shapes().is_none(),
+            LayerKind::Straits(_) | LayerKind::FeatureSize(_) => true,
+            _ => false,
+        }
     }
 
     /// Returns whether it asks for the distance to the whole boundary of the domain.
@@ -120,6 +122,9 @@ impl Layer {
                     .flat_map(|raster| raster.tiles().map(|(place, _)| place.area(raster.grid())));
                 Extent::of(tiles)
             }
+            LayerKind::Formula { quantity: _, formula } if formula.uses_depth() => {
+                Extent::of(surface_changes(&context.spec.layers, &[]))
+            }
             LayerKind::Formula { quantity, formula } => match (quantity, formula.constant()) {
                 (Quantity::Diameter, Some(f64::INFINITY)) => Extent::Within(Vec::new()),
                 _ => Extent::Everywhere,
@@ -133,6 +138,7 @@ impl Layer {
             }
             LayerKind::Depth(depths) => Extent::of([depths.source().raster.raster().bounds()]),
             LayerKind::Straits(straits) => Extent::of(straits.found.extent()),
+            LayerKind::FeatureSize(size) => self.extent_of_feature_size(size, context),
             LayerKind::Threats(threats) => Extent::of(threats.reaches()),
             LayerKind::Distance { to, at_zero, slope, range } => {
                 let farthest = self.farthest_in_plane([*at_zero, *slope, *range], context);
@@ -148,6 +154,19 @@ impl Layer {
                     Some(_) => Extent::Everywhere,
                 }
             }
+        }
+    }
+
+    /// It grows with the way from the middle of the water.
+    fn extent_of_feature_size(&self, size: &FeatureSize, context: &ExtentContext) -> Extent {
+        let ceiling = if self.combine == Combine::Finest { context.ceiling() } else { f64::INFINITY };
+        match size.found.extent() {
+            Some(_) if ceiling == f64::INFINITY => Extent::Everywhere,
+            Some(middle) => {
+                let reach = size.farthest(context.greatest_scale * ceiling);
+                Extent::of([middle.expanded(reach)])
+            }
+            None => Extent::Within(Vec::new()),
         }
     }
 

@@ -2,7 +2,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Depths, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
+use super::{Depths, FeatureSize, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
+use crate::domain::PieceChoice;
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
 
@@ -109,6 +110,8 @@ pub enum LayerKind {
     Depth(Depths),
     /// At least a number of triangles across each strait.
     Straits(Straits),
+    /// A number of triangles across the water, which grow with the way from it.
+    FeatureSize(FeatureSize),
 }
 
 /// The target of a distance.
@@ -119,6 +122,9 @@ pub enum DistanceTo {
     /// The coasts: the boundary of the domain without its open parts, on both sides. A layer of a document
     /// has it; in the description of a size field, shapes take its place, or nothing without a coast.
     Coasts,
+    /// Some pieces of the boundary, on both sides. A layer of a document has it; in the description of a size
+    /// field, shapes take its place, or nothing where no piece is chosen.
+    Pieces(PieceChoice),
     /// Points, lines and polygons.
     Shapes {
         /// The name of their file, for a person; empty where there is none.
@@ -139,7 +145,7 @@ impl DistanceTo {
     /// Returns the shapes, unless it is the outline or a part of it.
     pub fn shapes(&self) -> Option<&Shapes> {
         match self {
-            Self::Outline | Self::Coasts => None,
+            Self::Outline | Self::Coasts | Self::Pieces(_) => None,
             Self::Shapes { shapes, .. } | Self::Corridor { lines: shapes, .. } => Some(shapes),
         }
     }
@@ -252,6 +258,16 @@ impl LayerKind {
         Self::Formula { quantity: Quantity::Risk, formula }
     }
 
+    /// Returns whether it is a formula that uses the depth of the water.
+    pub fn uses_depth(&self) -> bool {
+        matches!(self, Self::Formula { formula, .. } if formula.uses_depth())
+    }
+
+    /// Returns whether it changes with the names and types of the pieces of the boundary.
+    pub fn follows_pieces(&self) -> bool {
+        matches!(self, Self::Distance { to: DistanceTo::Pieces(_), .. })
+    }
+
     /// Returns the raster that the layer reads, if it reads one.
     pub fn raster_source(&self) -> Option<&RasterSource> {
         match self {
@@ -271,7 +287,8 @@ impl LayerKind {
             | Self::Formula { .. }
             | Self::Threats(_)
             | Self::Distance { .. }
-            | Self::Straits(_) => None,
+            | Self::Straits(_)
+            | Self::FeatureSize(_) => None,
         }
     }
 
@@ -293,6 +310,7 @@ impl LayerKind {
             Self::Band { .. } => "Band",
             Self::Depth(_) => "Depth",
             Self::Straits(_) => "Straits",
+            Self::FeatureSize(_) => "Feature size",
         }
     }
 
@@ -308,6 +326,7 @@ impl LayerKind {
             Self::Band { .. } => "band",
             Self::Depth(_) => "depth",
             Self::Straits(_) => "straits",
+            Self::FeatureSize(_) => "feature size",
         }
     }
 
@@ -330,6 +349,7 @@ impl LayerKind {
                 [raster(depths.source()), computed]
             }
             Self::Straits(straits) => [Some(straits.found.shared_data()), None],
+            Self::FeatureSize(size) => [Some(size.found.shared_data()), None],
             Self::Threats(threats) => [Some(threats.shared_data()), None],
             Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
         };

@@ -145,7 +145,7 @@ impl StraitDiscs {
     }
 
     /// Returns whether they were found for this domain.
-    fn is_of(&self, domain: &Domain) -> bool {
+    pub(super) fn is_of(&self, domain: &Domain) -> bool {
         match (&self.0.region, domain.region()) {
             (Some(own), Some(region)) => Arc::ptr_eq(own, region) || own == region,
             (None, None) => self.0.discs.is_empty(),

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    DepthRule, DepthSizes, Depths, DistanceTo, FineAt, LayerKind, PositiveDepth, RasterReading, RasterSource,
-    Shapes, StraitDiscs, Straits, ValueCurve,
+    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, FineAt, LayerKind, PositiveDepth, RasterReading,
+    RasterSource, Shapes, StraitDiscs, Straits, ValueCurve, WaterMiddle,
 };
 use crate::field::Transfer;
 
@@ -51,6 +51,14 @@ impl LayerKind {
         const ACROSS: f64 = 4.0;
         let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);
         Self::Straits(Straits { across: ACROSS, found: StraitDiscs::unknown(between) })
+    }
+
+    /// Returns three triangles across the water, whose middle is not looked for yet: where it is as wide as
+    /// three triangles of some diameter.
+    pub fn feature_size(transfer: &Transfer) -> Self {
+        const ACROSS: f64 = 3.0;
+        let between = [transfer.h_min, transfer.h_max].map(|diameter| ACROSS * diameter);
+        Self::FeatureSize(FeatureSize { across: ACROSS, found: WaterMiddle::unknown(between) })
     }
 
     /// `h_min` at distance 0, growing by `slope` per unit of length without an end.

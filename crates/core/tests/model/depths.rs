@@ -6,9 +6,9 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
 use meshbrush_core::domain::corners;
-use meshbrush_core::field::Transfer;
+use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
-    DepthRule, DepthSizes, Depths, Layer, LayerId, LayerKind, Mask, PositiveDepth, RasterSource,
+    Combine, DepthRule, DepthSizes, Depths, Layer, LayerId, LayerKind, Mask, PositiveDepth, RasterSource,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -25,18 +25,25 @@ fn source(number: usize, random: &mut Rng) -> RasterSource {
 }
 
 fn layer(id: LayerId, sources: &[RasterSource], random: &mut Rng) -> Layer {
-    let rule = match random.u8(..5) {
-        0 => DepthRule::Nothing,
-        1 => DepthRule::Slope { triangles: 4000.0 * random.f64(), smoothing: 0.0 },
-        _ => DepthRule::Wavelength { period: 8.0, triangles: 100.0 + 1500.0 * random.f64() },
-    };
-    let sizes = DepthSizes { positive: PositiveDepth::Up, offset: 0.0, between: DepthSizes::ALL_WATER, rule };
-    let source = sources[random.usize(..sources.len())].clone();
     let mask = (random.u8(..4) == 0).then(|| {
         let at = dvec2(random.f64(), random.f64());
         Mask::new(&[vec![corners(&Rect::around(at, 0.3))]]).unwrap()
     });
     let visible = random.u8(..5) > 0;
+    let combine = [Combine::Finest, Combine::Finest, Combine::Floor][random.usize(..3)];
+    if random.u8(..4) == 0 {
+        let formula = ["0.02 + 0.004*depth", "if(depth > 30, 0.03 + 0.1*x, inf)"][random.usize(..2)];
+        let kind = LayerKind::target(Formula::parse_of_size(formula).unwrap());
+        return Layer { visible, mask, combine, ..Layer::new(id, "formula", kind) };
+    }
+    let rule = match random.u8(..5) {
+        0 => DepthRule::Nothing,
+        1 => DepthRule::Slope { triangles: 4000.0 * random.f64(), smoothing: 0.0 },
+        _ => DepthRule::Wavelength { period: 8.0, triangles: 100.0 + 1500.0 * random.f64() },
+    };
+    let offset = [0.0, 0.0, 7.0][random.usize(..3)];
+    let sizes = DepthSizes { positive: PositiveDepth::Up, offset, between: DepthSizes::ALL_WATER, rule };
+    let source = sources[random.usize(..sources.len())].clone();
     Layer { visible, mask, ..Layer::new(id, "depths", LayerKind::Depth(Depths::new(source, sizes))) }
 }
 
@@ -65,6 +72,9 @@ fn edits_of_depths_that_hide_others_are_followed_in_place() {
         let mut random = Rng::with_seed(seed);
         let sources: Vec<RasterSource> = (0..3).map(|number| source(number, &mut random)).collect();
         let mut layers: Vec<Layer> = (1..4).map(|n| layer(LayerId(n), &sources, &mut random)).collect();
+        while !layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_))) {
+            layers[0] = layer(LayerId(1), &sources, &mut random);
+        }
         let settings = Settings {
             layers: layers.clone(),
             transfer: Transfer::between(0.02, 0.3),
@@ -75,7 +85,13 @@ fn edits_of_depths_that_hide_others_are_followed_in_place() {
         let mut follower = Follower::new(&mut document).unwrap();
         for _ in 0..12 {
             edit(&mut layers, &sources, &mut random);
-            document.set(Setting::Layers(layers.clone())).unwrap();
+            match document.set(Setting::Layers(layers.clone())) {
+                Ok(_) => {}
+                Err(error) => {
+                    assert!(error.to_string().contains("there are no depths"), "{error}");
+                    layers.clone_from(&document.settings().layers);
+                }
+            }
             document.end_gesture();
             let before = follower.mesh().fingerprint();
             while follower.advance(&mut document, random.usize(1..2000)).unwrap() != Stage::InStep {}

@@ -7,6 +7,7 @@ mod cleaning;
 #[path = "../../../../tests/shared/closure/mod.rs"]
 mod closure;
 mod depths;
+mod distance_to_pieces;
 mod document;
 mod earth;
 mod edits;

@@ -39,6 +39,7 @@ mod meter;
 pub mod mike;
 pub mod geojson;
 pub mod geotiff;
+pub mod gpkg;
 pub mod gpx;
 pub mod journal;
 mod json;
@@ -81,6 +82,8 @@ mod triangle_pieces;
 pub mod ugrid;
 mod values;
 pub mod vtu;
+#[cfg(feature = "gpkg")]
+mod wkb;
 mod wkt_projection;
 pub mod world_file;
 
@@ -132,7 +135,7 @@ static RASTER_FORMATS: [&RasterFormatSpec; 5] =
     [&png::RASTER, &asc::RASTER, &geotiff::RASTER, &netcdf::RASTER, &npy::RASTER];
 
 /// The formats of shapes. A new one is a module and an entry here.
-static SHAPE_FORMATS: [&ShapeFormatSpec; 2] = [&geojson::FORMAT, &shp::FORMAT];
+static SHAPE_FORMATS: [&ShapeFormatSpec; 3] = [&geojson::FORMAT, &shp::FORMAT, &gpkg::FORMAT];
 
 /// The data that is written with a mesh. The level of each triangle comes from the mesh.
 ///

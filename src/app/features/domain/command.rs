@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use super::DomainToolMode;
 use meshbrush_core::document::Setting;
-use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_core::domain::{CutShape, DepthContour, Domain};
+use meshbrush_core::layers::LayerId;
 use meshbrush_mesh::geometry::Rect;
 
 /// One thing to do with the domain.
@@ -35,6 +36,8 @@ pub enum DomainCommand {
     OpenInMetres(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),
+    /// Makes a contour of a layer of depths the domain.
+    UseContour(LayerId, DepthContour),
     /// Adds an outline that was read.
     SetOutline(Box<OutlineChange>),
 }

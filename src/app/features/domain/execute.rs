@@ -1,6 +1,6 @@
 //! Runs the commands about the domain.
 
-use super::load::{load_domain, load_outline};
+use super::load::{load_contour, load_domain, load_outline};
 use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
@@ -44,6 +44,9 @@ impl Feature for DomainEditor {
             }
             DomainCommand::AddOutline(path) => {
                 load_outline(ctx.session, ctx.background, &path);
+            }
+            DomainCommand::UseContour(layer, contour) => {
+                load_contour(ctx.session, ctx.background, layer, contour)
             }
             DomainCommand::SetOutline(change) => set_outline(*change, ctx),
             DomainCommand::Bounds(bounds) => {

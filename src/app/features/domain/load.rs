@@ -8,8 +8,9 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
 use meshbrush_core::document::{Document, Settings};
-use meshbrush_core::domain::{BoundaryMarks, Domain};
+use meshbrush_core::domain::{BoundaryMarks, DepthContour, Domain};
 use meshbrush_core::earth::ProjectionChoice;
+use meshbrush_core::layers::{LayerId, LayerKind};
 use meshbrush_io::io::{self, Meter};
 
 /// Reads polygons, and opens a document with them as its domain; in metres, in the plane of a projection that
@@ -44,6 +45,21 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
             }
             Err(error) => Outcome::NotRead(format!("{}: {error}", file.display())),
         }
+    });
+}
+
+/// Finds the contour of a layer of depths, and makes it the domain of the document.
+pub fn load_contour(session: &Session, background: &mut Background, layer: LayerId, contour: DepthContour) {
+    let settings = session.document().settings().clone();
+    let Some(layer) = settings.layer(layer).cloned() else { return };
+    let (LayerKind::Depth(depths), name) = (layer.kind, layer.name) else { return };
+    let shown = name.clone();
+    background.start(Aim::Read, Path::new(&shown), move |_| match settings.with_contour(&depths, &contour) {
+        Ok(setting) => {
+            let change = OutlineChange { name, before: settings.domain, setting };
+            Outcome::PartRead(vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))])
+        }
+        Err(error) => Outcome::NotRead(format!("{name}: {error}")),
     });
 }
 

@@ -1,6 +1,7 @@
 //! Small pictures of what each layer asks for. They are computed on other threads.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
 
@@ -8,9 +9,12 @@ use crate::app::document_id::DocumentId;
 use crate::app::jobs::{Jobs, Slot};
 use crate::app::session::Session;
 use crate::app::view::View;
-use meshbrush_core::document::Document;
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::domain::BoundaryMarks;
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec};
+use meshbrush_core::layers::{
+    Combine, DepthRule, DepthSizes, Layer, LayerId, LayerKind, SizeField, SizeFieldSpec,
+};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_render::colormap::{LevelColors, category_color};
 
@@ -32,6 +36,9 @@ struct PictureKey {
     painted: u64,
     document: DocumentId,
     bounds: Rect,
+    /// The names and types of the boundary, and the layers of depths, for layers that follow them.
+    marks: Option<Arc<BoundaryMarks>>,
+    depths: Vec<Layer>,
     transfer: Transfer,
     colors: LevelColors,
 }
@@ -84,9 +91,24 @@ fn key(layer: &Layer, opened: DocumentId, document: &Document, colors: &LevelCol
         painted: if layer.paints().is_some() { document.revision() } else { 0 },
         document: opened,
         bounds: settings.domain.bounds,
+        marks: layer.kind.follows_pieces().then(|| settings.boundary_marks.clone()),
+        depths: depths_for(layer, settings),
         transfer: settings.transfer,
         colors: colors.clone(),
     }
+}
+
+/// Returns the layers of depths that give a formula its depths. They ask for nothing themselves.
+fn depths_for(layer: &Layer, settings: &Settings) -> Vec<Layer> {
+    let without_sizes = |layer: &Layer| match &layer.kind {
+        LayerKind::Depth(depths) => {
+            let sizes = DepthSizes { rule: DepthRule::Nothing, ..*depths.sizes() };
+            Some(Layer { kind: LayerKind::Depth(depths.with_sizes(sizes)), ..layer.clone() })
+        }
+        _ => None,
+    };
+    let layers: &[Layer] = if layer.kind.uses_depth() { &settings.layers } else { &[] };
+    layers.iter().filter_map(without_sizes).collect()
 }
 
 impl LayerPicture {
@@ -140,7 +162,7 @@ fn picture_of(
     let lattice = settings.lattice().ok()?;
     let alone = Layer { visible: true, combine: Combine::Finest, ..settings.field_layer(layer) };
     let spec = SizeFieldSpec {
-        layers: vec![alone],
+        layers: [depths_for(layer, settings), vec![alone]].concat(),
         unasked: f64::INFINITY,
         gradation: None,
         projection: None,

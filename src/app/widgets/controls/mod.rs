@@ -32,7 +32,7 @@ pub use segmented::segmented;
 pub use slider::SliderRow;
 pub use tabs::tab_bar;
 pub use text_row::{TextError, TextRow};
-pub use toggle::toggle_row;
+pub use toggle::{toggle_row, toggle_row_with_help};
 pub use tool_button::{ActionButton, ButtonKind, ToolButton};
 pub use transfer::{CurveField, CurveValues, TransferCurve};
 

@@ -8,6 +8,11 @@ use crate::app::widgets::{reveal, tips};
 
 /// Shows a check box with its name; the whole row is the target. The response has `changed` when `on` did.
 pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
+    toggle_row_with_help(ui, label, tips::sentence(label), on)
+}
+
+/// [`toggle_row`] with a sentence of its own.
+pub fn toggle_row_with_help(ui: &mut Ui, label: &str, help: &str, on: &mut bool) -> Response {
     let row = paint::row(ui);
     let mut response = ui.interact(row, ui.make_persistent_id(("toggle", label)), Sense::click());
     if response.clicked() {
@@ -21,7 +26,7 @@ pub fn toggle_row(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let ink = if response.hovered() { tokens(ui).value } else { tokens(ui).text };
     let text = row.with_min_x(square.right() + 8.0);
     paint::at_left(ui, text, paint::elided(ui, label, font::body(), ink, text.width()));
-    tips::explain(ui, response, tips::sentence(label))
+    tips::explain(ui, response, help)
 }
 
 fn paint_box(ui: &Ui, rect: Rect, response: &Response, on: bool) {

@@ -81,6 +81,8 @@ impl Icon {
     pub const DEPTH: Self = Self(material::ICON_WAVES.codepoint);
     /// A layer of straits.
     pub const STRAITS: Self = Self(material::ICON_WIDTH.codepoint);
+    /// A layer of the width of the water.
+    pub const FEATURE_SIZE: Self = Self(material::ICON_ARROW_RANGE.codepoint);
     /// A layer of a band of values.
     pub const BAND: Self = Self(material::ICON_LINE_WEIGHT.codepoint);
     /// The first of many.

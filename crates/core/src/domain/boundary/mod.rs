@@ -21,6 +21,7 @@
 //!
 //! [`MeshBoundary`] then finds the piece of each edge of a mesh.
 
+mod choice;
 mod labels;
 mod marks;
 mod mesh_boundary;
@@ -28,6 +29,7 @@ mod pieces;
 mod stretches;
 mod types;
 
+pub use choice::PieceChoice;
 pub use marks::{BoundaryMarks, LONGEST_NAME, NamedPolygon};
 pub use mesh_boundary::{MeshBoundary, PieceFigures, PieceRun};
 pub use pieces::{BoundaryPiece, BoundaryPieces};

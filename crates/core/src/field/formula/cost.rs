@@ -2,6 +2,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use super::functions::Third;
 use super::{ParseError, Program, derivatives, gradient, interval, parser};
 use crate::field::Bounds;
 use crate::geometry::Rect;
@@ -29,7 +30,7 @@ impl CostFormula {
     /// # Errors
     /// Fails with the first mistake in reading order, as for [`Formula::parse`](super::Formula::parse).
     pub fn parse(source: &str) -> Result<Self, ParseError> {
-        let program = parser::compile(source, true)?;
+        let program = parser::compile(source, Third::Risk)?;
         Ok(Self { source: source.into(), program: Arc::new(program) })
     }
 
@@ -45,12 +46,12 @@ impl CostFormula {
 
     /// Returns whether the value can depend on the risk.
     pub fn uses_risk(&self) -> bool {
-        self.program.loads_risk()
+        self.program.loads_third()
     }
 
     /// Returns the value at the point (x, y), in world units, with the risk there. The caller must check it.
     pub fn eval(&self, x: f64, y: f64, risk: f64) -> f64 {
-        self.program.run_with_risk(x, y, risk)
+        self.program.run_with(x, y, risk)
     }
 
     /// Returns bounds of [`Self::eval`] over a closed rectangle in world units with the given risks, by

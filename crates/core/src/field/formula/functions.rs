@@ -200,9 +200,31 @@ pub(super) enum Noun {
     Y,
     Radius,
     Angle,
-    /// The risk, in formulas that may use it.
-    Risk,
+    /// The third value, in formulas that have one.
+    Third,
     Number(f64),
+}
+
+/// The value beside x and y that a formula may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Third {
+    /// None.
+    Nothing,
+    /// `risk`, in costs.
+    Risk,
+    /// `depth`, in target diameters.
+    Depth,
+}
+
+impl Third {
+    /// Returns its name in formulas.
+    fn name(self) -> Option<&'static str> {
+        match self {
+            Self::Nothing => None,
+            Self::Risk => Some("risk"),
+            Self::Depth => Some("depth"),
+        }
+    }
 }
 
 /// Coordinates and constants, in the order of the help.
@@ -254,6 +276,7 @@ const ELSEWHERE: &[(&str, &str)] = &[
     ("false", "`0`"),
     ("xor", "`(a != 0) != (b != 0)`"),
     ("z", "the formula in `x` and `y`"),
+    ("depth", "`x` and `y`: only target diameters have depths"),
 ];
 
 /// Returns every function as (call, meaning), for a help page or a completion list.
@@ -271,25 +294,29 @@ pub(super) fn find_function(name: &str) -> Option<&'static Function> {
     FUNCTIONS.iter().find(|f| f.name() == name)
 }
 
-pub(super) fn find_noun(name: &str, has_risk: bool) -> Option<Noun> {
-    if has_risk && name == "risk" {
-        return Some(Noun::Risk);
+pub(super) fn find_noun(name: &str, third: Third) -> Option<Noun> {
+    if third.name() == Some(name) {
+        return Some(Noun::Third);
     }
     let found = NOUNS.iter().find(|(known, _)| *known == name);
     found.map(|&(_, noun)| noun)
 }
 
 /// Returns the names that a formula may use, for a message.
-pub(super) fn coordinates(has_risk: bool) -> &'static str {
-    match has_risk {
-        true => "a cost is a formula of `x`, `y` and `risk`",
-        false => "the coordinates are `x`, `y`, `r` and `theta`",
+pub(super) fn coordinates(third: Third) -> &'static str {
+    match third {
+        Third::Nothing => "the coordinates are `x`, `y`, `r` and `theta`",
+        Third::Risk => "a cost is a formula of `x`, `y` and `risk`",
+        Third::Depth => "a target diameter is a formula of `x`, `y`, `r`, `theta` and `depth`",
     }
 }
 
 /// Returns a name to write instead of an unknown one, if one is similar enough.
-pub(super) fn suggestion(name: &str) -> Option<String> {
+pub(super) fn suggestion(name: &str, third: Third) -> Option<String> {
     let name = name.to_lowercase();
+    if let Some(known) = third.name().filter(|known| distance(&name, known) * 2 < known.len()) {
+        return Some(format!("`{known}`"));
+    }
     match ELSEWHERE.iter().find(|(other, _)| *other == name) {
         Some((_, here)) => Some((*here).to_owned()),
         None => nearest(&name).map(|word| format!("`{word}`")),

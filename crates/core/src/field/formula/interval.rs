@@ -6,10 +6,10 @@ use super::program::{Op, Program};
 use crate::field::Bounds;
 use crate::geometry::Rect;
 
-/// Returns bounds of the values of a program over a rectangle, with the given risks.
-pub(super) fn bounds(program: &Program, rect: &Rect, risk: Bounds) -> Bounds {
+/// Returns bounds of the values of a program over a rectangle, with bounds of the third value.
+pub(super) fn bounds(program: &Program, rect: &Rect, third: Bounds) -> Bounds {
     let [x, y] = [0, 1].map(|axis: usize| Bounds::new(rect.min[axis], rect.max[axis]));
-    machine::run(program, [x, y, risk])
+    machine::run(program, [x, y, third])
 }
 
 impl Values for Bounds {

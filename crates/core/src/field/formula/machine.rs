@@ -33,7 +33,7 @@ const TRUTH: Bounds = Bounds::new(0.0, 1.0);
 /// would take longer than the formula.
 const TINY_STACK: usize = 4;
 
-/// Returns the description of the values of a program, from the descriptions of x, y and the risk.
+/// Returns the description of the values of a program, from the descriptions of x, y and the third value.
 pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
     let (slots, code) = (program.slots(), program.code());
     if slots <= TINY_STACK {
@@ -45,9 +45,9 @@ pub(super) fn run<V: Values>(program: &Program, values: [V; 3]) -> V {
     }
 }
 
-fn run_on<V: Values, const SLOTS: usize>(code: &[Op], [x, y, risk]: [V; 3]) -> V {
+fn run_on<V: Values, const SLOTS: usize>(code: &[Op], [x, y, third]: [V; 3]) -> V {
     let unknown = V::of_bounds(Bounds::ANYTHING);
-    Machine { stack: &mut [unknown; SLOTS], top: 0, x, y, risk }.run(code, unknown)
+    Machine { stack: &mut [unknown; SLOTS], top: 0, x, y, third }.run(code, unknown)
 }
 
 /// The stack machine of [`super::program`].
@@ -57,7 +57,7 @@ struct Machine<'a, V> {
     top: usize,
     x: V,
     y: V,
-    risk: V,
+    third: V,
 }
 
 impl<V: Values> Machine<'_, V> {
@@ -82,7 +82,7 @@ impl<V: Values> Machine<'_, V> {
                 Op::Number(value) => self.load(&mut acc, V::of_bounds(Bounds::one(value))),
                 Op::X => self.load(&mut acc, self.x),
                 Op::Y => self.load(&mut acc, self.y),
-                Op::Risk => self.load(&mut acc, self.risk),
+                Op::Third => self.load(&mut acc, self.third),
                 Op::FirstLink(sign) => {
                     let left = self.pop();
                     self.push(V::of_bounds(compared(sign, left.bounds(), acc.bounds())));

@@ -55,6 +55,7 @@ use std::sync::Arc;
 
 pub use cost::CostFormula;
 pub use error::ParseError;
+use functions::Third;
 pub use functions::functions;
 pub use parser::{MAX_LENGTH, MAX_NESTING};
 pub use pointer::draw_pointer;
@@ -97,8 +98,44 @@ impl Formula {
     /// assert_eq!(mistake.pointer(), "1 + 2*sqr(x)\n      ^^^");
     /// ```
     pub fn parse(source: &str) -> Result<Self, ParseError> {
-        let program = parser::compile(source, false)?;
+        let program = parser::compile(source, Third::Nothing)?;
         Ok(Self { source: source.into(), program: Arc::new(program) })
+    }
+
+    /// Reads and compiles a formula for a target diameter, which may also use `depth`: the depth of the water
+    /// in metres, positive downwards.
+    ///
+    /// # Errors
+    /// Fails as [`Self::parse`] does.
+    ///
+    /// ```
+    /// use meshbrush_core::field::Formula;
+    ///
+    /// let target = Formula::parse_of_size("50 + 2*max(depth, 0)")?;
+    /// assert!(target.uses_depth());
+    /// assert_eq!(target.eval_with_depth(0.0, 0.0, 20.0), 90.0);
+    /// # Ok::<(), meshbrush_core::field::formula::ParseError>(())
+    /// ```
+    pub fn parse_of_size(source: &str) -> Result<Self, ParseError> {
+        let program = parser::compile(source, Third::Depth)?;
+        Ok(Self { source: source.into(), program: Arc::new(program) })
+    }
+
+    /// Returns whether the value can depend on the depth. Without one, such a formula has no value.
+    pub fn uses_depth(&self) -> bool {
+        self.program.loads_third()
+    }
+
+    /// Returns the value at the point (x, y), in world units, where the depth in metres is `depth`. The
+    /// caller must check it, as for [`Self::eval`].
+    pub fn eval_with_depth(&self, x: f64, y: f64, depth: f64) -> f64 {
+        self.program.run_with(x, y, depth)
+    }
+
+    /// Returns bounds of [`Self::eval_with_depth`] over a closed rectangle in world units with the given
+    /// depths, as [`Self::bounds`] does.
+    pub(crate) fn bounds_with_depth(&self, rect: &Rect, depth: Bounds) -> Bounds {
+        interval::bounds(&self.program, rect, depth)
     }
 
     /// Returns the value at the point (x, y), in world units.
@@ -138,7 +175,7 @@ impl Formula {
     /// Returns bounds of the derivatives along x and y over a closed rectangle in world units, and the
     /// largest slope in any direction; `None` where the formula may jump, or one of them is not known.
     pub(crate) fn slopes(&self, rect: &Rect) -> Option<([Bounds; 2], f64)> {
-        derivatives::slopes(&self.program, rect)
+        if self.uses_depth() { None } else { derivatives::slopes(&self.program, rect) }
     }
 
     /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates.

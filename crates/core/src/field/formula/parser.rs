@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::error::{ParseError, quote};
 use super::functions::{
-    Form, Function, Noun, coordinates, find_function, find_noun, instruction, suggestion,
+    Form, Function, Noun, Third, coordinates, find_function, find_noun, instruction, suggestion,
 };
 use super::lexer::{Lexer, Token};
 use super::program::{Compare, Op, Program, run};
@@ -31,15 +31,15 @@ mod binding {
     pub(super) const POWER: u8 = 7;
 }
 
-/// Compiles a formula, which may use the risk if `has_risk`.
-pub(super) fn compile(source: &str, has_risk: bool) -> Result<Program, ParseError> {
+/// Compiles a formula, which may use a third value.
+pub(super) fn compile(source: &str, third: Third) -> Result<Program, ParseError> {
     if source.len() > MAX_LENGTH {
         let start = source.floor_char_boundary(MAX_LENGTH);
         let message = format!("The formula is {} bytes long; at most {MAX_LENGTH} are read.", source.len());
         return Err(ParseError::new(source, start..source.len(), message));
     }
     let (lexer, code) = (Lexer::new(source), Vec::new());
-    let mut parser = Parser { source, lexer, token: Token::End, span: 0..0, code, nesting: 0, has_risk };
+    let mut parser = Parser { source, lexer, token: Token::End, span: 0..0, code, nesting: 0, third };
     parser.advance()?;
     if parser.token == Token::End {
         let message = "The formula is empty; write a number or a formula in x and y.";
@@ -83,7 +83,7 @@ struct Parser<'a> {
     span: Range<usize>,
     code: Vec<Op>,
     nesting: usize,
-    has_risk: bool,
+    third: Third,
 }
 
 impl<'a> Parser<'a> {
@@ -241,7 +241,7 @@ impl<'a> Parser<'a> {
             let message = format!("`{name}` needs its values in parentheses: `{}`.", function.call);
             return Err(self.mistake(span, message));
         }
-        let Some(noun) = find_noun(name, self.has_risk) else {
+        let Some(noun) = find_noun(name, self.third) else {
             return Err(self.unknown_name(name, span));
         };
         if called {
@@ -251,7 +251,7 @@ impl<'a> Parser<'a> {
         Ok(match noun {
             Noun::X => self.load(Op::X),
             Noun::Y => self.load(Op::Y),
-            Noun::Risk => self.load(Op::Risk),
+            Noun::Third => self.load(Op::Third),
             Noun::Number(value) => self.load(Op::Number(value)),
             Noun::Radius => {
                 let (x, y) = (self.load(Op::X), self.load(Op::Y));
@@ -392,10 +392,8 @@ impl<'a> Parser<'a> {
     }
 
     fn unknown_name(&self, name: &str, span: Range<usize>) -> ParseError {
-        let advice = match suggestion(name) {
-            Some(here) => format!("write {here}"),
-            None => coordinates(self.has_risk).to_owned(),
-        };
+        let advice = suggestion(name, self.third)
+            .map_or_else(|| coordinates(self.third).to_owned(), |here| format!("write {here}"));
         self.mistake(span, format!("There is no {}; {advice}.", quote(name)))
     }
 

@@ -25,8 +25,8 @@ pub(super) enum Op {
     X,
     /// Loads the y coordinate.
     Y,
-    /// Loads the risk.
-    Risk,
+    /// Loads the third value: the risk of a cost, or the depth of a target diameter.
+    Third,
     Negate,
     Not,
     /// 1 if the value is not 0, else 0.
@@ -115,7 +115,7 @@ pub(super) struct Program {
     code: Box<[Op]>,
     slots: usize,
     takes_roots: bool,
-    loads_risk: bool,
+    loads_third: bool,
 }
 
 impl Program {
@@ -123,17 +123,17 @@ impl Program {
     pub(super) fn new(code: Vec<Op>, slots: usize) -> Self {
         debug_assert!(slots <= LARGE_STACK);
         let takes_roots = takes_roots(&code);
-        let loads_risk = code.iter().any(|op| matches!(op, Op::Risk));
-        Self { code: code.into(), slots, takes_roots, loads_risk }
+        let loads_third = code.iter().any(|op| matches!(op, Op::Third));
+        Self { code: code.into(), slots, takes_roots, loads_third }
     }
 
     pub(super) fn run(&self, x: f64, y: f64) -> f64 {
-        run(&self.code, self.slots, [x, y, 0.0])
+        run(&self.code, self.slots, [x, y, f64::NAN])
     }
 
-    /// Runs a program that may load the risk.
-    pub(super) fn run_with_risk(&self, x: f64, y: f64, risk: f64) -> f64 {
-        run(&self.code, self.slots, [x, y, risk])
+    /// Runs a program that may load a third value.
+    pub(super) fn run_with(&self, x: f64, y: f64, third: f64) -> f64 {
+        run(&self.code, self.slots, [x, y, third])
     }
 
     pub(super) fn code(&self) -> &[Op] {
@@ -150,9 +150,9 @@ impl Program {
         size_of_val(&*self.code)
     }
 
-    /// Returns whether the value can depend on the risk.
-    pub(super) fn loads_risk(&self) -> bool {
-        self.loads_risk
+    /// Returns whether the value can depend on a third value.
+    pub(super) fn loads_third(&self) -> bool {
+        self.loads_third
     }
 
     /// Returns whether the program takes a square root, or may raise something to the power 1/2.
@@ -186,7 +186,7 @@ fn takes_roots(code: &[Op]) -> bool {
 }
 
 /// Runs code that needs `slots` slots of the stack and leaves one value in the accumulator. `values` are x, y
-/// and the risk.
+/// and the third value.
 pub(super) fn run(code: &[Op], slots: usize, values: [f64; 3]) -> f64 {
     if slots <= SMALL_STACK {
         run_on::<SMALL_STACK>(code, values)
@@ -199,7 +199,7 @@ pub(super) fn run(code: &[Op], slots: usize, values: [f64; 3]) -> f64 {
 ///
 /// Longer than other functions by design: one line for each instruction, around one accumulator and one stack
 /// that separate functions would have to pass on.
-fn run_on<const SLOTS: usize>(code: &[Op], [x, y, risk]: [f64; 3]) -> f64 {
+fn run_on<const SLOTS: usize>(code: &[Op], [x, y, third]: [f64; 3]) -> f64 {
     let mut stack = [0.0; SLOTS];
     let mut top = 0; // number of values on the stack
     let mut acc = 0.0;
@@ -232,7 +232,7 @@ fn run_on<const SLOTS: usize>(code: &[Op], [x, y, risk]: [f64; 3]) -> f64 {
             Op::Number(value) => load!(value),
             Op::X => load!(x),
             Op::Y => load!(y),
-            Op::Risk => load!(risk),
+            Op::Third => load!(third),
             // Operations on the accumulator, then on the stack and the accumulator.
             Op::Negate => acc = -acc,
             Op::Not => acc = truth(acc == 0.0),

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::models::{self, ModelId, ModelPlace};
-use crate::layers::{Quantity, Shapes, Straits, Threats};
+use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
@@ -34,6 +34,8 @@ pub enum Function {
     },
     /// A part of the width of straits, by the greatest scale.
     Straits(Straits, f64),
+    /// A part of the width of the water, by the greatest scale.
+    FeatureSize(FeatureSize, f64),
 }
 
 /// d₀ + s · distance up to a range, then infinity. The distance is that beyond `reach` from the shapes.
@@ -67,6 +69,12 @@ pub struct Graded {
 }
 
 impl Profile {
+    /// Returns the profile of lengths on the Earth. Those in the plane are at most so much longer.
+    pub fn on_earth(reach: f64, [at_zero, slope, range]: [f64; 3], greatest_scale: f64) -> Self {
+        let [reach, range] = [reach, range].map(|length| length * greatest_scale);
+        Self { reach, at_zero, slope: slope / greatest_scale, range, graded: None }
+    }
+
     /// Returns the value at a distance from the shapes.
     fn at(&self, distance: f64) -> f64 {
         let beyond = distance - self.reach;
@@ -115,6 +123,7 @@ impl Function {
             Self::Threats(threats) => threats.risk_at(point),
             Self::Distance { shapes, profile } => profile.at(shapes.distance(point)),
             Self::Straits(straits, scale) => straits.diameter(straits.found.width_at(point)) / scale,
+            Self::FeatureSize(size, scale) => size.diameter_at(point) / scale,
         }
     }
 
@@ -132,6 +141,10 @@ impl Function {
                 let [least, greatest] = [least, greatest].map(|width| straits.diameter(width) / scale);
                 Bounds { least, greatest, valid }
             }
+            Self::FeatureSize(size, scale) => {
+                let Bounds { least, greatest, valid } = size.bounds(rect);
+                Bounds { least: least / scale, greatest: greatest / scale, valid }
+            }
         }
     }
 
@@ -140,7 +153,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
-            Self::Distance { .. } | Self::Straits(..) => false,
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => false,
         }
     }
 
@@ -148,7 +161,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.model(place.coordinates),
             Self::Threats(threats) => threats.model(place),
-            Self::Distance { .. } | Self::Straits(..) => Quadratic::UNKNOWN,
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => Quadratic::UNKNOWN,
         }
     }
 
@@ -188,6 +201,7 @@ impl Function {
                 Slopes::within(threats.slopes(rect), threats.outward(rect).map(Cone::opposite))
             }
             Self::Distance { profile, .. } => Slopes::up_to(profile.steepness()),
+            Self::FeatureSize(size, scale) => Slopes::up_to(size.steepness() / scale),
             // The width jumps at the rims of the discs.
             Self::Straits(..) => Slopes::UNKNOWN,
         }
@@ -222,7 +236,11 @@ impl Analytic {
 
     /// Returns whether all values in a rectangle, in world units, are certainly valid.
     pub fn is_valid_within(&self, rect: &Rect) -> bool {
-        let Bounds { least, valid, .. } = self.function.bounds(rect);
+        self.are_valid(self.function.bounds(rect))
+    }
+
+    /// Returns whether all numbers within bounds are valid.
+    pub fn are_valid(&self, Bounds { least, valid, .. }: Bounds) -> bool {
         valid && (self.quantity == Quantity::Risk || least > 0.0)
     }
 
@@ -239,8 +257,8 @@ impl Analytic {
         self.function.at(point)
     }
 
-    /// Rounded up: rounding to nearest could ask for one level more.
-    fn value(&self, value: f64) -> f32 {
+    /// Returns a number as it counts. Rounded up: rounding to nearest could ask for one level more.
+    pub fn value(&self, value: f64) -> f32 {
         match self.quantity {
             Quantity::Diameter if value > 0.0 => f32_not_below(value),
             Quantity::Diameter => f32::INFINITY,

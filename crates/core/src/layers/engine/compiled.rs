@@ -1,25 +1,23 @@
 //! One layer on a lattice.
 
-use std::sync::{Arc, OnceLock};
-
 use glam::DVec2;
 
 use crate::earth::EdgeLengths;
-use crate::field::{Formula, Transfer};
+use crate::field::Transfer;
 use crate::geometry::{Lattice, Octagon};
 use crate::layers::{
-    Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Shapes,
-    hiding,
+    Combine, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, Shapes, hiding,
 };
-use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
+use crate::raster::{ValueRange, ValueRanges};
 
 use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
-use super::cells::{Cells, Cut, GridOnLattice};
+use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
 use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
+use super::values::{PaintGrid, Values, WithGaps};
 
 /// A visible layer, prepared for questions on one lattice.
 #[derive(Clone, Debug)]
@@ -30,7 +28,7 @@ pub struct CompiledLayer {
     /// The depths above it that hide its own.
     covers: Vec<Cover>,
     reading: Reading,
-    values: Values,
+    pub(super) values: Values,
     /// The values with what gradation carries, where there is a closed form.
     graded: Option<Analytic>,
 }
@@ -43,21 +41,6 @@ pub struct CompiledPlane<'a> {
     /// Without one, no point is near to it.
     pub outline: Option<&'a Shapes>,
     pub edge_lengths: &'a EdgeLengths,
-}
-
-/// The source of the values of a layer.
-#[derive(Clone, Debug)]
-enum Values {
-    /// There are none.
-    Nothing,
-    /// One value everywhere.
-    Constant(Analytic),
-    /// Painted pixels, which are passed with each question.
-    Paint(PaintGrid),
-    /// The pixels of a raster.
-    Raster { raster: Arc<RasterPyramid>, gap: f32, grid: GridOnLattice },
-    /// A function of the point.
-    Analytic(Analytic),
 }
 
 impl CompiledLayer {
@@ -73,7 +56,7 @@ impl CompiledLayer {
         let (reading, values) = match &layer.kind {
             LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint(PaintGrid::default())),
             LayerKind::Formula { quantity, formula } => {
-                (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula))
+                (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula, stack, lattice))
             }
             LayerKind::Raster { source, reading: of } => {
                 let (reading, gap) = match of {
@@ -86,18 +69,11 @@ impl CompiledLayer {
                 (reading, Values::of_raster(&source.raster, gap, lattice))
             }
             LayerKind::Threats(threats) => {
-                let function = Function::Threats(threats.clone());
-                (reading(Quantity::Risk, 0.0), Values::Analytic(Analytic::new(function, Quantity::Risk)))
+                let risk = Analytic::new(Function::Threats(threats.clone()), Quantity::Risk);
+                (reading(Quantity::Risk, 0.0), Values::Analytic(risk))
             }
             LayerKind::Distance { to, at_zero, slope, range } => {
-                // Lengths in the plane are at most so much longer than those on the Earth.
-                let growth = Profile {
-                    reach: to.reach() * greatest_scale,
-                    at_zero: *at_zero,
-                    slope: *slope / greatest_scale,
-                    range: *range * greatest_scale,
-                    graded: None,
-                };
+                let growth = Profile::on_earth(to.reach(), [*at_zero, *slope, *range], greatest_scale);
                 let values = Values::of_distance(to, growth, outline);
                 (reading(Quantity::Diameter, NO_RISK), values)
             }
@@ -108,8 +84,11 @@ impl CompiledLayer {
             }
             LayerKind::Straits(straits) => {
                 let function = Function::Straits(straits.clone(), greatest_scale);
-                let values = Values::Analytic(Analytic::new(function, Quantity::Diameter));
-                (reading(Quantity::Diameter, NO_RISK), values)
+                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
+            }
+            LayerKind::FeatureSize(size) => {
+                let function = Function::FeatureSize(size.clone(), greatest_scale);
+                (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
             }
             LayerKind::Depth(depths) => {
                 let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };
@@ -149,7 +128,7 @@ impl CompiledLayer {
     pub fn analytic(&self) -> Option<&Analytic> {
         match &self.values {
             Values::Constant(analytic) | Values::Analytic(analytic) => Some(analytic),
-            Values::Nothing | Values::Paint(_) | Values::Raster { .. } => None,
+            Values::Nothing | Values::Paint(_) | Values::Raster { .. } | Values::Depth(_) => None,
         }
     }
 
@@ -182,7 +161,9 @@ impl CompiledLayer {
                 let raster = &WithGaps { raster, gap: *gap };
                 RasterSearch { raster, grid, question: self.reading.question(limit) }.any(triangle, &around)
             }
-            Values::Analytic(_) => self.any_below_in_mask(paint, triangle, around, limit, lattice),
+            Values::Analytic(_) | Values::Depth(_) => {
+                self.any_below_in_mask(paint, triangle, around, limit, lattice)
+            }
         }
     }
 
@@ -273,7 +254,7 @@ impl CompiledLayer {
 
     /// Returns whether the values are those of pixels.
     pub fn has_pixels(&self) -> bool {
-        matches!(self.values, Values::Paint(_) | Values::Raster { .. })
+        matches!(self.values, Values::Paint(_) | Values::Raster { .. } | Values::Depth(_))
     }
 
     /// Returns the diameters that the values of a range ask for.
@@ -298,6 +279,7 @@ impl CompiledLayer {
             }
             Values::Raster { raster, gap, grid } => grid.range(&WithGaps { raster, gap: *gap }, cells),
             Values::Analytic(analytic) => self.graded.as_ref().unwrap_or(analytic).range(cells, lattice),
+            Values::Depth(formula) => return formula.range(cells, lattice),
         };
         (Some(range), cut)
     }
@@ -308,6 +290,7 @@ impl CompiledLayer {
         let log_steps = match &self.values {
             Values::Paint(grid) => grid.on_lattice(paint.get(self.id)?.grid(), lattice).log_steps(),
             Values::Raster { grid, .. } => grid.log_steps(),
+            Values::Depth(formula) => formula.log_steps()?,
             Values::Nothing | Values::Constant(_) | Values::Analytic(_) => return None,
         };
         Some(log_steps.clamp(0, 30) as u32)
@@ -327,7 +310,7 @@ impl CompiledLayer {
         }
         match &self.values {
             Values::Nothing | Values::Constant(_) => Slopes::FLAT,
-            Values::Paint(_) | Values::Raster { .. } => Slopes::UNKNOWN,
+            Values::Paint(_) | Values::Raster { .. } | Values::Depth(_) => Slopes::UNKNOWN,
             Values::Analytic(analytic) => {
                 let analytic = self.graded.as_ref().unwrap_or(analytic);
                 let of_values = analytic.function.slopes(&cells.world_rect(lattice));
@@ -373,6 +356,9 @@ impl CompiledLayer {
                 self.reading.diameter_of(analytic.raw(point))
             }
             Values::Nothing => f64::INFINITY,
+            Values::Depth(formula) => {
+                formula.raw(point).map_or(f64::INFINITY, |value| self.reading.diameter_of(value))
+            }
             Values::Paint(_) => paint
                 .get(self.id)
                 .map_or(f64::INFINITY, |raster| self.reading.diameter_of(raster.sample(point).into())),
@@ -380,71 +366,5 @@ impl CompiledLayer {
                 self.reading.diameter_of(raster.sample(point).unwrap_or(*gap).into())
             }
         }
-    }
-}
-
-/// The grid of the painted pixels on the lattice, as of the first question: it hardly ever changes.
-#[derive(Clone, Debug, Default)]
-struct PaintGrid(OnceLock<(PixelGrid, GridOnLattice)>);
-
-impl PaintGrid {
-    #[inline]
-    fn on_lattice(&self, grid: &PixelGrid, lattice: &Lattice) -> GridOnLattice {
-        let (of, on_lattice) = self.0.get_or_init(|| (*grid, GridOnLattice::new(grid, lattice)));
-        if of == grid { *on_lattice } else { GridOnLattice::new(grid, lattice) }
-    }
-}
-
-impl Values {
-    fn of_raster(raster: &Arc<RasterPyramid>, gap: f32, lattice: &Lattice) -> Self {
-        let grid = GridOnLattice::new(raster.grid(), lattice);
-        Self::Raster { raster: raster.clone(), gap, grid }
-    }
-
-    fn of_distance(to: &DistanceTo, profile: Profile, outline: Option<&Shapes>) -> Self {
-        let shapes = match to {
-            DistanceTo::Outline => outline,
-            DistanceTo::Coasts | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => to.shapes(),
-        };
-        shapes.cloned().map_or(Self::Nothing, |shapes| {
-            Self::Analytic(Analytic::new(Function::Distance { shapes, profile }, Quantity::Diameter))
-        })
-    }
-
-    fn of_formula(quantity: Quantity, formula: &Formula) -> Self {
-        let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
-        match formula.constant() {
-            Some(_) => Self::Constant(analytic),
-            None => Self::Analytic(analytic),
-        }
-    }
-}
-
-/// A raster in which places without a value have a given one.
-pub(super) struct WithGaps<'a> {
-    pub raster: &'a RasterPyramid,
-    pub gap: f32,
-}
-
-impl ValueRanges for WithGaps<'_> {
-    fn grid(&self) -> &PixelGrid {
-        self.raster.grid()
-    }
-
-    fn coarsest(&self) -> i32 {
-        self.raster.coarsest()
-    }
-
-    #[inline]
-    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
-        self.raster.range_with_gaps(scale, x, y, self.gap)
-    }
-
-    fn whole_range(&self) -> ValueRange {
-        self.raster.whole().with_gaps(self.gap)
-    }
-
-    fn finest(&self) -> i32 {
-        0
     }
 }

@@ -6,11 +6,11 @@ use glam::DVec2;
 
 use crate::geometry::Lattice;
 use crate::layers::{Coverage, Mask};
-use crate::raster::{RasterPyramid, ValueRanges};
+use crate::raster::{RasterPyramid, ValueRange, ValueRanges};
 
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
-use super::compiled::WithGaps;
+use super::values::WithGaps;
 
 /// The part of the plane in which a raster has values, within a mask.
 #[derive(Clone, Debug)]
@@ -18,6 +18,17 @@ pub struct Cover {
     raster: Arc<RasterPyramid>,
     grid: GridOnLattice,
     mask: Option<Mask>,
+}
+
+/// The values of a raster in some cells.
+#[derive(Clone, Copy, Debug)]
+pub struct CoveredValues {
+    /// Bounds of the values that it has.
+    pub range: ValueRange,
+    /// In how many of the cells it has one.
+    pub share: Share,
+    /// Where to divide the cells to know more.
+    pub cut: Option<Cut>,
 }
 
 impl Cover {
@@ -43,10 +54,37 @@ impl Cover {
         (share, mask_cut.or(cut).filter(|_| share == Share::Some))
     }
 
+    /// Returns the values in some cells; `None` where it has none.
+    pub fn values(&self, cells: &Cells, lattice: &Lattice) -> Option<CoveredValues> {
+        let (masked, mask_cut) = share_in_mask(self.mask.as_ref(), cells, lattice);
+        if masked == Share::None {
+            return None;
+        }
+        let [(low, cut), (high, _)] = [f32::INFINITY, f32::NEG_INFINITY]
+            .map(|gap| self.grid.range(&WithGaps { raster: &self.raster, gap }, cells));
+        let known = match (low.least < f32::INFINITY, low.greatest < f32::INFINITY) {
+            (false, _) => return None,
+            (true, false) => Share::Some,
+            (true, true) => Share::All,
+        };
+        let range = ValueRange { least: low.least, greatest: high.greatest };
+        Some(CoveredValues { range, share: masked.and(known), cut: cut.or(mask_cut) })
+    }
+
+    /// Returns the value at a point in world units, if it has one.
+    pub fn value_at(&self, point: DVec2) -> Option<f32> {
+        let is_covered = self.mask.as_ref().is_none_or(|mask| mask.contains(point));
+        self.raster.sample(point).filter(|value| is_covered && !value.is_nan())
+    }
+
     /// Returns whether it has a point in world units.
     pub fn contains(&self, point: DVec2) -> bool {
-        self.mask.as_ref().is_none_or(|mask| mask.contains(point))
-            && self.raster.sample(point).is_some_and(|value| !value.is_nan())
+        self.value_at(point).is_some()
+    }
+
+    /// Returns the binary logarithm of the side of the pixels in lattice steps, rounded down.
+    pub fn log_steps(&self) -> i32 {
+        self.grid.log_steps()
     }
 }
 

@@ -7,6 +7,7 @@ mod compiled;
 pub mod cone;
 pub mod counting;
 mod cover;
+mod depth_formula;
 pub mod gradation;
 #[cfg(test)]
 mod gradation_tests;
@@ -16,6 +17,8 @@ mod place;
 pub mod reading;
 pub mod search;
 mod steepness;
+mod validity;
+mod values;
 
 pub use compiled::{CompiledLayer, CompiledPlane};
 pub use parts::KnownParts;

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
-use meshbrush_core::domain::{Polygon, corners};
+use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, LayerKind, Mask, PositiveDepth, Quantity, RasterReading,
-    RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats, ValueCurve,
+    DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, LayerKind, Mask, PositiveDepth, Quantity,
+    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats,
+    ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -70,7 +71,13 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         11..13 => threats(choices, scale),
         13 => {
             let between = [4.0 * diameter, 8.0 * diameter];
-            LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) })
+            match choices.below(2) {
+                0 => LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::unknown(between) }),
+                _ => {
+                    let found = WaterMiddle::unknown(between);
+                    LayerKind::FeatureSize(FeatureSize { across: 3.0, found })
+                }
+            }
         }
         _ => distance(choices, scale),
     }
@@ -89,6 +96,9 @@ fn formula(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         "if(hypot(x - 0.5, y - 0.4) < 0.3, 0.15, inf)",
         "x - 0.3",
         "1 / (x - y)",
+        // Refused without depths, as these are invalid where the depth is.
+        "0.1 + 0.01 * abs(depth)",
+        "if(depth > 2, 0.12 + 0.1 * x, inf)",
     ];
     let number = choices.below(2 * texts.len());
     let text = texts.get(number).map_or_else(
@@ -99,7 +109,7 @@ fn formula(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         },
         |text| (*text).to_owned(),
     );
-    LayerKind::target(Formula::parse(&text).unwrap())
+    LayerKind::target(Formula::parse_of_size(&text).unwrap())
 }
 
 /// Returns a raster over a part of the domain, or beyond it, with a pixel that has no value, by any reading.
@@ -165,6 +175,14 @@ fn threats(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     LayerKind::Threats(Threats::new(list).unwrap())
 }
 
+/// Returns pieces of the boundary of which some are there, by names and types that the marks change.
+fn pieces(choices: &mut impl Choices) -> PieceChoice {
+    let names = ["Open sea", "Rock", "mainland", "island 1", "open south"];
+    let names = (0..choices.below(3)).map(|_| names[choices.below(names.len())].to_owned()).collect();
+    let types = (0..choices.below(4)).map(|_| BoundaryType::ALL[choices.below(7)]).collect();
+    PieceChoice { names, types }
+}
+
 fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let (size, centre) = (size(choices, scale), place(choices));
     let end = centre + size * (place(choices) - 0.5);
@@ -173,7 +191,11 @@ fn distance(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let to = match choices.below(5) {
         0 => {
             at_zero = scale.diameter * (2.0 + 8.0 * choices.share());
-            [DistanceTo::Outline, DistanceTo::Coasts][choices.below(2)].clone()
+            match choices.below(4) {
+                0 => DistanceTo::Outline,
+                1 => DistanceTo::Coasts,
+                _ => DistanceTo::Pieces(pieces(choices)),
+            }
         }
         1 => {
             let lines = ShapeList { lines: vec![vec![centre, end]], ..ShapeList::default() };
@@ -219,6 +241,7 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
             _ => between[1] = (factor * between[1]).max(between[0]),
         },
         LayerKind::Straits(straits) => straits.across = (straits.across / factor).clamp(1.0, 4.0),
+        LayerKind::FeatureSize(size) => size.across = (size.across / factor).clamp(1.0, 4.0),
         LayerKind::Depth(depths) => {
             let mut sizes = *depths.sizes();
             match &mut sizes.rule {

@@ -2,18 +2,21 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::checks::{number_where, point, points, positive_length, rect_of, rings};
-use super::{
-    RasterFile, SavedDistanceTo, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat,
-};
+use super::{RasterFile, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat};
 use crate::io::{KeyFault, RasterFormat};
-use meshbrush_core::domain::Polygon;
+use meshbrush_core::domain::{PieceChoice, Polygon};
 use meshbrush_core::field::Formula;
+use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
-    DepthSizes, LayerKind, RasterReading, ShapeList, StraitDiscs, Straits, Threat, ThreatError, ValueCurve,
+    DepthSizes, DistanceTo, FeatureSize, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits,
+    Threat, ThreatError, ValueCurve, WaterMiddle,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
 pub type FindFile<'a> = dyn Fn(&str) -> Result<PathBuf, String> + 'a;
+
+/// The rule for keys that say what a distance is measured to.
+const ONE_TARGET: &str = "a distance has one of `to`, `file`, `shapes`, and `pieces` with `types`.";
 
 /// Where the data of a layer are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,7 +51,7 @@ pub enum CheckedKind {
 #[derive(Clone, Debug, PartialEq)]
 pub enum CheckedShapes {
     /// The boundary of the domain, or a part of it.
-    Boundary(SavedDistanceTo),
+    Boundary(DistanceTo),
     /// The shapes of the layer's file.
     File,
     /// Shapes in place.
@@ -97,7 +100,16 @@ impl SavedLayer {
                 self.check_raster_file(stored)?;
                 CheckedKind::Depth(self.depth_sizes()?)
             }
-            SavedKind::Straits => CheckedKind::Complete(LayerKind::Straits(self.straits()?)),
+            SavedKind::Straits => {
+                let (across, between) = self.across_widths()?;
+                let found = StraitDiscs::unknown(between);
+                CheckedKind::Complete(LayerKind::Straits(Straits { across, found }))
+            }
+            SavedKind::FeatureSize => {
+                let (across, between) = self.across_widths()?;
+                let found = WaterMiddle::unknown(between);
+                CheckedKind::Complete(LayerKind::FeatureSize(FeatureSize { across, found }))
+            }
         })
     }
 
@@ -130,7 +142,11 @@ impl SavedLayer {
 
     fn checked_formula(&self) -> Result<CheckedKind, KeyFault> {
         let quantity = self.needed("quantity", self.quantity)?.into();
-        let formula = compiled("formula", self.needed("formula", self.formula.as_deref())?)?;
+        let parse = match quantity {
+            Quantity::Diameter => Formula::parse_of_size,
+            Quantity::Risk => Formula::parse,
+        };
+        let formula = compiled("formula", self.needed("formula", self.formula.as_deref())?, parse)?;
         Ok(CheckedKind::Complete(LayerKind::Formula { quantity, formula }))
     }
 
@@ -166,12 +182,21 @@ impl SavedLayer {
     }
 
     fn distance_to(&self, stored: Stored) -> Result<CheckedShapes, KeyFault> {
+        let chosen = self.chosen_pieces();
+        if chosen.is_some() && (self.to.is_some() || self.file.is_some() || self.shapes.is_some()) {
+            let key = if self.pieces.is_some() { "pieces" } else { "types" };
+            return Err(KeyFault::key(key, ONE_TARGET));
+        }
         match (self.to, &self.file, &self.shapes) {
-            (Some(to), None, None) => Ok(CheckedShapes::Boundary(to)),
+            (None, None, None) if let Some(chosen) = chosen => {
+                Ok(CheckedShapes::Boundary(DistanceTo::Pieces(chosen)))
+            }
+            (Some(to), None, None) => Ok(CheckedShapes::Boundary(to.into())),
             (None, Some(_), None) => Ok(CheckedShapes::File),
             (None, file, Some(shapes)) if file.is_none() || stored == Stored::InProject => shapes_of(shapes),
             (None, None, None) => Err(self.missing(
-                "needs to = \"outline\" or to = \"coasts\", `file`, a .geojson or .shp, or `shapes`",
+                "needs to = \"outline\" or to = \"coasts\", `pieces` or `types` of the boundary, `file`, a .geojson, \
+                 .shp or .gpkg, or `shapes`",
             )),
             (to, _, shapes) => {
                 let key = if to.is_some() {
@@ -181,16 +206,23 @@ impl SavedLayer {
                 } else {
                     "file"
                 };
-                Err(KeyFault::key(key, "a distance has one of `to`, `file` and `shapes`."))
+                Err(KeyFault::key(key, ONE_TARGET))
             }
         }
+    }
+
+    /// Returns the pieces of the boundary that `pieces` and `types` choose, if there is one of them.
+    fn chosen_pieces(&self) -> Option<PieceChoice> {
+        let types = self.types.iter().flatten().copied().map(Into::into).collect();
+        let is_given = self.pieces.is_some() || self.types.is_some();
+        is_given.then(|| PieceChoice { names: self.pieces.clone().unwrap_or_default(), types })
     }
 
     fn along(&self) -> Result<CheckedShapes, KeyFault> {
         match (&self.file, &self.shapes) {
             (Some(_), None) => Ok(CheckedShapes::File),
             (None, Some(shapes)) => shapes_of(shapes),
-            (None, None) => Err(self.missing("needs `file`, a .geojson or .shp, or `shapes`")),
+            (None, None) => Err(self.missing("needs `file`, a .geojson, .shp or .gpkg, or `shapes`")),
             (Some(_), Some(_)) => Err(KeyFault::key("shapes", "a corridor has one of `file` and `shapes`.")),
         }
     }
@@ -214,7 +246,8 @@ impl SavedLayer {
         Ok(CheckedKind::Band(between, self.length("diameter", self.diameter)?))
     }
 
-    fn straits(&self) -> Result<Straits, KeyFault> {
+    /// Returns the number of triangles across water, and the least and the greatest width of it.
+    fn across_widths(&self) -> Result<(f64, [f64; 2]), KeyFault> {
         let across = self.needed("across", self.across)?;
         number_where(across, across >= 1.0, "a number of triangles must be 1 or more, and finite")
             .map_err(|fault| fault.within("across"))?;
@@ -222,7 +255,7 @@ impl SavedLayer {
         let to = self.length("width_to", self.width_to)?;
         number_where(to, to > from, "it must be above width_from")
             .map_err(|fault| fault.within("width_to"))?;
-        Ok(Straits { across, found: StraitDiscs::unknown([from, to]) })
+        Ok((across, [from, to]))
     }
 
     fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {
@@ -263,12 +296,16 @@ impl SavedLayer {
     }
 }
 
-/// Compiles a formula.
+/// Compiles a formula, as `parse` does.
 ///
 /// # Errors
 /// Fails with the lines that point at the mistake.
-pub fn compiled(key: &'static str, text: &str) -> Result<Formula, KeyFault> {
-    Formula::parse(text).map_err(|mistake| {
+pub fn compiled(
+    key: &'static str,
+    text: &str,
+    parse: fn(&str) -> Result<Formula, ParseError>,
+) -> Result<Formula, KeyFault> {
+    parse(text).map_err(|mistake| {
         let pointer = Some(mistake.pointer().to_owned());
         KeyFault { pointer, ..KeyFault::value(key, mistake.to_string()) }
     })

@@ -108,7 +108,7 @@ impl SavedLayer {
         data: &mut D,
     ) -> Result<Result<Shapes, DistanceTo>, D::Error> {
         let list = match to {
-            CheckedShapes::Boundary(to) => return Ok(Err(to.into())),
+            CheckedShapes::Boundary(to) => return Ok(Err(to)),
             CheckedShapes::File => data.shapes(self.path())?,
             CheckedShapes::InPlace(list) => list,
         };

@@ -9,8 +9,9 @@
 //! | `"formula"` | `quantity`, `formula` |
 //! | `"raster"` | `file`, `bounds`, and `as` or `curve` |
 //! | `"threats"` | `file` or `threats` |
-//! | `"distance"` | `to`, `file` or `shapes`; `at_zero`, `slope`, `range` |
+//! | `"distance"` | `to`, `file`, `shapes`, or `pieces` and `types`; `at_zero`, `slope`, `range` |
 //! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
+//! | `"straits"`, `"feature-size"` | `across`, `width_from`, `width_to` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
 
 mod check_layer;

@@ -8,9 +8,11 @@ use super::{
     SavedQuantity,
 };
 use crate::io::RasterFormat;
+use crate::io::settings::SavedBoundaryType;
 use meshbrush_core::domain::Polygon;
+use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
+    DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
 };
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
@@ -64,6 +66,12 @@ pub struct SavedLayer {
     /// The object that the distance is measured to, if it is neither a file nor a list of shapes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<SavedDistanceTo>,
+    /// The names of the pieces of the boundary that the distance is measured to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pieces: Option<Vec<String>>,
+    /// The types of the pieces of the boundary that the distance is measured to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub types: Option<Vec<SavedBoundaryType>>,
     /// The shapes that the distance is measured to, as a list.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Vec<SavedShape>>,
@@ -179,6 +187,8 @@ impl SavedLayer {
             curve: None,
             threats: None,
             to: None,
+            pieces: None,
+            types: None,
             shapes: None,
             width: None,
             at_zero: None,
@@ -229,25 +239,19 @@ impl SavedLayer {
                 let threats = threats.list().iter().copied().map(SavedThreat::from).collect();
                 Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
             }
-            LayerKind::Distance { to, at_zero, slope, range } => Self {
-                to: SavedDistanceTo::of(to),
-                shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
-                width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
-                at_zero: Some(*at_zero),
-                slope: Some(*slope),
-                range: range.is_finite().then_some(*range),
-                ..Self::of_kind(match to {
-                    DistanceTo::Corridor { .. } => SavedKind::Corridor,
-                    DistanceTo::Outline | DistanceTo::Coasts | DistanceTo::Shapes { .. } => {
-                        SavedKind::Distance
-                    }
-                })
-            },
+            LayerKind::Distance { to, at_zero, slope, range } => {
+                Self::of_distance(to, [*at_zero, *slope, *range])
+            }
             LayerKind::Band { between, diameter, .. } => {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
-            LayerKind::Straits(straits) => Self::of_straits(straits),
+            LayerKind::Straits(Straits { across, found }) => {
+                Self::of_widths(SavedKind::Straits, *across, found.between())
+            }
+            LayerKind::FeatureSize(FeatureSize { across, found }) => {
+                Self::of_widths(SavedKind::FeatureSize, *across, found.between())
+            }
         };
         let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
@@ -261,14 +265,33 @@ impl SavedLayer {
         }
     }
 
-    fn of_straits(straits: &Straits) -> Self {
-        let [from, to] = straits.found.between();
+    fn of_distance(to: &DistanceTo, [at_zero, slope, range]: [f64; 3]) -> Self {
+        let chosen = if let DistanceTo::Pieces(chosen) = to { Some(chosen) } else { None };
+        let names = chosen.map(|chosen| chosen.names.clone()).filter(|names| !names.is_empty());
+        let types = chosen.map(|chosen| chosen.types.iter().copied().map(Into::into).collect());
+        // One of both says that it is pieces, also where none is chosen.
+        let types = types.filter(|types: &Vec<_>| !types.is_empty() || names.is_none());
+        let kind = match to {
+            DistanceTo::Corridor { .. } => SavedKind::Corridor,
+            DistanceTo::Outline | DistanceTo::Coasts | DistanceTo::Pieces(_) | DistanceTo::Shapes { .. } => {
+                SavedKind::Distance
+            }
+        };
         Self {
-            across: Some(straits.across),
-            width_from: Some(from),
-            width_to: Some(to),
-            ..Self::of_kind(SavedKind::Straits)
+            to: SavedDistanceTo::of(to),
+            pieces: names,
+            types,
+            shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
+            width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
+            at_zero: Some(at_zero),
+            slope: Some(slope),
+            range: range.is_finite().then_some(range),
+            ..Self::of_kind(kind)
         }
+    }
+
+    fn of_widths(kind: SavedKind, across: f64, [from, to]: [f64; 2]) -> Self {
+        Self { across: Some(across), width_from: Some(from), width_to: Some(to), ..Self::of_kind(kind) }
     }
 
     /// Returns the name of the layer, or the usual one of its kind.
@@ -288,6 +311,12 @@ impl SavedLayer {
         self.is_risk() || (self.read_as == Some(SavedQuantity::Diameter) && is_image())
     }
 
+    /// Returns whether it is a formula that uses the depth of the water.
+    pub fn uses_depth(&self) -> bool {
+        let formula = self.formula.as_deref().map(Formula::parse_of_size);
+        formula.is_some_and(|formula| formula.is_ok_and(|formula| formula.uses_depth()))
+    }
+
     /// Returns whether it asks for risk.
     pub fn is_risk(&self) -> bool {
         match self.kind {
@@ -298,7 +327,8 @@ impl SavedLayer {
             | SavedKind::Corridor
             | SavedKind::Band
             | SavedKind::Depth
-            | SavedKind::Straits => false,
+            | SavedKind::Straits
+            | SavedKind::FeatureSize => false,
         }
     }
 
@@ -324,6 +354,8 @@ impl SavedLayer {
             ("curve", self.curve.is_some()),
             ("threats", self.threats.is_some()),
             ("to", self.to.is_some()),
+            ("pieces", self.pieces.is_some()),
+            ("types", self.types.is_some()),
             ("shapes", self.shapes.is_some()),
             ("width", self.width.is_some()),
             ("at_zero", self.at_zero.is_some()),

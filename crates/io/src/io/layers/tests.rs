@@ -40,6 +40,10 @@ fn every_kind_is_read_from_its_keys() {
             "Distance(Boundary(Coasts), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
         ),
         (
+            r#"{ "kind": "distance", "pieces": ["Rock"], "types": ["land", "no-slip inflow"], "at_zero": 0.1, "slope": 0.2 }"#,
+            "Distance(Boundary(Pieces(PieceChoice { names: [\"Rock\"], types: [Land, NoSlipInflow] })), Growth { at_zero: 0.1, slope: 0.2, range: inf })",
+        ),
+        (
             r#"{ "kind": "distance", "shapes": [{ "point": [1, 2] }], "at_zero": 0.1, "slope": 0, "range": 5 }"#,
             "Distance(InPlace(ShapeList { points: [DVec2(1.0, 2.0)], lines: [], polygons: [] }), Growth { at_zero: 0.1, slope: 0.0, range: 5.0 })",
         ),
@@ -68,6 +72,8 @@ fn a_layer_is_saved_as_it_was_read() {
         r#"{"kind":"threats","mask_file":"m.geojson","threats":[{"x":1.0,"y":2.0,"range":3.0,"peak":0.5,"law":"disc"}]}"#,
         r#"{"kind":"raster","file":"r.png","bounds":[0.0,0.0,1.0,2.0],"as":"risk"}"#,
         r#"{"kind":"distance","to":"outline","at_zero":0.1,"slope":0.2,"range":3.0}"#,
+        r#"{"kind":"distance","pieces":["Rock"],"types":["land"],"at_zero":0.1,"slope":0.2}"#,
+        r#"{"kind":"distance","types":["open"],"at_zero":0.1,"slope":0.2}"#,
         r#"{"kind":"distance","shapes":[{"line":[[0.0,0.0],[1.0,1.0]]},{"polygon":[[[0.0,0.0],[1.0,0.0],[0.0,1.0]]]}],"at_zero":0.1,"slope":0.2}"#,
     ] {
         assert_eq!(serde_json::to_string(&saved(json)).unwrap(), json);
@@ -116,6 +122,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             "kind: a layer of the kind \"distance\" needs to",
         ),
         (
+            r#"{ "kind": "distance", "to": "outline", "types": ["land"], "at_zero": 1, "slope": 0 }"#,
+            "types: a distance has one of",
+        ),
+        (
             r#"{ "kind": "distance", "to": "outline", "file": "a", "at_zero": 1, "slope": 0 }"#,
             "to: a distance has one of",
         ),
@@ -139,6 +149,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
         (
             r#"{ "kind": "depth", "file": "a.asc", "size": "courant", "time_step": 1, "courant": 1, "period": 1 }"#,
             "period: depths with size = \"courant\" have no `period`",
+        ),
+        (
+            r#"{ "kind": "feature-size", "across": 3, "width_from": 2, "width_to": 1 }"#,
+            "width_to: 1 cannot be used",
         ),
         (r#"{ "kind": "straits", "across": 0, "width_from": 1, "width_to": 2 }"#, "across: 0 cannot be used"),
         (
@@ -168,7 +182,7 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 #[test]
 fn the_kinds_and_their_keys_agree() {
     use super::SavedKind::*;
-    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits];
+    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits, FeatureSize];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
         "formula" => r#""x""#,

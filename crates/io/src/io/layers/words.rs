@@ -26,6 +26,9 @@ pub enum SavedKind {
     Depth,
     /// Triangles across straits.
     Straits,
+    /// Triangles across the water.
+    #[serde(rename = "feature-size")]
+    FeatureSize,
 }
 
 /// See [`Combine`].
@@ -142,12 +145,12 @@ pub enum SavedLaw {
 }
 
 impl SavedDistanceTo {
-    /// Returns the word for a target; `None` for one that has shapes.
+    /// Returns the word for a target; `None` for one that has shapes, or is some pieces of the boundary.
     pub(super) fn of(to: &DistanceTo) -> Option<Self> {
         match to {
             DistanceTo::Outline => Some(Self::Outline),
             DistanceTo::Coasts => Some(Self::Coasts),
-            DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => None,
+            DistanceTo::Pieces(_) | DistanceTo::Shapes { .. } | DistanceTo::Corridor { .. } => None,
         }
     }
 }
@@ -174,6 +177,7 @@ impl SavedKind {
             Self::Band => "band",
             Self::Depth => "depth",
             Self::Straits => "straits",
+            Self::FeatureSize => "feature-size",
         }
     }
 
@@ -189,6 +193,7 @@ impl SavedKind {
             Self::Band => "Band",
             Self::Depth => "Depth",
             Self::Straits => "Straits",
+            Self::FeatureSize => "Feature size",
         }
     }
 
@@ -199,10 +204,10 @@ impl SavedKind {
             Self::Formula => &["quantity", "formula"],
             Self::Raster => &["file", "bounds", "as", "curve"],
             Self::Threats => &["file", "threats"],
-            Self::Distance => &["to", "file", "shapes", "at_zero", "slope", "range"],
+            Self::Distance => &["to", "pieces", "types", "file", "shapes", "at_zero", "slope", "range"],
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
-            Self::Straits => &["across", "width_from", "width_to"],
+            Self::Straits | Self::FeatureSize => &["across", "width_from", "width_to"],
             Self::Depth => &[
                 "file",
                 "bounds",

@@ -11,10 +11,11 @@ use super::super::layers::{
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
 use super::super::{
-    DocumentPlane, Given, KeyFault, Meter, ReadError, project, shape_format, shapes, threats,
+    DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
 };
 use super::LoadedLayer;
-use super::notes::{cut_at_antimeridian, in_the_plane, note, notes};
+use super::grid_region::contour_of_grid;
+use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
 use meshbrush_core::earth::Coordinates;
@@ -158,12 +159,7 @@ impl<'a> Files<'a> {
     pub(super) fn one_layer(mut self, layer: &SavedLayer, id: LayerId) -> Result<LoadedLayer, LoadError> {
         let loaded = layer.load(id, &mut self)?;
         self.add_paint(layer, id)?;
-        let notes = note(&loaded, self.frame.domain, true).map(|note| abridged(&note).to_string());
-        Ok(LoadedLayer {
-            layer: loaded,
-            paint: self.paint.get(id).cloned(),
-            notes: notes.into_iter().collect(),
-        })
+        Ok(LoadedLayer { layer: loaded, paint: self.paint.get(id).cloned(), notes: Vec::new() })
     }
 
     /// Adds what a project has painted on a layer, if that is a paint layer.
@@ -206,9 +202,12 @@ impl Storage for Files<'_> {
         bounds: Option<Rect>,
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
-        let outline = self.loading.outline(file)?;
+        let outline = match RasterFormat::of(file) {
+            Ok(format) => contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?,
+            Err(_) => self.loading.outline(file)?,
+        };
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
-        let RegionCoordinates { assumed, projection } = *coordinates;
+        let RegionCoordinates { assumed, projection, contour: _, positive: _ } = *coordinates;
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;

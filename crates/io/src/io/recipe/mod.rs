@@ -4,6 +4,7 @@
 
 mod export;
 mod files;
+mod grid_region;
 mod notes;
 mod open;
 #[cfg(test)]
@@ -25,7 +26,7 @@ pub use export::RecipeFiles;
 pub use files::{LoadError, Loaded, Loading};
 pub use open::{OpenedRecipe, open};
 use text::RecipeText;
-pub use values::{LoadedDocument, LoadedLayer};
+pub use values::{BesideLayer, LoadedDocument, LoadedLayer};
 pub use write::to_text;
 
 /// The extension of recipes.

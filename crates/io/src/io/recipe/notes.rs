@@ -6,9 +6,11 @@ use rayon::prelude::*;
 
 use super::super::geojson::Outline;
 use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{Layer, RasterSource};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterSource};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::short_name;
 
 /// The share of a rectangle that a raster covers which covers all of it, but for rounding.
 const WHOLE: f64 = 1.0 - 1e-6;
@@ -43,19 +45,46 @@ pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
 /// `has_frame` of its own.
 pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = String> {
     let domain = settings.domain.bounds;
-    let visible = settings.layers.iter().filter(|layer| layer.visible);
-    visible.filter_map(move |layer| note(layer, domain, has_frame))
-}
-
-/// Returns the note on a layer that asks for nothing, or only in a part of the domain, as [`notes`] does.
-pub fn note(layer: &Layer, domain: Rect, has_frame: bool) -> Option<String> {
-    match (&layer.kind, &layer.mask) {
+    let note = move |layer: &Layer| match (&layer.kind, &layer.mask) {
         (_, Some(mask)) if mask.bounds().intersection(&domain).is_none() => Some(format!(
             "The mask of the layer “{}” does not meet the domain: it asks for nothing.",
             layer.name
         )),
-        (kind, _) => of_raster(layer, kind.raster_source()?, domain, has_frame),
+        (kind, _) => {
+            let source = kind.raster_source();
+            source.and_then(|source| of_raster(layer, source, domain, has_frame))
+        }
+    };
+    let visible = || settings.layers.iter().filter(|layer| layer.visible);
+    visible().filter_map(note).chain(missing_pieces(settings))
+}
+
+/// Returns the names of pieces of the boundary that visible layers measure to, and that no piece has.
+fn missing_pieces(settings: &Settings) -> Vec<String> {
+    let chosen = settings.layers.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
+        LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } if !chosen.names.is_empty() => {
+            Some((layer, chosen))
+        }
+        _ => None,
+    });
+    let chosen: Vec<(&Layer, &PieceChoice)> = chosen.collect();
+    if chosen.is_empty() {
+        return Vec::new();
     }
+    let pieces = BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks);
+    let names = |(layer, chosen): &(&Layer, &PieceChoice)| -> Vec<String> {
+        let unknown = pieces.iter().flat_map(|pieces| chosen.unknown_names(pieces));
+        unknown.map(|name| missing_piece(layer, name)).collect()
+    };
+    chosen.iter().flat_map(names).collect()
+}
+
+fn missing_piece(layer: &Layer, name: &str) -> String {
+    format!(
+        "No piece of the boundary is called “{}”: the layer “{}” does not measure to it.",
+        short_name(name),
+        short_name(&layer.name)
+    )
 }
 
 fn of_raster(layer: &Layer, source: &RasterSource, domain: Rect, has_frame: bool) -> Option<String> {

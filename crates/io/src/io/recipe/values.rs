@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::super::layers::SavedLayer;
+use super::super::layers::{SavedKind, SavedLayer};
 use super::super::settings::{SavedOutput, SavedSettings};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
+use super::notes::notes;
 use super::open::with_limits_of_the_grid;
 use super::{LoadError, Loaded, Loading, Recipe, found_in};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{Layer, LayerId};
 use meshbrush_core::raster::TiledRaster;
+use meshbrush_mesh::text::abridged;
 
 /// A document that was made from settings.
 #[derive(Debug)]
@@ -36,6 +38,15 @@ pub struct LoadedLayer {
     pub paint: Option<TiledRaster>,
     /// Notes for a person, a sentence each.
     pub notes: Vec<String>,
+}
+
+/// What a document has beside a layer that is added, as far as layers need it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BesideLayer {
+    /// A smallest diameter that somebody gave.
+    pub smallest: bool,
+    /// A layer of depths.
+    pub depths: bool,
 }
 
 impl SavedSettings {
@@ -65,23 +76,29 @@ impl SavedSettings {
 }
 
 impl SavedLayer {
-    /// Returns the layer that a table states, with the keys of a recipe, for a document with or without a
-    /// smallest diameter that somebody gave. Files are as for [`SavedSettings::of_value`].
+    /// Returns the layer that a table states, with the keys of a recipe, for a document that has `others`. Files
+    /// are as for [`SavedSettings::of_value`].
     ///
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
-    pub fn of_value(table: &TextValue, has_smallest: bool, given: &Given) -> Result<Self, KeyFault> {
+    pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
         let layer = Self::deserialize(table)?;
         let mut alone = SavedSettings { layer: vec![layer], ..SavedSettings::default() };
-        alone.limits.h_min = has_smallest.then_some(1.0);
-        // Unlike a recipe, a document has paint layers of its own.
-        let is_own_paint = alone.layer[0].is_paint() && alone.layer[0].file.is_none();
-        let checked = alone.place_files(&|name| found(given, name)).and_then(|()| alone.check());
-        let mut as_recipe = alone.clone();
-        if is_own_paint {
-            as_recipe.layer[0].file = Some(PathBuf::new());
-        }
-        let checked = checked.and_then(|()| as_recipe.check_recipe());
+        alone.limits.h_min = others.smallest.then_some(1.0);
+        let checked = alone.place_files(&|name| found(given, name)).and_then(|()| {
+            let mut as_recipe = alone.clone();
+            let layer = &mut as_recipe.layer[0];
+            // Unlike a recipe, a document has paint layers of its own.
+            if layer.is_paint() && layer.file.is_none() && layer.layer.is_none() {
+                layer.file = Some(PathBuf::new());
+            }
+            if others.depths {
+                let file = Some("depths.npy".into());
+                as_recipe.layer.push(Self { file, ..Self::of_kind(SavedKind::Depth) });
+            }
+            as_recipe.check()?;
+            as_recipe.check_recipe()
+        });
         checked
             .map_err(|fault| KeyFault { path: fault.path[2.min(fault.path.len())..].to_vec(), ..fault })?;
         Ok(alone.layer.remove(0))
@@ -99,7 +116,10 @@ impl SavedLayer {
         assumed: Option<Coordinates>,
         loading: &Loading,
     ) -> Result<LoadedLayer, LoadError> {
-        Files::for_document(settings, assumed, loading).one_layer(self, id)
+        let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
+        let alone = Settings { layers: vec![loaded.layer.clone()], ..settings.clone() };
+        let notes = notes(&alone, true).map(|note| abridged(&note)).collect();
+        Ok(LoadedLayer { notes, ..loaded })
     }
 }
 

@@ -6,14 +6,18 @@ use super::{
     RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins,
     SavedSettings, SavedTreatment,
 };
-use crate::io::layers::{FindFile, SavedLayer, Stored, compiled, each, point, positive_length, rect_of};
-use crate::io::{KeyFault, Step};
+use crate::io::layers::{
+    FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
+};
+use crate::io::{KeyFault, RasterFormat, Step};
 use glam::DVec2;
 use meshbrush_core::document::LEAST_MEMORY;
+use meshbrush_core::domain::{DepthContour, DepthContourError};
 use meshbrush_core::earth::{
     Coordinates, CoordinatesTextError, Projection, ProjectionChoice, ProjectionTextError,
 };
 use meshbrush_core::field::{Formula, Transfer};
+use meshbrush_core::layers::PositiveDepth;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
 use meshbrush_mesh::text::{Bytes, Grouped, Number, excerpt};
@@ -46,8 +50,14 @@ impl SavedSettings {
     /// Fails for the first one that cannot be used.
     pub fn check(&self) -> Result<(), KeyFault> {
         self.check_tables()?;
+        let has_depths = self.layer.iter().any(|layer| layer.kind == SavedKind::Depth);
         for (index, layer) in self.layer.iter().enumerate() {
             layer.checked(Stored::InFiles).map_err(|fault| fault.within(index).within("layer"))?;
+            if layer.uses_depth() && !has_depths {
+                let problem = "it uses `depth`, and there are no depths. Name a grid of them: on the command line with \
+                               --depth, in a recipe in a layer of the kind \"depth\".";
+                return Err(KeyFault::value("formula", problem).within(index).within("layer"));
+            }
         }
         Ok(())
     }
@@ -127,6 +137,7 @@ impl SavedDomain {
         self.formula()?;
         self.projection()?;
         self.assumed()?;
+        self.check_contour()?;
         self.boundary_diameter.map_or(Ok(()), |diameter| length("boundary_diameter", diameter))?;
         if let Some(SavedParts::Share(share)) = self.parts
             && !(0.0..=1.0).contains(&share)
@@ -195,12 +206,50 @@ impl SavedDomain {
 
     /// Returns what the coordinates of files are, and the plane of the domain.
     pub(super) fn coordinates(&self) -> Result<RegionCoordinates, KeyFault> {
-        Ok(RegionCoordinates { assumed: self.assumed()?, projection: self.projection()? })
+        Ok(RegionCoordinates {
+            contour: self.contour(),
+            positive: self.positive.map_or(PositiveDepth::Up, Into::into),
+            assumed: self.assumed()?,
+            projection: self.projection()?,
+        })
+    }
+
+    fn contour(&self) -> DepthContour {
+        DepthContour {
+            level: self.contour.unwrap_or(0.0),
+            smallest_island: self.smallest_island.unwrap_or(0.0),
+            smallest_inlet: self.smallest_inlet.unwrap_or(0.0),
+        }
+    }
+
+    /// Checks what is said about the contour of a grid.
+    fn check_contour(&self) -> Result<(), KeyFault> {
+        let given = [
+            ("contour", self.contour.is_some()),
+            ("positive", self.positive.is_some()),
+            ("smallest_island", self.smallest_island.is_some()),
+            ("smallest_inlet", self.smallest_inlet.is_some()),
+        ];
+        let is_grid = self.region.as_ref().is_some_and(|file| RasterFormat::of(file).is_ok());
+        if let Some((key, _)) = given.into_iter().find(|(_, is_given)| *is_given && !is_grid) {
+            let sentence = "this is for a region that is a grid of heights or depths; name its file with `region`, or \
+                            leave it out.";
+            return Err(KeyFault::key(key, sentence));
+        }
+        let fault = |error: DepthContourError| {
+            let key = match &error {
+                DepthContourError::Number { name: "smallest island", .. } => "smallest_island",
+                DepthContourError::Number { name: "smallest inlet", .. } => "smallest_inlet",
+                _ => "contour",
+            };
+            KeyFault::value(key, error.to_string())
+        };
+        self.contour().check().map_err(fault)
     }
 
     /// Returns the formula of the domain.
     pub(super) fn formula(&self) -> Result<Option<Formula>, KeyFault> {
-        self.inside.as_deref().map(|text| compiled("inside", text)).transpose()
+        self.inside.as_deref().map(|text| compiled("inside", text, Formula::parse)).transpose()
     }
 }
 

@@ -7,10 +7,10 @@ use super::{SavedSettings, SavedTreatment, marks_of};
 use crate::io::KeyFault;
 use crate::io::layers::{SavedLayer, TextError};
 use meshbrush_core::document::{PathPlan, Settings};
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, DepthContour, Domain, DomainShape, Polygon};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_core::layers::{Layer, LayerId, PositiveDepth};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, CoarseError, bisection_edge_length};
 use meshbrush_mesh::text::LengthUnit;
@@ -53,6 +53,10 @@ pub struct ReadRegion {
 /// What the coordinates of the domain's polygons are, and the plane where they are meshed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionCoordinates {
+    /// The contour of a grid that is the region.
+    pub contour: DepthContour,
+    /// Whether its values are heights or depths.
+    pub positive: PositiveDepth,
     /// What coordinates of files are that do not name a known system.
     pub assumed: Option<Coordinates>,
     /// How the plane is chosen; `None` for that of the polygons' own coordinates.

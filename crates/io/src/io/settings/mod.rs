@@ -18,4 +18,4 @@ pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
     SavedSettings, SavedTreatment,
 };
-pub use words::{SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};
+pub use words::{SavedBoundaryType, SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};

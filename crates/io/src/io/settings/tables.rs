@@ -6,7 +6,7 @@ use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::{SavedName, SavedPieceType, SavedRule, SavedUnit};
-use crate::io::layers::{SavedLayer, SavedPolygon};
+use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use meshbrush_mesh::mesh::KeptParts;
 
 /// All tables. `L` is a layer, with what says where its data are.
@@ -67,6 +67,18 @@ pub struct SavedDomain {
     /// The domain is what the polygons of this file cover.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<PathBuf>,
+    /// Where the region is a grid: the depth, in metres, below which the domain is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contour: Option<f64>,
+    /// Whether the values of the grid are heights or depths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positive: Option<SavedPositive>,
+    /// The area of the smallest island, and of the smallest water, of the contour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_island: Option<f64>,
+    /// The width of the narrowest inlet of the contour.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_inlet: Option<f64>,
     /// What the coordinates of files are that do not name a known system: "lonlat", "EPSG:…", or a projection
     /// as PROJ writes it.
     #[serde(skip_serializing_if = "Option::is_none")]

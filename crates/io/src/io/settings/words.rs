@@ -108,6 +108,18 @@ pub struct SavedPieceType {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SavedBoundaryType(BoundaryType);
 
+impl From<BoundaryType> for SavedBoundaryType {
+    fn from(boundary_type: BoundaryType) -> Self {
+        Self(boundary_type)
+    }
+}
+
+impl From<SavedBoundaryType> for BoundaryType {
+    fn from(saved: SavedBoundaryType) -> Self {
+        saved.0
+    }
+}
+
 impl Serialize for SavedBoundaryType {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.0.word())

@@ -3,11 +3,15 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, DomainCommand, FileCommand};
 use crate::app::features::layers::OPEN_DEPTH;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
-use crate::app::widgets::{Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row};
+use crate::app::widgets::{
+    ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
+};
+use meshbrush_core::domain::DepthContour;
 use meshbrush_core::layers::{DepthRule, DepthSizes, Layer, LayerKind, PositiveDepth, wavelength};
+use meshbrush_mesh::text::LengthUnit;
 
 /// Depths of water.
 pub static DEPTH: LayerKindRow = LayerKindRow {
@@ -88,9 +92,31 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     let here = state.pointer.and_then(|point| depths.source().raster.raster().linear_at(point));
     let depth = here.map_or("–".to_owned(), |value| format::digits(sizes.depth_of(value), 5));
     ValueRow::new("Depth at the pointer", &depth).help("In metres; below 0 on land.").show(ui);
+    contour_rows(ui, state, layer, commands);
     if sizes != before && sizes.check().is_ok() {
         set_kind_once(layer, LayerKind::Depth(depths.with_sizes(sizes)), commands);
     }
+}
+
+/// Shows the contour that can become the domain. Its numbers are no part of the document.
+fn contour_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let id = ui.make_persistent_id(("contour", layer.id.0, state.session.document_id()));
+    let mut contour: DepthContour = ui.data(|data| data.get_temp(id)).unwrap_or(DepthContour::SHORE);
+    let symbol = if state.unit() == LengthUnit::Degree { "m" } else { state.unit().symbol() };
+    ui.add_space(4.0);
+    let row = NumberRow::new("Contour", &mut contour.level).range(f64::MIN..=f64::MAX).unit("m");
+    row.help("The domain from the contour is where the depth is more than this; 0 is the shore.").show(ui);
+    let row = NumberRow::new("Smallest island", &mut contour.smallest_island).range(0.0..=f64::MAX);
+    let area = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
+    let help = "Islands and waters of the contour with a smaller area are left out; 0 keeps all.";
+    row.unit(&area).help(help).show(ui);
+    let row = NumberRow::new("Smallest inlet", &mut contour.smallest_inlet).range(0.0..=f64::MAX);
+    let help = "Inlets of the contour that are narrower are closed; 0 keeps all.";
+    row.unit(symbol).help(help).show(ui);
+    if ui.add(ActionButton::new("Use the contour as the domain")).clicked() {
+        commands.push(Command::Domain(DomainCommand::UseContour(layer.id, contour)));
+    }
+    ui.data_mut(|data| data.insert_temp(id, contour));
 }
 
 /// Shows the numbers of a rule.

@@ -1,5 +1,8 @@
 //! Layers of a formula.
 
+use std::fmt;
+use std::str::FromStr;
+
 use eframe::egui::Ui;
 
 use super::quantity_name;
@@ -7,6 +10,7 @@ use crate::app::command::Command;
 use crate::app::kit::{Addition, FormulaRow, FrameState, LayerKindRow, add_layer, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow, segmented};
 use meshbrush_core::field::Formula;
+use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 
 /// A formula in x and y.
@@ -46,7 +50,8 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         Quantity::Diameter => FormulaRow {
             label: "Target diameter h̄(x, y)",
             hint: "if(abs(x) + abs(y) < 0.4, 0.01, 0.2)",
-            help: "Target diameter at x and y, as a formula; h_min and h_max bound it.",
+            help: "Target diameter at x and y, as a formula; h_min and h_max bound it. With layers of depths, `depth` is \
+                   the depth of the water in metres: where there is none, the formula asks for nothing.",
         },
         Quantity::Risk => FormulaRow {
             label: "Risk at (x, y)",
@@ -54,9 +59,33 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
             help: "Risk at x and y, 0 to 1, as a formula.",
         },
     };
-    let entered = row.show(ui, state, Some(formula));
+    let entered = match quantity {
+        Quantity::Diameter => {
+            let typed = row.show(ui, state, Some(&TypedSize(formula.clone())));
+            typed.map(|typed| typed.map(|TypedSize(formula)| formula))
+        }
+        Quantity::Risk => row.show(ui, state, Some(formula)),
+    };
     if let Some(Some(formula)) = entered {
         set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);
+    }
+}
+
+/// A formula of a target diameter, which may use the depth.
+#[derive(Clone, Debug, PartialEq)]
+struct TypedSize(Formula);
+
+impl FromStr for TypedSize {
+    type Err = ParseError;
+
+    fn from_str(text: &str) -> Result<Self, ParseError> {
+        Formula::parse_of_size(text).map(Self)
+    }
+}
+
+impl fmt::Display for TypedSize {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 

@@ -4,6 +4,7 @@ mod band;
 mod curve;
 mod depth;
 mod distance;
+mod feature_size;
 mod formula;
 mod paint;
 mod raster;
@@ -13,7 +14,7 @@ use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 7] = [
+pub static KINDS: [&LayerKindRow; 8] = [
     &paint::PAINT,
     &formula::FORMULA,
     &raster::RASTER,
@@ -21,6 +22,7 @@ pub static KINDS: [&LayerKindRow; 7] = [
     &band::BAND,
     &depth::DEPTH,
     &straits::STRAITS,
+    &feature_size::FEATURE_SIZE,
 ];
 
 /// Returns the kind of a layer.

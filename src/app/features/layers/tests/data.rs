@@ -10,13 +10,14 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::stack::{choose_in, select};
-use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, choose_in_palette, click_button, entries, folder, key, level_at,
     move_to, notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,
     window_of,
 };
-use meshbrush_core::document::Example;
+use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryType};
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, RasterReading, RasterSource};
 
 /// Four pixels over the unit square; the last has no value.
@@ -275,6 +276,59 @@ fn distances_are_measured_to_shapes_of_a_file() {
     send(&mut window, Command::Layer(LayerCommand::ReplaceShapes(site)));
     assert!(wait_for_notice(&mut window).contains("site.geojson"), "{}", notice(&window));
     assert!(is_to(&window, "site.geojson"));
+}
+
+#[test]
+fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
+    let mut window = window_of(TALL);
+    let (west, south) = (dvec2(0.001, 0.5), dvec2(0.5, 0.001));
+    let coarse = level_at(&window, west);
+    add_by_button(&mut window, "distance to the outline");
+    let fine = level_at(&window, west);
+    assert!(fine > coarse && level_at(&window, south) == fine);
+    let toggle = |window: &mut Window, label: &str| {
+        wait_until(window, |window| window.query_by_role_and_label(Role::CheckBox, label).is_some());
+        window.get_by_role_and_label(Role::CheckBox, label).click();
+        window.run();
+    };
+    toggle(&mut window, "Only some pieces");
+    wait_until(&mut window, |window| warns_or_remarks(window, "No piece of the boundary is chosen"));
+    assert_eq!(level_at(&window, west), coarse, "a rectangle has no land");
+    toggle(&mut window, "open west");
+    assert!(level_at(&window, west) == fine && level_at(&window, south) < fine);
+    // A type that is set later counts.
+    let pieces = window.state().session.boundary_pieces().unwrap();
+    let marks = pieces.retyped(&BoundaryMarks::default(), 0, Some(BoundaryType::Land));
+    assert_eq!(pieces.list()[0].name, "open south");
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::BoundaryMarks(marks))));
+    assert_eq!(level_at(&window, south), fine);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert!(level_at(&window, south) < fine);
+    toggle(&mut window, "All of the type open");
+    assert_eq!(level_at(&window, south), fine);
+}
+
+/// Returns whether the panel has a sentence with these words.
+fn warns_or_remarks(window: &Window, words: &str) -> bool {
+    window.query_all_by(|node| node.label().is_some_and(|text| text.contains(words))).next().is_some()
+}
+
+#[test]
+fn a_formula_of_the_depth_needs_a_layer_of_depths() {
+    let file = written("formula", "depths.asc", DEPTHS);
+    let mut window = window_of(TALL);
+    select(&mut window, "Base");
+    type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.01*abs(depth)");
+    assert!(wait_for_notice(&mut window).contains("there are no depths"), "{}", notice(&window));
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| active(window).name == "depths.asc");
+    select(&mut window, "Base");
+    type_into(&mut window, "Target diameter h̄(x, y)", "0.02 + 0.01*abs(depth)");
+    let LayerKind::Formula { formula, .. } = &active(&window).kind else { panic!("a formula") };
+    assert!(formula.uses_depth());
+    // 30 m deep, at the shore, 60 m high, and unknown.
+    let levels = [(0.2, 0.8), (0.8, 0.8), (0.2, 0.2)].map(|(x, y)| level_at(&window, dvec2(x, y)));
+    assert!(levels[1] > levels[0] && levels[0] >= levels[2], "{levels:?}");
 }
 
 #[test]

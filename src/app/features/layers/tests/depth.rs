@@ -5,17 +5,18 @@ use std::fs;
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
-    RESTING_PLACE, TALL, Window, active, click_button, entries, folder, on_screen, send, settings, triangles,
-    type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
+    RESTING_PLACE, TALL, Window, active, click_button, entries, folder, notice, on_screen, send, settings,
+    triangles, type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
 };
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{DepthRule, DepthSizes, LayerKind, PositiveDepth, Straits};
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// Heights that fall from 10 m in the west to -190 m in the east, over 20 km.
@@ -81,6 +82,34 @@ fn sizes_need_a_document_in_metres() {
     click_on(&mut window, Role::RadioButton, "Wavelength");
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
     assert!(window.query_by_label_contains("need a document in metres").is_some());
+}
+
+#[test]
+fn the_contour_of_a_layer_becomes_the_domain() {
+    let file = folder("app-layer-contour", "contour").join("bay.asc");
+    // A bay that is open in the south, with an island of one pixel.
+    let rows = ["9 9 9 9 9 9", "9 -5 -5 -5 -5 9", "9 -5 -5 2 -5 9", "9 -5 -5 -5 -5 9", "9 -5 -5 -5 -5 9"];
+    let head = "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\n";
+    fs::write(&file, head.to_owned() + &rows.join("\n")).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| active(window).name == "bay.asc");
+    let domain = |window: &Window| settings(window).domain.clone();
+    let before = domain(&window);
+    click_button(&mut window, "Use the contour as the domain");
+    wait_until(&mut window, |window| domain(window) != before);
+    let found = domain(&window);
+    let rings: Vec<_> = found.region().unwrap().rings().collect();
+    assert_eq!((rings.len(), found.bounds), (2, Rect::new(DVec2::ZERO, DVec2::ONE)));
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    assert_eq!(domain(&window), before);
+    type_into(&mut window, "Smallest island", "0.05");
+    click_button(&mut window, "Use the contour as the domain");
+    wait_until(&mut window, |window| domain(window) != before);
+    assert_eq!(domain(&window).region().unwrap().rings().count(), 1);
+    type_into(&mut window, "Contour", "50");
+    click_button(&mut window, "Use the contour as the domain");
+    assert!(wait_for_notice(&mut window).contains("no pixel is deeper than 50 m"), "{}", notice(&window));
 }
 
 #[test]

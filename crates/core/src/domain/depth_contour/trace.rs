@@ -1,0 +1,238 @@
+//! Traces the outline of water through the centres of pixels (marching squares).
+//!
+//! Nodes are the centres of pixels and, around them, places on the sides of the raster that have the depths
+//! of the last pixels. Beyond these there is no water.
+//!
+//! ```text
+//!   3 ──2── 2      edges of a square between four nodes, and its corners; segments lead from an edge
+//!   3       1      at which the way around the square leaves the water to one at which it enters it,
+//!   0 ──0── 1      so that the water is on their left
+//! ```
+
+use std::collections::HashMap;
+
+use glam::DVec2;
+
+use super::super::Ring;
+use crate::geometry::Rect;
+
+/// How far a crossing is from both nodes, at least, as a share of the way between them.
+const OFF_NODE: f64 = 1.0 / 1024.0;
+
+/// The pixels to trace.
+pub(super) struct Water<'a> {
+    pub bounds: Rect,
+    pub size: [u32; 2],
+    pub depths: &'a [f32],
+    pub level: f64,
+    /// The pixels that count: all of them are deeper than the level.
+    pub water: &'a [bool],
+}
+
+/// A ring with the water on its left.
+pub(super) struct TracedRing {
+    pub points: Ring,
+    /// The number of the ring around the water, if this one is an island in it.
+    pub around: Option<usize>,
+}
+
+/// A node by column and row: 0 is on a side of the raster, and −1 beyond it.
+type Node = [i64; 2];
+
+/// An edge from a node to the next one along an axis.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Edge {
+    node: Node,
+    axis: usize,
+}
+
+impl Edge {
+    fn ends(self) -> [Node; 2] {
+        let mut end = self.node;
+        end[self.axis] += 1;
+        [self.node, end]
+    }
+}
+
+impl Water<'_> {
+    /// Returns the number of the pixel of a node, unless it is beyond the sides.
+    fn pixel(&self, node: Node) -> Option<usize> {
+        let [columns, rows] = self.size.map(i64::from);
+        let is_node = (0..=columns + 1).contains(&node[0]) && (0..=rows + 1).contains(&node[1]);
+        let [x, y] = [(node[0] - 1).clamp(0, columns - 1), (node[1] - 1).clamp(0, rows - 1)];
+        is_node.then_some((y * columns + x) as usize)
+    }
+
+    fn is_water(&self, node: Node) -> bool {
+        self.pixel(node).is_some_and(|pixel| self.water[pixel])
+    }
+
+    /// Returns the depth at a node, if it is known.
+    fn depth(&self, node: Node) -> Option<f64> {
+        let depth = f64::from(self.depths[self.pixel(node)?]);
+        (!depth.is_nan()).then_some(depth)
+    }
+
+    fn place(&self, node: Node) -> DVec2 {
+        let Rect { min, max } = self.bounds;
+        let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+        let pixel = (max - min) / size;
+        let along = |axis: usize| match node[axis] {
+            n if n <= 0 => min[axis],
+            n if n > i64::from(self.size[axis]) => max[axis],
+            n => min[axis] + (n as f64 - 0.5) * pixel[axis],
+        };
+        DVec2::new(along(0), along(1))
+    }
+
+    /// Returns the place where the outline crosses an edge with water at one end.
+    fn crossing(&self, edge: Edge) -> DVec2 {
+        let [a, b] = edge.ends();
+        let (wet, dry) = if self.is_water(a) { (a, b) } else { (b, a) };
+        if self.pixel(dry).is_none() {
+            return self.place(wet);
+        }
+        let share = match (self.depth(wet), self.depth(dry)) {
+            // Water that was closed is deeper than the level.
+            (Some(deep), Some(shallow)) if shallow <= self.level => {
+                ((deep - self.level) / (deep - shallow)).clamp(OFF_NODE, 1.0 - OFF_NODE)
+            }
+            _ => 0.5,
+        };
+        // Exact along a side, where both have the same coordinate.
+        let [wet, dry] = [wet, dry].map(|node| self.place(node));
+        wet + share * (dry - wet)
+    }
+
+    /// Returns whether the water of opposite corners of a square is joined in its middle.
+    fn is_joined(&self, corners: [Node; 4]) -> bool {
+        let known = corners.map(|node| self.depth(node).filter(|_| self.is_traced(node)));
+        let sum: Option<f64> = known.into_iter().sum();
+        sum.is_some_and(|sum| 0.25 * sum > self.level)
+    }
+
+    /// Returns whether a node is water, or shallower than the level: not water that was closed.
+    fn is_traced(&self, node: Node) -> bool {
+        self.is_water(node) || self.depth(node).is_some_and(|depth| depth <= self.level)
+    }
+
+    /// Adds the segments in the square above and to the right of a node, each from an edge to another one.
+    fn add_segments(&self, [x, y]: Node, next: &mut HashMap<Edge, Edge>) {
+        let corners = [[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]];
+        let wet = corners.map(|node| self.is_water(node));
+        if wet == [wet[0]; 4] {
+            return;
+        }
+        let edges = [([x, y], 0), ([x + 1, y], 1), ([x, y + 1], 0), ([x, y], 1)];
+        let edges = edges.map(|(node, axis)| Edge { node, axis });
+        let leaves = |n: usize| wet[n] && !wet[(n + 1) % 4];
+        let enters = |n: usize| !wet[n] && wet[(n + 1) % 4];
+        let is_saddle = wet[0] == wet[2] && wet[1] == wet[3];
+        let is_joined = is_saddle && self.is_joined(corners);
+        for from in (0..4).filter(|&n| leaves(n)) {
+            // Around the dry corners that follow, or, where water meets at a corner only, around the wet one.
+            let step = if is_saddle && !is_joined { 3 } else { 1 };
+            let ways = (1..4).map(|count| (from + step * count) % 4);
+            if let Some(to) = ways.into_iter().find(|&n| enters(n)) {
+                next.insert(edges[from], edges[to]);
+            }
+        }
+    }
+}
+
+/// Returns the rings of the outline of water.
+pub(super) fn rings(water: &Water) -> Vec<TracedRing> {
+    let [columns, rows] = water.size.map(i64::from);
+    let mut next: HashMap<Edge, Edge> = HashMap::new();
+    for y in -1..=rows + 1 {
+        (-1..=columns + 1).for_each(|x| water.add_segments([x, y], &mut next));
+    }
+    let mut crossed: HashMap<i64, Vec<(i64, usize)>> = HashMap::new();
+    let mut found: Vec<(Vec<Edge>, f64)> = Vec::new();
+    // In the order of the nodes, so that the rings are, too.
+    for y in -1..=rows + 1 {
+        for x in -1..=columns + 1 {
+            let start = Edge { node: [x, y], axis: 0 };
+            let mut edges = Vec::new();
+            let mut edge = start;
+            while let Some(following) = next.remove(&edge) {
+                edges.push(edge);
+                edge = following;
+            }
+            if edges.is_empty() {
+                continue;
+            }
+            for edge in edges.iter().filter(|edge| edge.axis == 0) {
+                crossed.entry(edge.node[1]).or_default().push((edge.node[0], found.len()));
+            }
+            let turns = turning_area(&edges);
+            found.push((edges, turns));
+        }
+    }
+    crossed.values_mut().for_each(|row| row.sort_unstable());
+    let around = outer_rings(&found, &crossed);
+    let ring = |((edges, _), around): (&(Vec<Edge>, f64), Option<usize>)| TracedRing {
+        points: without_needless(edges.iter().map(|&edge| water.crossing(edge)).collect(), &water.bounds),
+        around,
+    };
+    found.iter().zip(around).map(ring).collect()
+}
+
+/// Returns the area of a ring between the middles of its edges, in squares, above zero where it is
+/// counter-clockwise.
+fn turning_area(edges: &[Edge]) -> f64 {
+    let middle = |edge: &Edge| {
+        let [a, b] = edge.ends();
+        [0, 1].map(|axis: usize| (a[axis] + b[axis]) as f64 * 0.5)
+    };
+    let pairs = edges.iter().zip(edges.iter().cycle().skip(1));
+    pairs.map(|(a, b)| (middle(a), middle(b))).map(|(a, b)| 0.5 * (a[0] * b[1] - a[1] * b[0])).sum()
+}
+
+/// Returns for each ring the outer ring of the water in which it is an island, if it is one.
+///
+/// To the left of the leftmost crossing of an island there is water, up to the next crossing: that is one of
+/// the ring around this water, or of another island in it, which reaches farther to the left.
+fn outer_rings(rings: &[(Vec<Edge>, f64)], crossed: &HashMap<i64, Vec<(i64, usize)>>) -> Vec<Option<usize>> {
+    let mut outer: Vec<Option<usize>> = vec![None; rings.len()];
+    let leftmost = |number: usize| {
+        let along_rows = rings[number].0.iter().filter(|edge| edge.axis == 0);
+        along_rows.map(|edge| edge.node).min()
+    };
+    let left_of = |number: usize| {
+        let [x, y] = leftmost(number)?;
+        let row = crossed.get(&y)?;
+        let place = row.partition_point(|&(column, _)| column < x);
+        row.get(place.checked_sub(1)?).map(|&(_, ring)| ring)
+    };
+    for number in (0..rings.len()).filter(|&n| rings[n].1 < 0.0) {
+        let mut way = vec![number];
+        let mut at = number;
+        while let Some(left) = left_of(at) {
+            at = left;
+            if rings[at].1 > 0.0 || outer[at].is_some() {
+                break;
+            }
+            way.push(at);
+        }
+        let around = outer[at].or((rings[at].1 > 0.0).then_some(at));
+        way.into_iter().for_each(|island| outer[island] = around);
+    }
+    outer
+}
+
+/// Returns a ring without points that repeat the one before, or lie between two others on a side.
+fn without_needless(mut ring: Ring, bounds: &Rect) -> Ring {
+    ring.dedup();
+    while ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+    }
+    let count = ring.len();
+    let is_on_one_side = |n: usize| {
+        let points = [ring[(n + count - 1) % count], ring[n], ring[(n + 1) % count]];
+        (0..2).any(|axis: usize| {
+            [bounds.min[axis], bounds.max[axis]].iter().any(|&side| points.iter().all(|p| p[axis] == side))
+        })
+    };
+    (0..count).filter(|&n| !is_on_one_side(n)).map(|n| ring[n]).collect()
+}

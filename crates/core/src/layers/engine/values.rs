@@ -1,0 +1,105 @@
+//! Where the values of a layer come from.
+
+use std::sync::{Arc, OnceLock};
+
+use crate::field::Formula;
+use crate::geometry::Lattice;
+use crate::layers::{DistanceTo, Layer, Quantity, Shapes};
+use crate::raster::{PixelGrid, RasterPyramid, ValueRange, ValueRanges};
+
+use super::analytic::{Analytic, Function, Profile};
+use super::cells::GridOnLattice;
+use super::depth_formula::DepthFormula;
+
+/// The source of the values of a layer.
+#[derive(Clone, Debug)]
+pub(super) enum Values {
+    /// There are none.
+    Nothing,
+    /// One value everywhere.
+    Constant(Analytic),
+    /// Painted pixels, which are passed with each question.
+    Paint(PaintGrid),
+    /// The pixels of a raster.
+    Raster { raster: Arc<RasterPyramid>, gap: f32, grid: GridOnLattice },
+    /// A function of the point.
+    Analytic(Analytic),
+    /// A function of the point and the depth there.
+    Depth(DepthFormula),
+}
+
+/// The grid of the painted pixels on the lattice, as of the first question: it hardly ever changes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PaintGrid(OnceLock<(PixelGrid, GridOnLattice)>);
+
+impl PaintGrid {
+    #[inline]
+    pub fn on_lattice(&self, grid: &PixelGrid, lattice: &Lattice) -> GridOnLattice {
+        let (of, on_lattice) = self.0.get_or_init(|| (*grid, GridOnLattice::new(grid, lattice)));
+        if of == grid { *on_lattice } else { GridOnLattice::new(grid, lattice) }
+    }
+}
+
+impl Values {
+    pub fn of_raster(raster: &Arc<RasterPyramid>, gap: f32, lattice: &Lattice) -> Self {
+        let grid = GridOnLattice::new(raster.grid(), lattice);
+        Self::Raster { raster: raster.clone(), gap, grid }
+    }
+
+    pub fn of_distance(to: &DistanceTo, profile: Profile, outline: Option<&Shapes>) -> Self {
+        let shapes = match to {
+            DistanceTo::Outline => outline,
+            DistanceTo::Coasts
+            | DistanceTo::Pieces(_)
+            | DistanceTo::Shapes { .. }
+            | DistanceTo::Corridor { .. } => to.shapes(),
+        };
+        shapes.cloned().map_or(Self::Nothing, |shapes| {
+            Self::Analytic(Analytic::new(Function::Distance { shapes, profile }, Quantity::Diameter))
+        })
+    }
+
+    /// Returns the diameters that a function gives.
+    pub fn of_diameters(function: Function) -> Self {
+        Self::Analytic(Analytic::new(function, Quantity::Diameter))
+    }
+
+    /// Returns the values of a formula in a stack of layers.
+    pub fn of_formula(quantity: Quantity, formula: &Formula, stack: &[Layer], lattice: &Lattice) -> Self {
+        let analytic = Analytic::new(Function::Formula(formula.clone()), quantity);
+        match formula.constant() {
+            _ if formula.uses_depth() => Self::Depth(DepthFormula::new(formula, quantity, stack, lattice)),
+            Some(_) => Self::Constant(analytic),
+            None => Self::Analytic(analytic),
+        }
+    }
+}
+
+/// A raster in which places without a value have a given one.
+pub(super) struct WithGaps<'a> {
+    pub raster: &'a RasterPyramid,
+    pub gap: f32,
+}
+
+impl ValueRanges for WithGaps<'_> {
+    fn grid(&self) -> &PixelGrid {
+        self.raster.grid()
+    }
+
+    fn coarsest(&self) -> i32 {
+        self.raster.coarsest()
+    }
+
+    #[inline]
+    fn range(&self, scale: i32, x: i32, y: i32) -> ValueRange {
+        self.raster.range_with_gaps(scale, x, y, self.gap)
+    }
+
+    fn whole_range(&self) -> ValueRange {
+        self.raster.whole().with_gaps(self.gap)
+    }
+
+    fn finest(&self) -> i32 {
+        0
+    }
+}

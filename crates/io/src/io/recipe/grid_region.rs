@@ -1,0 +1,52 @@
+//! A region that is a contour of a grid of heights or depths.
+
+use std::path::Path;
+
+use super::super::geojson::Outline;
+use super::super::settings::RegionCoordinates;
+use super::super::{GridPlace, GridWindow, Meter, RasterFormat, ReadRaster};
+use super::LoadError;
+use meshbrush_core::domain::{NamedPolygon, PixelLengths, Polygon};
+use meshbrush_core::layers::{DepthRule, DepthSizes, PositiveDepth};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
+
+/// Returns the polygons of the water of a grid in its own coordinates. Without a projection, only the part in
+/// `bounds` is read where these are given.
+///
+/// # Errors
+/// Fails when the file cannot be read, does not say where it lies, or has no water.
+pub fn contour_of_grid(
+    file: &Path,
+    format: RasterFormat,
+    bounds: Option<Rect>,
+    region: &RegionCoordinates,
+    meter: &Meter,
+) -> Result<Outline, LoadError> {
+    let unsuited = |problem: &str| LoadError::Unsuited(format!("{}: {problem}", file.display()));
+    let ReadRaster::Grid(read) = format.read() else {
+        return Err(unsuited(
+            "a region from a contour needs a grid that says where it lies, such as .asc, .tif or .nc.",
+        ));
+    };
+    let area = bounds.filter(|_| region.projection.is_none());
+    let window = area.map(|area| GridWindow { area, plane: None });
+    let grid = read(file, &GridPlace { over: None, window }, meter)?;
+    let coordinates = grid.coordinates().assuming(region.assumed);
+    let lengths = match coordinates.unit() {
+        LengthUnit::Degree => PixelLengths::Degrees,
+        _ => PixelLengths::Plane,
+    };
+    let depth_of = depth_of(region.positive);
+    let polygons = region.contour.polygons(&grid.raster, lengths, depth_of);
+    let polygons = polygons.map_err(|error| unsuited(&error.to_string()))?;
+    let unnamed = |polygon: Polygon| NamedPolygon { polygon, name: String::new() };
+    Ok(Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates })
+}
+
+/// Returns the depth for a value.
+fn depth_of(positive: PositiveDepth) -> impl Fn(f64) -> f64 {
+    let sizes =
+        DepthSizes { positive, offset: 0.0, between: DepthSizes::ALL_WATER, rule: DepthRule::Nothing };
+    move |value| sizes.depth_of(value)
+}
