@@ -76,8 +76,8 @@ impl SavedSettings {
 }
 
 impl SavedLayer {
-    /// Returns the layer that a table states, with the keys of a recipe, for a document that has `others`. Files
-    /// are as for [`SavedSettings::of_value`].
+    /// Returns the layer that a table states, with the keys of a recipe, for a document that has `others`.
+    /// Files are as for [`SavedSettings::of_value`].
     ///
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
