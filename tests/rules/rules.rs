@@ -2,6 +2,7 @@
 
 mod architecture;
 mod public_api;
+mod python;
 mod source;
 
 /// The root of the repository.

@@ -8,16 +8,16 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
-use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, RefinementCriterion};
+use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use meshbrush_core::earth::{Coordinates, EdgeLengths};
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
 use meshbrush_core::outline::DerivedMesh;
-use meshbrush_io::io::Meter;
+use meshbrush_io::io::{Cancelled, Meter};
 use meshbrush_mesh::mesh::{
-    CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId,
+    Cleaning, CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId,
 };
 use meshbrush_mesh::text::{Grouped, LengthUnit};
 
@@ -29,22 +29,64 @@ pub struct FinishedMesh {
     built: BuiltMesh,
     /// The differences of the exported mesh from the mesh.
     pub derived: DerivedMesh,
-    /// The paint of the layers.
-    paint: PaintLayers,
-    limits: Limits,
-    domain: Domain,
-    marks: Arc<BoundaryMarks>,
-    /// The unit of coordinates and lengths.
-    pub unit: LengthUnit,
-    /// The coordinates of exported files, unless others are asked for; see [`ToMesh`].
-    pub coordinates: Coordinates,
+    origin: MeshOrigin,
     /// Time spent on refinement alone.
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
     pub capped: usize,
 }
 
+/// What a mesh was made from, beside its size field.
+pub struct MeshOrigin {
+    /// The paint of the layers.
+    pub paint: PaintLayers,
+    /// Which triangles stay.
+    pub cleaning: Cleaning,
+    /// The limits of the mesh.
+    pub limits: Limits,
+    /// The domain.
+    pub domain: Domain,
+    /// Names and types of its boundary.
+    pub marks: Arc<BoundaryMarks>,
+    /// The unit of coordinates and lengths.
+    pub unit: LengthUnit,
+    /// The coordinates of exported files, unless others are asked for; see [`ToMesh`].
+    pub coordinates: Coordinates,
+}
+
 impl FinishedMesh {
+    /// Puts a mesh together.
+    ///
+    /// # Errors
+    /// Fails when nothing is left of the mesh in the domain.
+    pub fn new(
+        built: BuiltMesh,
+        derived: DerivedMesh,
+        origin: MeshOrigin,
+        refinement: Duration,
+        capped: usize,
+    ) -> Result<Self, CoarseError> {
+        if derived.patch().leaves_nothing_of(&built.mesh) {
+            return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() });
+        }
+        Ok(Self { built, derived, origin, refinement, capped })
+    }
+
+    /// Returns the mesh with its size field.
+    pub fn built(&self) -> &BuiltMesh {
+        &self.built
+    }
+
+    /// Returns the unit of coordinates and lengths.
+    pub fn unit(&self) -> LengthUnit {
+        self.origin.unit
+    }
+
+    /// Returns the coordinates of exported files, unless others are asked for; see [`ToMesh`].
+    pub fn coordinates(&self) -> Coordinates {
+        self.origin.coordinates
+    }
+
     /// Returns the mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.built.mesh
@@ -57,26 +99,27 @@ impl FinishedMesh {
 
     /// Returns the polygons of the domain, if it has some.
     pub fn region(&self) -> Option<&Region> {
-        self.domain.region().map(|region| &**region)
+        self.origin.domain.region().map(|region| &**region)
     }
 
     /// Returns the boundary of the mesh as files get it, in named pieces.
     pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
-        MeshBoundary::new(extract, &self.domain, &self.marks)
+        MeshBoundary::new(extract, &self.origin.domain, &self.origin.marks)
     }
 
     /// Returns the names, types and splits of the boundary that are not on it, a sentence each.
     pub fn misplaced_marks(&self, boundary: &MeshBoundary) -> Vec<String> {
         let pieces = boundary.pieces();
         let is_off = |place: &DVec2| pieces.nearest(*place, pieces.tolerance()).is_none();
-        let names = self.marks.names.iter().filter(|(place, _)| is_off(place)).map(|(place, name)| {
+        let names = self.origin.marks.names.iter().filter(|(place, _)| is_off(place)).map(|(place, name)| {
             format!("The name “{name}” at {}, {} is not on the boundary: it names nothing.", place.x, place.y)
         });
-        let types = self.marks.types.iter().filter(|(place, _)| is_off(place)).map(|(place, of_piece)| {
-            let (word, x, y) = (of_piece.word(), place.x, place.y);
-            format!("The type “{word}” at {x}, {y} is not on the boundary: no piece has it.")
-        });
-        let splits = self.marks.splits.iter().filter(|place| is_off(place)).map(|place| {
+        let types =
+            self.origin.marks.types.iter().filter(|(place, _)| is_off(place)).map(|(place, of_piece)| {
+                let (word, x, y) = (of_piece.word(), place.x, place.y);
+                format!("The type “{word}” at {x}, {y} is not on the boundary: no piece has it.")
+            });
+        let splits = self.origin.marks.splits.iter().filter(|place| is_off(place)).map(|place| {
             format!("The split at {}, {} is not on the boundary: it splits nothing.", place.x, place.y)
         });
         names.chain(types).chain(splits).collect()
@@ -90,36 +133,34 @@ impl FinishedMesh {
     /// h̄ at a point of the domain, both in world units, as the rule sees it. Where it is impossible, the
     /// impossible value.
     pub fn target_at(&self, point: DVec2) -> f64 {
-        self.built.field.target_by_rule(self.built.rule, &self.paint, point)
+        self.built.field.target_by_rule(self.built.rule, &self.origin.paint, point)
     }
 
-    /// h̄ at every node, in world units.
-    pub fn target_at_nodes(&self, extract: &Extract, terminal: &mut Terminal) -> Vec<f64> {
+    /// h̄ at every node, in world units. The meter counts nodes.
+    ///
+    /// # Errors
+    /// Fails when the work was cancelled.
+    pub fn target_at_nodes(&self, extract: &Extract, meter: &Meter) -> Result<Vec<f64>, Cancelled> {
         let BuiltMesh { field, rule, .. } = &self.built;
-        let meter = Meter::default();
         meter.expect(extract.nodes().len() as u64);
-        let count = || meter.add(NODES_AT_A_TIME);
-        let targets = terminal.while_metered("target diameters at nodes", &meter, || {
-            field.targets_at_nodes(*rule, &self.paint, extract, count)
-        });
-        targets.expect("nobody cancels this meter")
+        field.targets_at_nodes(*rule, &self.origin.paint, extract, || meter.add(NODES_AT_A_TIME))
     }
 
     /// Returns the risk of the layers.
     pub fn risk(&self) -> RiskField {
-        RiskField::new(self.layers(), &self.paint).within(&self.domain.bounds)
+        RiskField::new(self.layers(), &self.origin.paint).within(&self.origin.domain.bounds)
     }
 
     /// Returns the domain, in world units.
     pub fn domain(&self) -> &Domain {
-        &self.domain
+        &self.origin.domain
     }
 
     /// Returns why a triangle is in the mesh.
     pub fn explanation(&self, id: TriangleId) -> Explanation {
         let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
-        let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.paint));
-        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.limits)
+        let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.origin.paint));
+        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.limits)
     }
 
     /// Returns the diameters of triangles, which targets are compared with.
@@ -137,7 +178,7 @@ impl FinishedMesh {
     /// # Errors
     /// Fails when a target is impossible.
     pub fn unsatisfied(&self) -> Result<Vec<TriangleId>, InvalidTarget> {
-        self.built.unsatisfied(Some(&self.paint))
+        self.built.unsatisfied(Some(&self.origin.paint))
     }
 }
 
@@ -154,19 +195,24 @@ pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Fai
 /// # Errors
 /// Fails when the target is impossible somewhere, or a limit is reached.
 pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let ToMesh { spec, paint, marks, unit, coordinates, paths: _ } = read;
-    let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
+    let (spec, origin) = read.parts();
     let mut builder = MeshBuilder::new(spec);
-    let refinement = run(&mut builder, &paint, terminal);
+    let refinement = run(&mut builder, &origin.paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
-    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &cleaning);
+    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
-    if derived.patch().leaves_nothing_of(&built.mesh) {
-        return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() }.into());
+    Ok(FinishedMesh::new(built, derived, origin, refinement, capped)?)
+}
+
+impl ToMesh {
+    /// Returns the description of the mesh, and what else its answers need.
+    pub fn parts(self) -> (MeshSpec, MeshOrigin) {
+        let Self { spec, paint, marks, unit, coordinates, paths: _ } = self;
+        let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
+        (spec, MeshOrigin { paint, cleaning, limits, domain, marks, unit, coordinates })
     }
-    Ok(FinishedMesh { built, derived, paint, limits, domain, marks, unit, coordinates, refinement, capped })
 }
 
 /// Builds in slices. Returns the time spent on refinement.

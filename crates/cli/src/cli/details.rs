@@ -47,7 +47,19 @@ impl MeshDetails {
         coordinates: OutputCoordinates,
         uses: DetailUses,
     ) -> Result<Self, NoDepth> {
-        let provenance = provenance(finished, line, input, coordinates);
+        Self::with_provenance(finished, extract, provenance(finished, line, input, coordinates), uses)
+    }
+
+    /// Collects the details of an exported mesh with this origin.
+    ///
+    /// # Errors
+    /// Fails as [`Self::of`] does.
+    pub fn with_provenance(
+        finished: &FinishedMesh,
+        extract: &Extract,
+        provenance: Provenance,
+        uses: DetailUses,
+    ) -> Result<Self, NoDepth> {
         let layers = finished.layers();
         let depths = match uses.json || uses.node_data {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
@@ -79,14 +91,24 @@ pub fn provenance(
     coordinates: OutputCoordinates,
 ) -> Provenance {
     let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
+    let file = file.map(|file| file.display().to_string());
+    provenance_from(finished, MeshSource::Command(line), file.as_deref(), coordinates)
+}
+
+/// Returns the origin of a mesh. `file` has the coordinates of the domain, if one has them.
+pub fn provenance_from(
+    finished: &FinishedMesh,
+    source: MeshSource,
+    file: Option<&str>,
+    coordinates: OutputCoordinates,
+) -> Provenance {
     let meaning = match (finished.domain().projection, file) {
         (Some(plane), _) => format!("x, y in {plane}"),
-        (None, Some(file)) => format!("x, y as in {}", file.display()),
+        (None, Some(file)) => format!("x, y as in {file}"),
         (None, None) => "x, y".to_owned(),
     };
-    let fingerprint = finished.mesh().fingerprint();
-    let provenance = Provenance::new(MeshSource::Command(line), fingerprint, &meaning);
-    let provenance = provenance.with_unit(finished.unit);
+    let provenance = Provenance::new(source, finished.mesh().fingerprint(), &meaning);
+    let provenance = provenance.with_unit(finished.unit());
     let coordinates = match coordinates {
         OutputCoordinates::Plane => return provenance,
         OutputCoordinates::Lonlat => Coordinates::Geographic,

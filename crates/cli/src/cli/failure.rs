@@ -1,3 +1,5 @@
+//! Why a command did not do its work.
+
 use std::io;
 use std::path::PathBuf;
 

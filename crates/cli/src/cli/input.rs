@@ -177,7 +177,7 @@ impl Input {
         let most_coarse = self.settings.mesh.max_triangles.unwrap_or(USUAL_BUDGET);
         // Without a memory budget, the mesh may take what its triangles take.
         let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
-        let loading = Loading { usual, with_hidden: false, read_outline, meter };
+        let loading = Loading { usual, with_hidden: false, read_outline, ..Loading::for_document(meter) };
         Ok(terminal.while_metered("reading", meter, || self.settings.load_files("", &loading))?)
     }
 }

@@ -39,7 +39,7 @@ pub fn run(
     outputs.try_for_each(|output| output.check_places(&inputs))?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
-    let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates.into());
+    let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
     let violations = match typed.checks {
         true => Some(report_violations(&finished, &extract, input.settings.mesh.max_level, terminal)?),
         false => None,

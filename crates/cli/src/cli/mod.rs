@@ -5,20 +5,20 @@
 //! with a sentence; 2: wrong usage.
 
 mod args;
-mod build;
+pub mod build;
 mod command_line;
-mod details;
+pub mod details;
 mod distance_args;
-mod earth_args;
-mod failure;
+pub mod earth_args;
+pub mod failure;
 mod help;
-mod input;
+pub mod input;
 mod lengths;
 mod locate;
 mod mesh;
 mod more_args;
 mod options;
-mod output;
+pub mod output;
 mod path;
 mod path_args;
 mod points;
@@ -26,12 +26,12 @@ mod quantities;
 mod recipe;
 mod replay;
 mod report;
-mod requested_files;
+pub mod requested_files;
 mod run_clock;
-mod summary;
+pub mod summary;
 mod terminal;
 mod water;
-mod why;
+pub mod why;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -62,13 +62,18 @@ pub struct Window {
 
 /// Runs the program. `arguments` begin with its name; `window` is `None` in a build without one.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> ExitCode {
+    ExitCode::from(status_of(arguments, window))
+}
+
+/// Runs the program as [`run`] does, and returns its exit status.
+pub fn status_of(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>) -> u8 {
     let typed: Vec<OsString> = arguments.into_iter().collect();
     let arguments = match Arguments::read(&typed) {
         Ok(arguments) => arguments,
         Err(answer) => {
             // Help and version too come as an "error", with status 0. A closed pipe is no error.
             let _ = answer.print();
-            return ExitCode::from(answer.exit_code() as u8);
+            return answer.exit_code() as u8;
         }
     };
     if let Some(threads) = arguments.threads {
@@ -76,11 +81,11 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, window: Option<Window>
     }
     let mut terminal = Terminal::new();
     match run_command(arguments, &command_line(&typed), window, &mut terminal) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
+        Ok(()) => 0,
+        Err(failure) if failure.is_closed_pipe() => 0,
         Err(failure) => {
             terminal.say(&format!("meshbrush: {failure}"));
-            ExitCode::from(failure.exit_status())
+            failure.exit_status()
         }
     }
 }

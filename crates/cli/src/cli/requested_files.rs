@@ -13,9 +13,9 @@ use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, NodeValues};
-use meshbrush_mesh::mesh::Extract;
-use meshbrush_render::render::export::ExportFormat;
+use meshbrush_io::io::{Cancelled, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues};
+use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_render::render::export::{ExportFormat, Look};
 
 /// Files with one look and the same values at the nodes.
 #[derive(Debug)]
@@ -63,7 +63,10 @@ impl RequestedFiles {
         let path = &saved.file;
         ExportFormat::of(path).map_err(|error| KeyFault::value("file", error.to_string()))?;
         let file = Output::new(path, None, saved.binary);
-        let file = file.map_err(|failure| KeyFault::value("file", failure.to_string()))?;
+        Self::of_checked(saved, file.map_err(|failure| KeyFault::value("file", failure.to_string()))?)
+    }
+
+    fn of_checked(saved: &SavedOutput, file: Output) -> Result<Self, KeyFault> {
         check_use(saved, &file)?;
         let look = RequestedLook::of_saved(saved)?;
         let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
@@ -123,40 +126,22 @@ pub fn write_files(
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
     let mesh = finished.mesh();
-    let domain = finished.domain();
-    let nodes = match coordinates {
-        OutputCoordinates::Lonlat => domain.nodes_in(&Coordinates::Geographic, extract),
-        OutputCoordinates::Plane => None,
-        OutputCoordinates::Other(coordinates) => {
-            let nodes = domain.nodes_in(&coordinates, extract);
-            Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
-        }
-    };
-    let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
+    let placed = in_coordinates(finished, extract, coordinates)?;
     let placed = placed.as_ref().unwrap_or(extract);
     let mut outputs = requested.iter().flat_map(|files| &files.outputs);
     let target_diameter = match outputs.any(Output::has_targets) {
-        true => finished.target_at_nodes(extract, terminal),
+        true => {
+            let (what, meter) = ("target diameters at nodes", Meter::default());
+            let targets = terminal.while_metered(what, &meter, || finished.target_at_nodes(extract, &meter));
+            targets.expect("nobody cancels this meter")
+        }
         false => Vec::new(),
     };
-    let MeshDetails { boundary, parts, provenance, depths, straits: _ } = details;
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     for files in requested {
         let look = files.look.for_mesh(mesh);
-        let mut quantities: Vec<NodeValues> = match files.wants_node_data() {
-            true => files
-                .quantities
-                .iter()
-                .map(|quantity| quantity.at_nodes(extract))
-                .collect::<Result<_, _>>()?,
-            false => Vec::new(),
-        };
-        let has_own = quantities.iter().any(|quantity| quantity.name == DEPTH);
-        let of_layers = depths.as_ref().filter(|_| files.wants_node_data() && !has_own);
-        quantities
-            .extend(of_layers.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths.clone() }));
-        let (target_diameter, quantities) = (&target_diameter, &quantities);
-        let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
+        let quantities = files.values_at_nodes(extract, details, Vec::new())?;
+        let data = details.for_files(&target_diameter, &quantities);
         for output in &files.outputs {
             let meter = interruption.meter();
             let write = || output.write(mesh, placed, &data, &look, &meter);
@@ -168,4 +153,94 @@ pub fn write_files(
         }
     }
     Ok(())
+}
+
+impl RequestedFiles {
+    /// Returns the look of pictures of a mesh.
+    pub fn look_for(&self, mesh: &Mesh) -> Look {
+        self.look.for_mesh(mesh)
+    }
+
+    /// Returns the one file that the keys of a recipe's output request, in the format of this name where one
+    /// is given.
+    ///
+    /// # Errors
+    /// Fails for the first value that cannot be used.
+    pub fn of_keys(saved: &SavedOutput, format: Option<&str>) -> Result<Self, KeyFault> {
+        let fault = |failure: Failure| KeyFault::value("file", failure.to_string());
+        let file = Output::new(&saved.file, format, saved.binary).map_err(fault)?;
+        Self::of_checked(saved, file)
+    }
+
+    /// Writes files with `values` at the nodes beside what was requested, and returns their names.
+    ///
+    /// # Errors
+    /// Fails when a quantity is not finite somewhere, a file cannot be written, or the work was cancelled.
+    pub fn write(
+        &self,
+        finished: &FinishedMesh,
+        details: &MeshDetails,
+        coordinates: OutputCoordinates,
+        values: Vec<NodeValues>,
+        meter: &Meter,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let (mesh, extract) = (finished.mesh(), finished.extract());
+        let placed = in_coordinates(finished, &extract, coordinates)?;
+        let placed = placed.as_ref().unwrap_or(&extract);
+        let cancelled = |error: Cancelled| Failure::Work(error.to_string());
+        let target_diameter = match self.outputs.iter().any(Output::has_targets) {
+            true => finished.target_at_nodes(&extract, meter).map_err(cancelled)?,
+            false => Vec::new(),
+        };
+        let quantities = self.values_at_nodes(&extract, details, values)?;
+        let data = details.for_files(&target_diameter, &quantities);
+        let look = self.look.for_mesh(mesh);
+        let write = |output: &Output| output.write(mesh, placed, &data, &look, meter);
+        Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// Returns the values at the nodes: those given, the quantities, and the depths of layers, unless one of
+    /// them is called so.
+    fn values_at_nodes(
+        &self,
+        extract: &Extract,
+        details: &MeshDetails,
+        mut values: Vec<NodeValues>,
+    ) -> Result<Vec<NodeValues>, Failure> {
+        if !self.wants_node_data() {
+            return Ok(Vec::new());
+        }
+        for quantity in &self.quantities {
+            values.push(quantity.at_nodes(extract)?);
+        }
+        let has_own = values.iter().any(|values| values.name == DEPTH);
+        let of_layers = details.depths.as_ref().filter(|_| !has_own);
+        values
+            .extend(of_layers.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths.clone() }));
+        Ok(values)
+    }
+}
+
+impl MeshDetails {
+    fn for_files<'a>(&'a self, target_diameter: &'a [f64], quantities: &'a [NodeValues]) -> MeshData<'a> {
+        let Self { boundary, parts, provenance, depths: _, straits: _ } = self;
+        MeshData { target_diameter, quantities, boundary, parts, provenance }
+    }
+}
+
+/// Returns an extract with other coordinates, if these are not those of the mesh.
+fn in_coordinates<'a>(
+    finished: &FinishedMesh,
+    extract: &'a Extract,
+    coordinates: OutputCoordinates,
+) -> Result<Option<Extract<'a>>, Failure> {
+    let nodes = match coordinates {
+        OutputCoordinates::Lonlat => finished.domain().nodes_in(&Coordinates::Geographic, extract),
+        OutputCoordinates::Plane => None,
+        OutputCoordinates::Other(coordinates) => {
+            let nodes = finished.domain().nodes_in(&coordinates, extract);
+            Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
+        }
+    };
+    Ok(nodes.map(|nodes| extract.with_coordinates(nodes)))
 }

@@ -282,7 +282,7 @@ impl Summary {
         let boundary = details.map(|details| &details.boundary);
         Self {
             triangles: extract.triangles().len(),
-            unit: (finished.unit != LengthUnit::None).then(|| finished.unit.name()),
+            unit: (finished.unit() != LengthUnit::None).then(|| finished.unit().name()),
             nodes: extract.nodes().len(),
             area: match ground.inverse_scale() {
                 Some(_) => extract.area_by(|corners| ground.triangle_area(corners)),

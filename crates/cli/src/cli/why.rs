@@ -26,19 +26,19 @@ pub fn run(typed: &WhyArguments, out: &mut dyn Write, terminal: &mut Terminal) -
     let finished = build(&input, terminal)?;
     note_capped(&finished, terminal);
     let mesh = finished.mesh();
-    let location = mesh.locate(point.in_domain(finished.domain().projection, finished.unit)?);
+    let location = mesh.locate(point.in_domain(finished.domain().projection, finished.unit())?);
     let id = location.triangle().ok_or_else(|| nowhere(&typed.point, &location, mesh))?;
     let explanation = terminal.while_working("looking for the cause", || finished.explanation(id));
     let text = if typed.json {
-        let answer = Answer::new(&finished, id, &explanation);
-        serde_json::to_string(&answer).expect("numbers and texts are valid JSON")
+        answer_as_json(&finished, id, &explanation)
     } else {
         sentences(&finished, id, &explanation)
     };
     writeln!(out, "{text}").map_err(Failure::Print)
 }
 
-fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
+/// Returns why no triangle is at a point.
+pub fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
     let bounds = mesh.lattice().bounds();
     Failure::Work(match location {
         Location::OutsideBounds => format!(
@@ -51,12 +51,19 @@ fn nowhere(point: &str, location: &Location, mesh: &Mesh) -> Failure {
     })
 }
 
-fn sentences(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
+/// Returns the answer as JSON.
+pub fn answer_as_json(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
+    let answer = Answer::new(finished, id, explanation);
+    serde_json::to_string(&answer).expect("numbers and texts are valid JSON")
+}
+
+/// Returns the answer as sentences, one in each line.
+pub fn sentences(finished: &FinishedMesh, id: TriangleId, explanation: &Explanation) -> String {
     let words = Words {
         mesh: finished.mesh(),
         edge_lengths: finished.edge_lengths(),
         layers: finished.layers(),
-        unit: finished.unit,
+        unit: finished.unit(),
     };
     let level = explanation.triangle.level();
     let mut lines = vec![match number(finished, id) {

@@ -27,9 +27,9 @@ use super::following::Following;
 use super::rebuild::Rebuild;
 use super::shown::Shown;
 use super::{Document, Repainted, Settings, Stage};
-use crate::build::{BuildError, Parts};
+use crate::build::{BuildError, BuiltMesh, Parts};
 use crate::domain::DomainOnLattice;
-use crate::layers::SizeField;
+use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
 
 /// Keeps field and mesh in step with a document, in slices.
@@ -99,6 +99,29 @@ impl Follower {
             revision: 0,
             stopped: None,
         })
+    }
+
+    /// Follows a mesh that was made before, with these settings and the paint of the document as it was at
+    /// the last call of [`Document::take_repainted`].
+    pub fn of_built(settings: Settings, built: BuiltMesh) -> Self {
+        Self {
+            shown: Shown::new(settings, built, &[], &PaintLayers::default()),
+            state: FollowState::InStep,
+            change: Some(MeshChange::Replaced),
+            revision: 0,
+            stopped: None,
+        }
+    }
+
+    /// Returns a copy of the shown mesh, with what it was made from.
+    pub fn built(&self) -> BuiltMesh {
+        let Shown { settings, domain, field, mesh, .. } = &self.shown;
+        BuiltMesh {
+            domain: domain.clone(),
+            field: field.clone(),
+            rule: settings.rule,
+            mesh: (**mesh).clone(),
+        }
     }
 
     /// Returns the shown mesh: conforming at all times.

@@ -31,6 +31,7 @@ mod features;
 mod folder;
 pub mod fort14;
 pub mod fvcom;
+mod given;
 pub mod gr3;
 mod interrupt;
 mod mesh_file;
@@ -81,6 +82,7 @@ mod triangle_pieces;
 pub mod ugrid;
 mod values;
 pub mod vtu;
+#[cfg(feature = "gpkg")]
 mod wkb;
 mod wkt_projection;
 pub mod world_file;
@@ -94,6 +96,7 @@ pub use coordinates::{DocumentPlane, FileCoordinates};
 pub use error::{Flaw, Place, ReadError};
 pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
+pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;
 pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
 use meshbrush_core::domain::MeshBoundary;
@@ -106,6 +109,7 @@ pub use route_on_earth::RouteOnEarth;
 use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
+pub use values::TextValue;
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 15] = [

@@ -46,9 +46,20 @@ pub fn read_polygons(
     plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<Vec<NamedPolygon>, ReadError> {
-    let outline = read_outline(path, meter)?;
+    placed_polygons(read_outline(path, meter)?, plane, path)
+}
+
+/// Returns the polygons of an outline for a document with this plane, if it has one. Errors call it `name`.
+///
+/// # Errors
+/// Fails where the outline names a coordinate system that is not known.
+pub fn placed_polygons(
+    outline: Outline,
+    plane: Option<&DocumentPlane>,
+    name: &Path,
+) -> Result<Vec<NamedPolygon>, ReadError> {
     let Some(plane) = plane else { return Ok(outline.polygons) };
-    let placed = outline.in_plane(plane).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))?;
+    let placed = outline.in_plane(plane).map_err(|flaw| PlacedFlaw::from(flaw).in_file(name))?;
     Ok(placed.polygons)
 }
 
@@ -63,10 +74,21 @@ pub fn read_shapes(
     plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<ShapeFile, ReadError> {
-    let file = (format_of(path).read_shapes)(path, meter)?;
+    placed_shapes((format_of(path).read_shapes)(path, meter)?, plane, path)
+}
+
+/// Returns shapes for a document with this plane, if it has one. Errors call their file `name`.
+///
+/// # Errors
+/// Fails where the file names a coordinate system that is not known.
+pub(super) fn placed_shapes(
+    file: ShapeFile,
+    plane: Option<&DocumentPlane>,
+    name: &Path,
+) -> Result<ShapeFile, ReadError> {
     let Some(plane) = plane else { return Ok(file) };
     let way = plane.way_of_shapes(&file.coordinates);
-    Ok(match way.map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))? {
+    Ok(match way.map_err(|flaw| PlacedFlaw::from(flaw).in_file(name))? {
         Some(reprojection) => ShapeFile {
             shapes: file.shapes.projected(&reprojection),
             coordinates: FileCoordinates::Known(Coordinates::Plane(plane.projection)),

@@ -17,20 +17,28 @@ use super::KeyFault;
 
 /// A value of a text. Tables are in the order of the text.
 #[derive(Clone, Debug)]
-pub(super) enum TextValue {
+pub enum TextValue {
+    /// No value.
     Nothing,
+    /// `true` or `false`.
     Bool(bool),
+    /// A number without a fraction.
     Whole(i128),
+    /// A number.
     Number(f64),
+    /// A text.
     Text(String),
+    /// A date, which no key has.
     Date,
+    /// Values in their order.
     List(Vec<Self>),
+    /// Values with their keys.
     Table(Vec<(String, Self)>),
 }
 
 impl TextValue {
     /// Returns the tables of a text in TOML.
-    pub fn of_toml(table: &DeTable) -> Self {
+    pub(super) fn of_toml(table: &DeTable) -> Self {
         let mut entries: Vec<_> = table.iter().collect();
         entries.sort_by_key(|(key, _)| key.span().start);
         let entry = |(key, value): &(&toml::Spanned<_>, &toml::Spanned<DeValue>)| {

@@ -272,7 +272,8 @@ impl Look {
         Camera::fit(lattice, lattice.bounds(), self.size(lattice), 0.0)
     }
 
-    fn draw(&self, mesh: &Mesh, extract: &Extract) -> Image {
+    /// Returns the picture of a mesh. `extract` must be the extract of `mesh`.
+    pub fn draw(&self, mesh: &Mesh, extract: &Extract) -> Image {
         let lattice = mesh.lattice();
         let camera = self.camera(lattice);
         let colors = self.level_colors.clone();

@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use super::super::png::Behind;
 use super::super::{
-    DocumentPlane, FileGrid, GridPlace, GridWindow, Meter, RasterFormat, ReadError, ReadRaster,
+    DocumentPlane, FileCoordinates, FileGrid, Given, GivenGrid, GridPlace, GridWindow, Meter, RasterFormat,
+    ReadError, ReadRaster,
 };
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::layers::RasterReading;
@@ -94,13 +95,19 @@ impl RasterFrame {
 pub struct RasterLoader {
     /// Files that say no place of their own, and whether transparent pixels are black.
     known: BTreeMap<(PathBuf, bool), Arc<RasterPyramid>>,
+    given: Given,
     meter: Meter,
 }
 
 impl RasterLoader {
     /// Returns a loader that has read nothing yet. The meter counts the bytes of each file.
     pub fn new(meter: &Meter) -> Self {
-        Self { known: BTreeMap::new(), meter: meter.clone() }
+        Self::with_given(Given::default(), meter)
+    }
+
+    /// Returns a loader that takes data in memory in place of files of their names.
+    pub fn with_given(given: Given, meter: &Meter) -> Self {
+        Self { known: BTreeMap::new(), given, meter: meter.clone() }
     }
 
     /// Returns the rectangle that a file itself says it covers, in world units: that of a grid without
@@ -109,6 +116,9 @@ impl RasterLoader {
     /// # Errors
     /// Fails when the file is of no use.
     pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
+        if let Some(grid) = self.given.grid(&file.path) {
+            return Ok(file.bounds.is_none().then(|| grid.raster.raster().bounds()));
+        }
         match (file.format.read(), file.bounds) {
             (ReadRaster::Grid(read), None) => {
                 let read = |meter: &Meter| Ok(read(&file.path, &GridPlace::default(), meter)?.raster);
@@ -145,12 +155,15 @@ impl RasterLoader {
         values: RasterValues,
         frame: &RasterFrame,
     ) -> Result<Arc<RasterPyramid>, RasterError> {
+        if let Some(grid) = self.given.grid(path) {
+            return placed(grid, *bounds, frame, path);
+        }
         match (format.read(), bounds) {
             (ReadRaster::Grid(read), None) => self.read_once((path.clone(), false), |meter| {
                 let place = GridPlace { over: None, window: frame.window() };
                 let grid = read(path, &place, meter)?;
                 match &frame.plane {
-                    Some(plane) => in_plane(grid, plane, frame.wanted.unwrap_or(frame.domain), path),
+                    Some(plane) => grid_in_plane(grid, plane, frame, path),
                     None => Ok(grid.raster),
                 }
             }),
@@ -190,18 +203,57 @@ impl RasterLoader {
     }
 }
 
-/// Returns a grid in the plane of a document, as far as it covers an area there.
-fn in_plane(grid: FileGrid, plane: &DocumentPlane, area: Rect, path: &Path) -> Result<Raster, RasterError> {
+/// Returns a grid in memory where a document wants it.
+fn placed(
+    GivenGrid { raster, coordinates }: &GivenGrid,
+    bounds: Option<Rect>,
+    frame: &RasterFrame,
+    path: &Path,
+) -> Result<Arc<RasterPyramid>, RasterError> {
+    let grid = raster.raster();
+    let moved = match (bounds, &frame.plane) {
+        (Some(bounds), _) => Raster::from_values(bounds, grid.size(), grid.values().to_vec()),
+        (None, None) => return Ok(raster.clone()),
+        (None, Some(plane)) => match in_plane(grid, coordinates, None, plane, frame, path)? {
+            Some(projected) => projected,
+            None => return Ok(raster.clone()),
+        },
+    };
+    Ok(Arc::new(RasterPyramid::new(moved)))
+}
+
+/// Returns the grid of a file in the plane of a document, as far as it covers the wanted area there.
+fn grid_in_plane(
+    grid: FileGrid,
+    plane: &DocumentPlane,
+    frame: &RasterFrame,
+    path: &Path,
+) -> Result<Raster, RasterError> {
+    let coordinates = grid.coordinates();
+    let system = grid.system.as_ref().and_then(|system| system.name.as_deref());
+    Ok(in_plane(&grid.raster, &coordinates, system, plane, frame, path)?.unwrap_or(grid.raster))
+}
+
+/// Returns a grid in the plane of a document, as far as it covers the wanted area there; `None` where it is
+/// in that plane. `system` is the name of its coordinate system, if it has one.
+fn in_plane(
+    grid: &Raster,
+    coordinates: &FileCoordinates,
+    system: Option<&str>,
+    plane: &DocumentPlane,
+    frame: &RasterFrame,
+    path: &Path,
+) -> Result<Option<Raster>, RasterError> {
+    let area = frame.wanted.unwrap_or(frame.domain);
     let named = |problem: &dyn Display| RasterError::Value(format!("{}: {problem}", path.display()));
-    if let Some(reprojection) = plane.reprojection(&grid.coordinates()) {
+    if let Some(reprojection) = plane.reprojection(coordinates) {
         if reprojection.is_identity() {
-            return Ok(grid.raster);
+            return Ok(None);
         }
-        return projected_raster(&grid.raster, &reprojection, area).map_err(|error| named(&error));
+        return projected_raster(grid, &reprojection, area).map(Some).map_err(|error| named(&error));
     }
-    let name = grid.system.and_then(|system| system.name);
     let system =
-        name.map_or("no coordinate system that is known here".to_owned(), |name| format!("“{name}”"));
+        system.map_or("no coordinate system that is known here".to_owned(), |name| format!("“{name}”"));
     Err(named(&format_args!(
         "its coordinates are in {system}, and the document is in the plane {}. Say what they are with a .prj file \
          beside it, or convert it to longitudes and latitudes first, for example with gdalwarp -t_srs EPSG:4326.",

@@ -10,7 +10,10 @@ use super::super::layers::{
     LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
-use super::super::{DocumentPlane, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, threats};
+use super::super::{
+    DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
+};
+use super::LoadedLayer;
 use super::grid_region::contour_of_grid;
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
 use meshbrush_core::document::{Document, Settings};
@@ -51,6 +54,8 @@ pub struct Loading<'a> {
     pub with_hidden: bool,
     /// Reads the polygons of the domain.
     pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
+    /// Data in memory, in place of files of their names.
+    pub given: Given,
     /// Counts the bytes of each file.
     pub meter: &'a Meter,
 }
@@ -58,7 +63,21 @@ pub struct Loading<'a> {
 impl<'a> Loading<'a> {
     /// Returns all layers, for a document.
     pub fn for_document(meter: &'a Meter) -> Self {
-        Self { usual: Usual::DOCUMENT, with_hidden: true, read_outline: shape_format::read_outline, meter }
+        Self {
+            usual: Usual::DOCUMENT,
+            with_hidden: true,
+            read_outline: shape_format::read_outline,
+            given: Given::default(),
+            meter,
+        }
+    }
+
+    /// Returns the polygons of a file, or of data in memory of this name.
+    fn outline(&self, file: &Path) -> Result<Outline, ReadError> {
+        match self.given.shapes(file) {
+            Some(text) => geojson::read_outline_from(text, file),
+            None => (self.read_outline)(file, self.meter),
+        }
     }
 }
 
@@ -81,21 +100,7 @@ impl SavedSettings {
     /// Fails when a file cannot be read or used, there is no coarse grid, or a layer asks for the distance to
     /// the outline of a domain that has none.
     pub fn load_files(&self, name: &str, loading: &Loading) -> Result<Loaded, LoadError> {
-        let mut files = Files {
-            loading,
-            rasters: RasterLoader::new(loading.meter),
-            projects: BTreeMap::new(),
-            frame: RasterFrame {
-                domain: Rect::UNIT,
-                wanted: None,
-                plane: None,
-                transfer: Settings::default().transfer,
-            },
-            paint: PaintLayers::default(),
-            plane: None,
-            coordinates: None,
-            note: None,
-        };
+        let mut files = Files::new(loading);
         let settings = self.load(name, &loading.usual, &mut files)?;
         check_outline(&settings)?;
         settings.check_depth_unit().map_err(|error| LoadError::Unsuited(error.to_string()))?;
@@ -108,7 +113,7 @@ impl SavedSettings {
 }
 
 /// Reads the files that tables and layers name, each once.
-struct Files<'a> {
+pub(super) struct Files<'a> {
     loading: &'a Loading<'a>,
     rasters: RasterLoader,
     projects: BTreeMap<PathBuf, Document>,
@@ -122,7 +127,41 @@ struct Files<'a> {
     note: Option<String>,
 }
 
-impl Files<'_> {
+impl<'a> Files<'a> {
+    fn new(loading: &'a Loading<'a>) -> Self {
+        let transfer = Settings::default().transfer;
+        Self {
+            loading,
+            rasters: RasterLoader::with_given(loading.given.clone(), loading.meter),
+            projects: BTreeMap::new(),
+            frame: RasterFrame { domain: Rect::UNIT, wanted: None, plane: None, transfer },
+            paint: PaintLayers::default(),
+            plane: None,
+            coordinates: None,
+            note: None,
+        }
+    }
+
+    /// Returns what reads files for a document that is there. `assumed` is what coordinates of files are that
+    /// do not name a known system.
+    pub(super) fn for_document(
+        settings: &Settings,
+        assumed: Option<Coordinates>,
+        loading: &'a Loading<'a>,
+    ) -> Self {
+        let Domain { bounds, projection, .. } = settings.domain;
+        let plane = projection.map(|projection| DocumentPlane { projection, assumed });
+        let frame = RasterFrame { domain: bounds, wanted: Some(bounds), plane, transfer: settings.transfer };
+        Self { plane, frame, ..Self::new(loading) }
+    }
+
+    /// Returns one layer with its data.
+    pub(super) fn one_layer(mut self, layer: &SavedLayer, id: LayerId) -> Result<LoadedLayer, LoadError> {
+        let loaded = layer.load(id, &mut self)?;
+        self.add_paint(layer, id)?;
+        Ok(LoadedLayer { layer: loaded, paint: self.paint.get(id).cloned(), notes: Vec::new() })
+    }
+
     /// Adds what a project has painted on a layer, if that is a paint layer.
     fn add_paint(&mut self, layer: &SavedLayer, id: LayerId) -> Result<(), LoadError> {
         let (true, Some(path)) = (layer.is_paint(), &layer.file) else { return Ok(()) };
@@ -165,7 +204,7 @@ impl Storage for Files<'_> {
     ) -> Result<ReadRegion, LoadError> {
         let outline = match RasterFormat::of(file) {
             Ok(format) => contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?,
-            Err(_) => (self.loading.read_outline)(file, self.loading.meter)?,
+            Err(_) => self.loading.outline(file)?,
         };
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
         let RegionCoordinates { assumed, projection, contour: _, positive: _ } = *coordinates;
@@ -210,7 +249,11 @@ impl Storage for Files<'_> {
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        let polygons = shape_format::read_polygons(file, self.plane.as_ref(), self.loading.meter)?;
+        let Self { loading, plane, .. } = self;
+        let polygons = match loading.given.has(file) {
+            true => shape_format::placed_polygons(loading.outline(file)?, plane.as_ref(), file)?,
+            false => shape_format::read_polygons(file, plane.as_ref(), loading.meter)?,
+        };
         Ok(geojson::without_names(polygons))
     }
 }
@@ -233,7 +276,12 @@ impl LayerData for Files<'_> {
     }
 
     fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        Ok(shape_format::read_shapes(file, self.plane.as_ref(), self.loading.meter)?.shapes)
+        let Self { loading, plane, .. } = self;
+        let read = match loading.given.shapes(file) {
+            Some(text) => shape_format::placed_shapes(shapes::read_from(text, file)?, plane.as_ref(), file)?,
+            None => shape_format::read_shapes(file, plane.as_ref(), loading.meter)?,
+        };
+        Ok(read.shapes)
     }
 
     fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {

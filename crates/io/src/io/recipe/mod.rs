@@ -10,6 +10,7 @@ mod open;
 #[cfg(test)]
 mod tests;
 mod text;
+mod values;
 mod write;
 
 use std::fs::File;
@@ -25,6 +26,7 @@ pub use export::RecipeFiles;
 pub use files::{LoadError, Loaded, Loading};
 pub use open::{OpenedRecipe, open};
 use text::RecipeText;
+pub use values::{BesideLayer, LoadedDocument, LoadedLayer};
 pub use write::to_text;
 
 /// The extension of recipes.

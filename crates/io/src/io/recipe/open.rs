@@ -34,7 +34,7 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
 
 /// Returns the settings with limits that a person can read where the recipe has none: the diameters of the
 /// smallest and the largest triangles of the lattice. The mesh is the same.
-fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseError> {
+pub(super) fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseError> {
     let lattice = settings.lattice()?;
     let [smallest, largest] =
         [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));

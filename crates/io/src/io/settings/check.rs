@@ -192,7 +192,10 @@ impl SavedDomain {
 
     /// Returns what coordinates of files are that do not name a known system. Without `crs`, a projection
     /// that is given by all its numbers says that they are in its plane.
-    fn assumed(&self) -> Result<Option<Coordinates>, KeyFault> {
+    ///
+    /// # Errors
+    /// Fails when `crs` is no coordinate system.
+    pub fn assumed(&self) -> Result<Option<Coordinates>, KeyFault> {
         let fault = |error: CoordinatesTextError| KeyFault::value("crs", error.to_string());
         if let Some(text) = &self.crs {
             return text.parse().map(Some).map_err(fault);

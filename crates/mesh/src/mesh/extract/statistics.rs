@@ -53,7 +53,7 @@ impl Extract<'_> {
             let ends = self.edge_ends(triangle);
             extremes.note_edges(ends.map(|[from, to]| (length([from, to]), 0.5 * (from + to))));
             extremes.note_area(area(ends.map(|[from, _]| from)));
-            extremes.note_ratios(self, triangle, &diameter);
+            extremes.note_ratios(self, triangle, diameter);
         }
         let (shortest, longest) = (extremes.shortest?, extremes.longest?);
         let [smallest_angle, largest_angle] = self.angle_range();

@@ -1,0 +1,154 @@
+//! Documents from settings as values, and layers for documents that are there: for programs that have no
+//! text.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::super::layers::{SavedKind, SavedLayer};
+use super::super::settings::{SavedOutput, SavedSettings};
+use super::super::{Given, KeyFault, TextValue};
+use super::files::Files;
+use super::notes::notes;
+use super::open::with_limits_of_the_grid;
+use super::{LoadError, Loaded, Loading, Recipe, found_in};
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::earth::Coordinates;
+use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_core::raster::TiledRaster;
+use meshbrush_mesh::text::abridged;
+
+/// A document that was made from settings.
+#[derive(Debug)]
+pub struct LoadedDocument {
+    /// The document.
+    pub document: Document,
+    /// The coordinates in the file of the domain, where that is meshed in the plane of a projection.
+    pub coordinates: Option<Coordinates>,
+    /// Notes for a person, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A layer for a document that is there.
+#[derive(Debug)]
+pub struct LoadedLayer {
+    /// The layer.
+    pub layer: Layer,
+    /// What a project has painted on it, if it is a paint layer.
+    pub paint: Option<TiledRaster>,
+    /// Notes for a person, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// What a document has beside a layer that is added, as far as layers need it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BesideLayer {
+    /// A smallest diameter that somebody gave.
+    pub smallest: bool,
+    /// A layer of depths.
+    pub depths: bool,
+}
+
+impl SavedSettings {
+    /// Returns the settings that tables state, with the keys of a recipe. Files are named from the working
+    /// folder, or are data in memory of these names.
+    ///
+    /// # Errors
+    /// Fails for the first key or value that no recipe has, and for files that are not there.
+    pub fn of_value(tables: &TextValue, given: &Given) -> Result<Self, KeyFault> {
+        let mut settings = Self::deserialize(tables)?;
+        settings.place_files(&|name| found(given, name))?;
+        settings.check()?;
+        settings.check_recipe()?;
+        Ok(settings)
+    }
+
+    /// Reads the files, and returns a document with the mesh that they make.
+    ///
+    /// # Errors
+    /// Fails as [`Self::load_files`] does, and when no document can have these settings.
+    pub fn into_document(&self, name: &str, loading: &Loading) -> Result<LoadedDocument, LoadError> {
+        let Loaded { settings, paint, notes, coordinates } = self.load_files(name, loading)?;
+        let document = Document::new(with_limits_of_the_grid(settings)?, Some(paint));
+        let document = document.map_err(|error| LoadError::Unsuited(error.to_string()))?;
+        Ok(LoadedDocument { document, coordinates, notes })
+    }
+}
+
+impl SavedLayer {
+    /// Returns the layer that a table states, with the keys of a recipe, for a document that has `others`.
+    /// Files are as for [`SavedSettings::of_value`].
+    ///
+    /// # Errors
+    /// Fails for the first key or value that no layer has, and for files that are not there.
+    pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
+        let layer = Self::deserialize(table)?;
+        let mut alone = SavedSettings { layer: vec![layer], ..SavedSettings::default() };
+        alone.limits.h_min = others.smallest.then_some(1.0);
+        let checked = alone.place_files(&|name| found(given, name)).and_then(|()| {
+            let mut as_recipe = alone.clone();
+            let layer = &mut as_recipe.layer[0];
+            // Unlike a recipe, a document has paint layers of its own.
+            if layer.is_paint() && layer.file.is_none() && layer.layer.is_none() {
+                layer.file = Some(PathBuf::new());
+            }
+            if others.depths {
+                let file = Some("depths.npy".into());
+                as_recipe.layer.push(Self { file, ..Self::of_kind(SavedKind::Depth) });
+            }
+            as_recipe.check()?;
+            as_recipe.check_recipe()
+        });
+        checked
+            .map_err(|fault| KeyFault { path: fault.path[2.min(fault.path.len())..].to_vec(), ..fault })?;
+        Ok(alone.layer.remove(0))
+    }
+
+    /// Reads the data of a layer for a document with these settings. `assumed` is what coordinates of files
+    /// are that do not name a known system.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read or used.
+    pub fn load_for(
+        &self,
+        id: LayerId,
+        settings: &Settings,
+        assumed: Option<Coordinates>,
+        loading: &Loading,
+    ) -> Result<LoadedLayer, LoadError> {
+        let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
+        let alone = Settings { layers: vec![loaded.layer.clone()], ..settings.clone() };
+        let notes = notes(&alone, true).map(|note| abridged(&note)).collect();
+        Ok(LoadedLayer { notes, ..loaded })
+    }
+}
+
+impl SavedOutput {
+    /// Returns the output that a table states, with the keys of a recipe.
+    ///
+    /// # Errors
+    /// Fails for the first key or value that no output has.
+    pub fn of_value(table: &TextValue) -> Result<Self, KeyFault> {
+        Self::deserialize(table)
+    }
+}
+
+impl Recipe {
+    /// Reads the files that the recipe names, and returns a document with its mesh.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read or used, or no document can have these settings.
+    pub fn into_document(&self, loading: &Loading) -> Result<LoadedDocument, LoadError> {
+        let name = self.file().file_stem().unwrap_or_default().to_string_lossy();
+        self.settings.into_document(&name, loading)
+    }
+}
+
+fn found(given: &Given, name: &str) -> Result<PathBuf, String> {
+    let path = Path::new(name);
+    if given.has(path) {
+        return Ok(path.to_owned());
+    }
+    found_in(Path::new(""), name)
+        .map_err(|problem| problem.replace("the folder of the recipe", "the working folder"))
+}

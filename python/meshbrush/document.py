@@ -1,0 +1,338 @@
+"""A document: domain, layers, limits and paint."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import MeshError
+from .domain import Domain
+from .layers import Layers
+from .mesh import Mesh, Why
+from .paths import Path
+from .progress import Progress, watching
+from .shapes import ShapesLike, as_path, geojson
+from .window import View, edited, shown
+
+#: The options by the table of a recipe that has them.
+_TABLES = {
+    "domain": (
+        *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits"),
+        *("contour", "positive", "smallest_island", "smallest_inlet"),
+    ),
+    "mesh": ("spacing", "rule", "max_triangles", "max_level", "max_memory"),
+    "limits": ("h_min", "h_risk", "h_max", "shape", "gradation"),
+}
+
+
+#: Options that belong to the domain, and are not changed later.
+_OF_DOMAIN = {
+    *("unit", "crs", "projection", "splits"),
+    *("contour", "positive", "smallest_island", "smallest_inlet"),
+}
+
+
+def _tables(options: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Returns options as the tables of a recipe."""
+    values = dict(options)
+    memory = values.get("max_memory")
+    if isinstance(memory, (int, np.integer)):
+        values["max_memory"] = f"{int(memory)} B"
+    return {table: {key: values[key] for key in keys if key in values} for table, keys in _TABLES.items()}
+
+
+class Document:
+    """What to mesh, and how fine: a domain, layers and limits. Everything can be changed and undone.
+
+    `domain` is a `Domain`, or what `Domain` takes. Lengths are in world units, which are those of the domain's
+    coordinates, or metres with a `projection` ("auto", "EPSG:32635", …).
+
+    `spacing` is the longest side of a coarse cell; `h_min`, `h_max` and `h_risk` limit the target diameter, and
+    `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
+    diameter `boundary_diameter` along the outline. `names` and `types` are names and types of the piece of the boundary
+    at a point, as in {(24.5, 37.9): "harbour"}. Where the domain is a file with a grid of heights, `contour` is the depth
+    of its shore. `rule` is "area" or "vertex". Other keywords are those of a recipe.
+    """
+
+    def __init__(
+        self,
+        domain: Domain | ShapesLike,
+        *,
+        name: str = "Untitled",
+        spacing: float | None = None,
+        h_min: float | None = None,
+        h_max: float | None = None,
+        h_risk: float | None = None,
+        shape: float | None = None,
+        gradation: float | None = None,
+        boundary: str | None = None,
+        boundary_diameter: float | None = None,
+        parts: str | float | None = None,
+        keep_pinches: bool = False,
+        unit: str | None = None,
+        crs: str | None = None,
+        projection: str | None = None,
+        names: Mapping[tuple[float, float], str] | None = None,
+        types: Mapping[tuple[float, float], str] | None = None,
+        splits: Sequence[tuple[float, float]] | None = None,
+        contour: float | None = None,
+        positive: str | None = None,
+        smallest_island: float | None = None,
+        smallest_inlet: float | None = None,
+        rule: str | None = None,
+        max_triangles: int | None = None,
+        max_level: int | None = None,
+        max_memory: str | int | None = None,
+    ) -> None:
+        known = locals()
+        options = {key: known[key] for keys in _TABLES.values() for key in keys if known[key] is not None}
+        of = domain if isinstance(domain, Domain) else Domain(domain)
+        tables = _tables(options)
+        tables["domain"] = {**of._tables, **tables["domain"]}
+        if projection not in (None, "none") and unit is None:
+            tables["domain"].pop("unit", None)
+        tables["domain"]["names"] = [{"at": list(at), "name": word} for at, word in (names or {}).items()]
+        tables["domain"]["types"] = [{"at": list(at), "type": word} for at, word in (types or {}).items()]
+        core, notes = _core.Document.new(tables, of._given, name)
+        self._take(core, notes)
+
+    def _take(self, core: _core.Document, notes: Sequence[str] = ()) -> None:
+        self._core = core
+        self._lock = threading.Lock()
+        self._mesh: tuple[int, Mesh] | None = None
+        self.notes: list[str] = list(notes)
+        """What a person should know about domain and files, a sentence each."""
+
+    @classmethod
+    def _of(cls, core: _core.Document, notes: Sequence[str] = ()) -> Document:
+        document = cls.__new__(cls)
+        document._take(core, notes)
+        return document
+
+    @property
+    def layers(self) -> Layers:
+        """The layers, from the bottom to the top; its methods add some."""
+        return Layers(self._core)
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options as they are, with those that were not given."""
+        return self._core.options()
+
+    def set(self, **options: Any) -> None:
+        """Changes options of the mesh: those that are lengths, limits and words, with the names of `Document`."""
+        known = {key for keys in _TABLES.values() for key in keys} - _OF_DOMAIN
+        for key in options:
+            if key not in known:
+                raise TypeError(f"There is no option {key} to change; the options are {', '.join(sorted(known))}.")
+        self._core.set(_tables(options))
+        self._forget_mesh()
+
+    def _forget_mesh(self) -> None:
+        with self._lock:
+            self._mesh = None
+
+    def mesh(self, *, progress: Progress = None, threads: int | None = None, fresh: bool = False) -> Mesh:
+        """Returns the mesh of the document as it is.
+
+        It is that of `meshbrush mesh` for the same document, with the same fingerprint. After `update` it is the mesh
+        that follows the document: the same triangles, with other numbers than one that is made from scratch, which
+        `fresh` asks for. `progress` is True, or a function of the stage and of what is done. Ctrl+C ends the work, and
+        leaves the document as it was.
+        """
+        with watching(progress, threads) as watch:
+            revision = self._core.revision()
+            with self._lock:
+                if self._mesh is not None and self._mesh[0] == revision and not fresh:
+                    return self._mesh[1]
+            mesh = Mesh(self._core.mesh(watch, fresh))
+            with self._lock:
+                self._mesh = (revision, mesh)
+            return mesh
+
+    def update(self, *, progress: Progress = None, threads: int | None = None) -> _core.Change:
+        """Brings the mesh up to date where it is, as the window does, and says what that changed."""
+        with watching(progress, threads) as watch:
+            change = self._core.update(watch)
+        self._forget_mesh()
+        return change
+
+    def why(self, point: tuple[float, float] | npt.ArrayLike) -> Why:
+        """Says why the triangle at a point is in the mesh."""
+        return self.mesh().why(point)
+
+    def path(
+        self,
+        start: Sequence[float],
+        goal: Sequence[float],
+        *,
+        via: Sequence[Sequence[float]] = (),
+        length_weight: float | None = None,
+        risk_weight: float | None = None,
+        cost: str | None = None,
+        keep_out: Sequence[ShapesLike] = (),
+        clearance: float | None = None,
+        within: float | None = None,
+        progress: Progress = None,
+        threads: int | None = None,
+    ) -> Path:
+        """Returns the path of least cost between places in world units, and bounds of the least cost.
+
+        The cost by unit of length is `length_weight` + `risk_weight` · risk, or the formula `cost` of x, y and risk.
+        `keep_out` are polygons that it does not enter, and `clearance` is its least distance from them and from the
+        outline. With `within`, as 0.01, the bounds are narrowed to that share.
+        """
+        weights = {"length_weight": length_weight, "risk_weight": risk_weight, "cost": cost, "clearance": clearance}
+        places = np.asarray([start, *via, goal], dtype=np.float64)
+        regions = [_polygons(region) for region in keep_out]
+        mesh = self.mesh(threads=threads)
+        with watching(progress, threads) as watch:
+            points, figures, stops, note = mesh._core.path(places, weights, regions, within, watch)
+        least, lower, upper, length, risk, highest = figures
+        return Path(points, least, lower, upper, length, risk, highest, stops, note)
+
+    def stroke(self, brush: Brush) -> Stroke:
+        """Returns a stroke, for `with`: one edit, which an error undoes."""
+        return Stroke(self._core, brush)
+
+    def undo(self) -> bool:
+        """Undoes the last edit. Returns whether there was one."""
+        return self._core.undo()
+
+    def redo(self) -> bool:
+        """Redoes the edit that was undone last. Returns whether there was one."""
+        return self._core.redo()
+
+    def save(self, path: Any) -> None:
+        """Writes a project (.meshbrush), which the window opens, or a recipe (.toml) with files beside it."""
+        self._core.save(_path(path))
+
+    def edit(self) -> Document | None:
+        """Opens the window on a copy, waits until it is closed, and returns what was saved; None for nothing."""
+        saved = edited(self._core.to_bytes(), self.options["name"])
+        return None if saved is None else Document._of(_core.Document.of_bytes(saved))
+
+    def show(self) -> View:
+        """Opens the window on a copy, and does not wait."""
+        return shown(self)
+
+    def to_world(self, lonlat: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Returns longitudes and latitudes with shape (p, 2) in the plane of the document, which has a projection."""
+        return self._core.to_world(np.asarray(lonlat, dtype=np.float64).reshape(-1, 2))
+
+    def __repr__(self) -> str:
+        return repr(self._core)
+
+    def __getstate__(self) -> tuple[bytes, int | None]:
+        return self._core.to_bytes(), self._core.options()["max_level"]
+
+    def __setstate__(self, state: tuple[bytes, int | None]) -> None:
+        self._take(_core.Document.of_bytes(state[0]))
+        if state[1] is not None:
+            self._core.set({"mesh": {"max_level": state[1]}})
+
+
+@dataclass(frozen=True)
+class Brush:
+    """A round brush, in world units: it paints a target `diameter`, a `risk` from 0 to 1, or erases.
+
+    `hardness` is the share of the radius with the full effect, and `strength` the share of the way to it. `change` says
+    which diameters it changes: to "finer" ones only, to "coarser", or "any".
+    """
+
+    radius: float
+    diameter: float | None = None
+    risk: float | None = None
+    erase: bool = False
+    hardness: float = 0.5
+    strength: float = 1.0
+    change: str = "finer"
+    mirror_x: float | None = None
+    mirror_y: float | None = None
+
+    def _medium(self) -> tuple[str, float]:
+        given = (self.diameter is not None) + (self.risk is not None) + self.erase
+        if given != 1:
+            raise MeshError("A brush has one of diameter, risk and erase=True.")
+        for key, value in (("radius", self.radius), ("hardness", self.hardness), ("strength", self.strength)):
+            most = float("inf") if key == "radius" else 1.0
+            if not 0 <= value <= most or (key == "radius" and not 0 < value < most):
+                rule = "a radius is positive and finite" if key == "radius" else "it lies from 0 to 1"
+                raise MeshError(f"{key}: {value} cannot be used: {rule}.")
+        if self.diameter is not None:
+            return "diameter", float(self.diameter)
+        return ("risk", float(self.risk)) if self.risk is not None else ("eraser", 0.0)
+
+
+class Stroke:
+    """A stroke of a brush: all lines and points within one `with` are joined, and are one edit."""
+
+    def __init__(self, core: _core.Document, brush: Brush) -> None:
+        self._core, self._brush = core, brush
+        self._begun = False
+
+    def line(self, points: npt.ArrayLike) -> None:
+        """Paints a line through points with shape (k, 2), on from the end of the stroke so far."""
+        brush = self._brush
+        quantity, value = brush._medium()
+        self._core.paint(
+            np.asarray(points, dtype=np.float64).reshape(-1, 2),
+            quantity,
+            value,
+            brush.change,
+            brush.radius,
+            brush.hardness,
+            brush.strength,
+            (brush.mirror_x, brush.mirror_y),
+            self._begun,
+        )
+        self._begun = True
+
+    def dot(self, point: npt.ArrayLike) -> None:
+        """Paints at a point."""
+        self.line(np.asarray(point, dtype=np.float64).reshape(1, 2))
+
+    def __enter__(self) -> Stroke:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._core.end_stroke(kind is None)
+
+
+def open(path: Any) -> Document:  # noqa: A001
+    """Opens a project (.meshbrush) or a recipe (.toml)."""
+    name = _path(path)
+    if name.lower().endswith(".toml"):
+        return read_recipe(name)
+    return Document._of(_core.Document.read_project(name))
+
+
+def read_recipe(path: Any) -> Document:
+    """Reads a recipe and the files that it names. Its outputs are not written."""
+    core, notes = _core.Document.read_recipe(_path(path))
+    return Document._of(core, notes)
+
+
+def _path(path: Any) -> str:
+    name = as_path(path)
+    if name is None:
+        raise TypeError(f"A path is a text or an os.PathLike, not {type(path).__name__}.")
+    return name
+
+
+def _polygons(region: ShapesLike) -> bytes:
+    path = as_path(region)
+    if path is None:
+        return geojson(region, "Polygon")
+    with os.fdopen(os.open(path, os.O_RDONLY), "rb") as file:
+        return file.read()

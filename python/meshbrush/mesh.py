@@ -1,0 +1,301 @@
+"""A mesh as arrays."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import MeshError
+from .progress import Progress, watching
+from .shapes import as_path
+
+if TYPE_CHECKING:
+    import meshio
+    import skfem
+    from matplotlib.axes import Axes
+    from matplotlib.tri import Triangulation
+
+#: Names that files use for other data.
+_TAKEN = ("target_diameter", "boundary", "level")
+
+
+class Place(IntEnum):
+    """Where a point lies."""
+
+    OUTSIDE = 0
+    INSIDE = 1
+    EDGE = 2
+    NODE = 3
+    INVALID = 4
+
+
+class Located(NamedTuple):
+    """Where points lie."""
+
+    triangle: npt.NDArray[np.int64]
+    """The number of the triangle, the lowest of several; −1 outside."""
+    weights: npt.NDArray[np.float64]
+    """The barycentric coordinates in its corners, with shape (p, 3); NaN outside."""
+    where: npt.NDArray[np.uint8]
+    """The `Place`, as a number."""
+
+
+class Why:
+    """Why a triangle is in a mesh. Its text is sentences."""
+
+    def __init__(self, sentences: str, answer: Mapping[str, Any]) -> None:
+        self.text = sentences
+        self.answer: dict[str, Any] = dict(answer)
+        """All of it as data, with the keys of `meshbrush why --json`."""
+
+    @property
+    def triangle(self) -> int | None:
+        """The number of the triangle; None where it was changed along the outline."""
+        return self.answer.get("triangle")
+
+    @property
+    def cause(self) -> str:
+        """"coarse", "rule", "compatibility" or "unneeded"."""
+        return str(self.answer["cause"])
+
+    @property
+    def layer(self) -> str | None:
+        """The name of the layer that asked for it, if one did."""
+        demand: dict[str, Any] = self.answer.get("demand") or {}
+        return demand.get("layer")
+
+    @property
+    def place(self) -> tuple[float, float] | None:
+        """Where it was asked for."""
+        demand: dict[str, Any] = self.answer.get("demand") or {}
+        at = demand.get("from")
+        return None if at is None else (at[0], at[1])
+
+    @property
+    def chain(self) -> list[dict[str, Any]]:
+        """The triangles from the one that exceeds its target to the parent."""
+        return list(self.answer["chain"])
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<meshbrush.Why: {self.text}>"
+
+
+class Mesh:
+    """A mesh. Its arrays are computed when they are first asked for, cannot be written, and are never copied.
+
+    Nodes and triangles have the order and the numbers that they have in files, counted from 0.
+    """
+
+    def __init__(self, core: _core.Mesh) -> None:
+        self._core = core
+
+    @property
+    def nodes(self) -> npt.NDArray[np.float64]:
+        """x and y of each node in world units, with shape (n, 2)."""
+        return self._core.nodes
+
+    @property
+    def triangles(self) -> npt.NDArray[np.uint32]:
+        """The nodes of each triangle anticlockwise, with shape (m, 3); the first two are the ends of its longest edge."""
+        return self._core.triangles
+
+    @property
+    def levels(self) -> npt.NDArray[np.uint8]:
+        """How often the coarse triangle was halved to get each triangle."""
+        return self._core.levels
+
+    @property
+    def neighbours(self) -> npt.NDArray[np.int64]:
+        """The triangle opposite each corner, with shape (m, 3); −1 where there is none."""
+        return self._core.neighbours
+
+    @property
+    def neighbors(self) -> npt.NDArray[np.int64]:
+        """The same as `neighbours`."""
+        return self._core.neighbours
+
+    @property
+    def h(self) -> npt.NDArray[np.float64]:
+        """The target diameter at each node."""
+        return self._core.h
+
+    @property
+    def boundary(self) -> dict[str, npt.NDArray[np.uint32]]:
+        """The edges of each piece of the boundary, with shape (k, 2) and the domain on the left, in the order of
+        markers."""
+        return self._core.boundary
+
+    @property
+    def markers(self) -> dict[str, int]:
+        """The number of each piece of the boundary in files."""
+        return self._core.markers
+
+    @property
+    def fingerprint(self) -> str:
+        """32 hexadecimal digits, equal for equal meshes: the `hash` of `meshbrush mesh --json`."""
+        return self._core.fingerprint
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """The answer of `meshbrush mesh --json`, with its keys."""
+        answer: dict[str, Any] = json.loads(self._core.summary())
+        return answer
+
+    def violations(self) -> int:
+        """Returns how many rules the mesh breaks: 0, unless the program has a mistake."""
+        return self._core.violations()
+
+    def nodes_in(self, crs: str) -> npt.NDArray[np.float64]:
+        """Returns the nodes of a mesh in the plane of a projection in other coordinates: "lonlat" or "EPSG:…"."""
+        return self._core.nodes_in(crs)
+
+    def locate(self, points: npt.ArrayLike) -> Located:
+        """Finds the triangles around points with shape (p, 2), in world units."""
+        triangle, where, weights = self._core.locate(_points(points))
+        return Located(triangle, weights.reshape(-1, 3), where)
+
+    def interpolate(self, values: npt.ArrayLike, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Returns values at the nodes, with shape (n,) or (n, k), linearly interpolated at points; NaN outside."""
+        at_nodes = np.asarray(values, dtype=np.float64)
+        count = self._core.counts[0]
+        if at_nodes.ndim not in (1, 2) or at_nodes.shape[0] != count:
+            shape = " × ".join(map(str, at_nodes.shape))
+            raise MeshError(f"The values have the shape {shape}, and the mesh has {count} nodes.")
+        found = self.locate(points)
+        corners = self.triangles[np.maximum(found.triangle, 0)]
+        equation = "pi,pi->p" if at_nodes.ndim == 1 else "pi,pik->pk"
+        return np.asarray(np.einsum(equation, found.weights, at_nodes[corners]))
+
+    def why(self, point: tuple[float, float] | npt.ArrayLike) -> Why:
+        """Says why the triangle at a point is in the mesh."""
+        x, y = np.asarray(point, dtype=np.float64)
+        sentences, answer = self._core.why((float(x), float(y)))
+        return Why(sentences, json.loads(answer))
+
+    def write(
+        self,
+        path: Any,
+        *,
+        values: Mapping[str, npt.ArrayLike] | None = None,
+        quantities: list[str] | None = None,
+        format: str | None = None,  # noqa: A002
+        binary: bool = False,
+        crs: str | None = None,
+        size: str | tuple[int, int] | None = None,
+        edges: bool | None = None,
+        colormap: str | None = None,
+        light: bool | None = None,
+        progress: Progress = None,
+    ) -> list[str]:
+        """Writes the mesh in the format of the ending, and returns the files.
+
+        `values` are numbers at the nodes by their names, and `quantities` formulas, as in "depth = 20 - x"; solvers read
+        `depth`. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a mesh in the
+        plane of a projection. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg.
+        """
+        output = _look(as_path(path) or path, size, edges, colormap, light)
+        output.update(binary=bool(binary), quantities=list(quantities or []))
+        named = [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
+        with watching(progress) as watch:
+            return [str(file) for file in self._core.write(output, format, crs, named, watch)]
+
+    def picture(
+        self,
+        *,
+        size: str | tuple[int, int] | None = None,
+        edges: bool | None = None,
+        colormap: str | None = None,
+        light: bool | None = None,
+    ) -> npt.NDArray[np.uint8]:
+        """Returns a picture with shape (height, width, 4): red, green, blue and alpha. It needs no other library."""
+        return self._core.picture(_look("picture.png", size, edges, colormap, light))
+
+    def _repr_png_(self) -> bytes:
+        return self._core.png(_look("picture.png", (800, 600), self._core.counts[1] < 20_000, None, True))
+
+    def plot(self, **options: Any) -> Axes:
+        """Draws the mesh with matplotlib: see `meshbrush.plotting.plot`."""
+        from .plotting import plot
+
+        return plot(self, **options)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """Returns a mesh of meshio, with the pieces of the boundary as sets and as physical groups."""
+        from .converters import to_meshio
+
+        return to_meshio(self)
+
+    def to_skfem(self) -> skfem.MeshTri:
+        """Returns a mesh of scikit-fem, whose boundaries have the names of the pieces."""
+        from .converters import to_skfem
+
+        return to_skfem(self)
+
+    def to_triangulation(self) -> Triangulation:
+        """Returns a triangulation of matplotlib."""
+        from .converters import to_triangulation
+
+        return to_triangulation(self)
+
+    def to_dolfinx(self, comm: Any) -> Any:
+        """Returns mesh, facet tags and the marker of each name for dolfinx (0.10). Rank 0 gives the arrays."""
+        from .converters import to_dolfinx
+
+        return to_dolfinx(self, comm)
+
+    def to_firedrake(self, comm: Any = None) -> Any:
+        """Returns a mesh of firedrake, whose boundary ids are the markers."""
+        from .converters import to_firedrake
+
+        return to_firedrake(self, comm)
+
+    def __len__(self) -> int:
+        return self._core.counts[1]
+
+    def __repr__(self) -> str:
+        nodes, triangles = self._core.counts
+        return f"<meshbrush.Mesh: {triangles} triangles, {nodes} nodes, fingerprint {self.fingerprint[:8]}…>"
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("A mesh is not pickled: pickle its document, which makes it again, or write it to a file.")
+
+
+def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    array = np.asarray(points, dtype=np.float64)
+    if array.ndim == 1 and array.size == 2:
+        array = array.reshape(1, 2)
+    if array.ndim != 2:
+        raise MeshError(f"Points have the shape (p, 2), and this array has {array.ndim} dimensions.")
+    return array
+
+
+def _valid(name: str) -> str:
+    if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]*", name):
+        raise MeshError(f"values: the name “{name}” cannot be used: write letters, digits and underscores.")
+    if name in _TAKEN:
+        raise MeshError(f"values: the name {name} is taken. Give another one, as in depth.")
+    return name
+
+
+def _look(
+    file: Any,
+    size: str | tuple[int, int] | None,
+    edges: bool | None,
+    colormap: str | None,
+    light: bool | None,
+) -> dict[str, Any]:
+    if isinstance(size, (tuple, list)):
+        size = f"{size[0]}x{size[1]}"
+    elif isinstance(size, int):
+        size = str(size)
+    return {"file": file, "size": size, "edges": edges, "colormap": colormap, "light": light}

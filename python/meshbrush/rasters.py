@@ -1,0 +1,152 @@
+"""Grids of numbers from NumPy, xarray and rasterio."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ._errors import MeshError
+
+#: x0, y0, x1, y1 in world units.
+Bounds = Sequence[float]
+
+
+class Grid(NamedTuple):
+    """Values with their place."""
+
+    values: npt.NDArray[Any]
+    bounds: list[float] | None
+    lowest_first: bool
+    crs: str | None
+
+    def data(self) -> dict[str, Any]:
+        """Returns the grid as the compiled module takes it."""
+        return self._asdict()
+
+
+def grid_of(values: Any, bounds: Bounds | None, origin: str, crs: str | None) -> Grid:
+    """Returns values with their place. `origin` is "upper" where the first row is the northern one, or "lower"."""
+    if origin not in ("upper", "lower"):
+        raise MeshError(f'origin: "{origin}" is not possible here; write one of upper, lower.')
+    place = None if bounds is None else [float(side) for side in bounds]
+    if place is not None and len(place) != 4:
+        raise MeshError("bounds are four numbers, (x0, y0, x1, y1).")
+    if hasattr(values, "dims") and hasattr(values, "coords"):
+        grid = _of_xarray(values)
+    elif hasattr(values, "read") and hasattr(values, "bounds") and hasattr(values, "nodata"):
+        grid = Grid(_filled(values.read(1, masked=True)), list(values.bounds), False, _crs(values.crs))
+    else:
+        grid = Grid(_filled(values), None, origin == "lower", None)
+    return grid._replace(bounds=place or grid.bounds, crs=crs or grid.crs)
+
+
+def _filled(values: Any) -> npt.NDArray[Any]:
+    """Returns numbers, with NaN where a masked array has none."""
+    if isinstance(values, np.ma.MaskedArray):
+        kind = values.dtype if values.dtype.kind == "f" else np.dtype(np.float32 if values.itemsize < 4 else np.float64)
+        masked: Any = values.astype(kind)
+        return np.asarray(masked.filled(np.nan))
+    array = np.asarray(values)
+    if array.dtype.kind == "b":
+        return array.astype(np.uint8)
+    if array.dtype == np.float16 or not array.dtype.isnative:
+        return array.astype(np.float32 if array.dtype.itemsize <= 4 and array.dtype.kind == "f" else np.float64)
+    return array
+
+
+def _crs(crs: Any) -> str | None:
+    epsg = crs.to_epsg() if hasattr(crs, "to_epsg") else None
+    return None if epsg is None else f"EPSG:{epsg}"
+
+
+def _of_xarray(array: Any) -> Grid:
+    """Returns a data array. Its place and what stands for no value come from rioxarray where that is in use."""
+    array = array.squeeze(drop=True)
+    if array.ndim != 2:
+        raise MeshError(f"A raster has two dimensions, and this array has {array.ndim}: select one time or level first.")
+    x_name, y_name = (_axis(array, names) for names in (("x", "lon", "longitude"), ("y", "lat", "latitude")))
+    array = array.transpose(y_name, x_name)
+    x, y = (np.asarray(array.coords[name].values, dtype=np.float64) for name in (x_name, y_name))
+    values = _filled(array.values)
+    if x[0] > x[-1]:
+        x, values = x[::-1], values[:, ::-1]
+    west, east = _ends(x, x_name)
+    south, north = _ends(y, y_name)
+    nodata = array.attrs.get("_FillValue")
+    crs = None
+    if hasattr(array, "rio"):
+        nodata, crs = array.rio.nodata, _crs(array.rio.crs)
+    if nodata is not None and not np.isnan(nodata):
+        values = np.where(values == nodata, np.nan, values)
+    return Grid(values, [west, min(south, north), east, max(south, north)], bool(y[0] < y[-1]), crs)
+
+
+def _axis(array: Any, names: tuple[str, ...]) -> Any:
+    for dim in array.dims:
+        if str(dim).lower() in names or array.coords.get(dim, array).attrs.get("axis", "").lower() == names[0]:
+            return dim
+    raise MeshError(f"The dimensions {', '.join(map(str, array.dims))} say no place: rename them to x and y.")
+
+
+def _ends(centres: npt.NDArray[np.float64], name: Any) -> tuple[float, float]:
+    """Returns the outer edges of the first and the last pixel."""
+    if centres.size < 2:
+        raise MeshError(f"The axis {name} has one value, and two are needed to know the size of a pixel.")
+    steps = np.diff(centres)
+    step = (centres[-1] - centres[0]) / (centres.size - 1)
+    if not np.allclose(steps, step, rtol=1e-3, atol=0):
+        raise MeshError(f"The values of the axis {name} are not evenly spaced. Interpolate them first.")
+    return float(centres[0] - 0.5 * step), float(centres[-1] + 0.5 * step)
+
+
+def sampled(
+    function: Callable[[npt.NDArray[np.float64], npt.NDArray[np.float64]], Any], bounds: Bounds, pixels: int
+) -> Grid:
+    """Returns the values of a function at the centres of pixels, `pixels` along the longer side."""
+    x0, y0, x1, y1 = (float(side) for side in bounds)
+    side = max(x1 - x0, y1 - y0) / pixels
+    columns, rows = (max(1, round(length / side)) for length in (x1 - x0, y1 - y0))
+    x = x0 + (np.arange(columns) + 0.5) * ((x1 - x0) / columns)
+    y = y0 + (np.arange(rows) + 0.5) * ((y1 - y0) / rows)
+    values = np.empty((rows, columns), dtype=np.float32)
+    tile = max(1, _TILE // columns)
+    for first in range(0, rows, tile):
+        xs, ys = np.meshgrid(x, y[first : first + tile])
+        values[first : first + tile] = np.broadcast_to(np.asarray(function(xs, ys), dtype=np.float64), xs.shape)
+    return Grid(values, [x0, y0, x1, y1], True, None)
+
+
+#: Pixels for which a function is called at once.
+_TILE = 1 << 18
+
+
+def sample(
+    values: Any, points: npt.ArrayLike, bounds: Bounds | None = None, *, origin: str = "upper"
+) -> npt.NDArray[np.float64]:
+    """Returns the values of a grid at points with shape (p, 2), linear between the centres of pixels.
+
+    Beyond the outermost centres, the value is that of the nearest one; outside the bounds, and beside pixels without a
+    value, it is NaN. `values` and `bounds` are as for `Layers.raster`.
+    """
+    grid = grid_of(values, bounds, origin, None)
+    if grid.bounds is None:
+        raise MeshError("bounds are missing; give bounds=(x0, y0, x1, y1).")
+    x0, y0, x1, y1 = grid.bounds
+    rows = grid.values if grid.lowest_first else grid.values[::-1]
+    at = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+    inside = (at[:, 0] >= x0) & (at[:, 0] <= x1) & (at[:, 1] >= y0) & (at[:, 1] <= y1)
+    column = _clipped((at[:, 0] - x0) / (x1 - x0), rows.shape[1])
+    row = _clipped((at[:, 1] - y0) / (y1 - y0), rows.shape[0])
+    low_c, low_r = column.astype(np.intp), row.astype(np.intp)
+    high_c, high_r = np.minimum(low_c + 1, rows.shape[1] - 1), np.minimum(low_r + 1, rows.shape[0] - 1)
+    share_c, share_r = column - low_c, row - low_r
+    lower = (1 - share_c) * rows[low_r, low_c] + share_c * rows[low_r, high_c]
+    upper = (1 - share_c) * rows[high_r, low_c] + share_c * rows[high_r, high_c]
+    return np.asarray(np.where(inside, (1 - share_r) * lower + share_r * upper, np.nan), dtype=np.float64)
+
+
+def _clipped(share: npt.NDArray[np.float64], count: int) -> npt.NDArray[np.float64]:
+    return np.asarray(np.clip(np.nan_to_num(share) * count - 0.5, 0.0, count - 1.0))

@@ -1,0 +1,96 @@
+//! Errors as the classes of the package.
+
+use std::fmt::Display;
+
+use meshbrush_core::field::Formula;
+use meshbrush_core::field::formula::ParseError;
+use meshbrush_io::io::recipe::LoadError;
+use meshbrush_io::io::{KeyFault, ReadError, Step, TextValue};
+use pyo3::BoundObject;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+/// Returns an error of a class of the package.
+fn error_of(class: &str, arguments: impl for<'py> IntoPyObject<'py, Target = PyTuple>) -> PyErr {
+    Python::attach(|py| {
+        let made = py.import("meshbrush._errors").and_then(|errors| {
+            let arguments = arguments.into_pyobject(py).map_err(Into::into)?.into_bound();
+            errors.getattr(class)?.call1(arguments)
+        });
+        made.map_or_else(|error| error, PyErr::from_value)
+    })
+}
+
+/// Returns an error that is no fault of a file or a formula.
+pub fn mesh_error(sentence: impl Display) -> PyErr {
+    error_of("MeshError", (sentence.to_string(),))
+}
+
+/// Returns the error of a file that cannot be read or written.
+pub fn file_error(sentence: impl Display) -> PyErr {
+    error_of("FileError", (sentence.to_string(),))
+}
+
+/// Returns the error for a mistake in a formula. `position` counts characters.
+fn formula_error(sentence: String, pointer: &str, formula: &str, position: usize) -> PyErr {
+    let pointer = pointer.replace('\n', "\n    ");
+    error_of("FormulaError", (format!("{sentence}\n    {pointer}"), formula.to_owned(), position))
+}
+
+/// Returns the error for a mistake in a formula with a name.
+pub fn mistake_in(name: &str, formula: &str, mistake: &ParseError) -> PyErr {
+    let position = formula[..mistake.span().start].chars().count();
+    formula_error(format!("{name}: {mistake}"), mistake.pointer(), formula, position)
+}
+
+/// Returns the error for a value of a table that cannot be used. Of a formula it has the place of the
+/// mistake.
+pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
+    let Some(pointer) = &fault.pointer else { return mesh_error(without_table(fault)) };
+    let formula = text_at(tables, &fault.path);
+    let position = formula.and_then(|text| {
+        let mistake = Formula::parse_of_size(text).err()?;
+        Some(text[..mistake.span().start].chars().count())
+    });
+    formula_error(
+        without_table(fault).to_string(),
+        pointer,
+        formula.unwrap_or_default(),
+        position.unwrap_or(0),
+    )
+}
+
+/// Returns the fault without the name of its table, which nobody types in Python.
+fn without_table(fault: &KeyFault) -> KeyFault {
+    let is_table = |step: &Step| matches!(step, Step::Key(key) if matches!(&**key, "domain" | "mesh" | "limits" | "paths" | "layer"));
+    let mut fault = fault.clone();
+    if fault.path.len() > 1 && is_table(&fault.path[0]) {
+        fault.path.remove(0);
+    }
+    fault
+}
+
+fn text_at<'a>(tables: &'a TextValue, path: &[Step]) -> Option<&'a str> {
+    let end = path.iter().try_fold(tables, |value, step| match (value, step) {
+        (TextValue::Table(entries), Step::Key(key)) => {
+            entries.iter().find(|(known, _)| known == key).map(|(_, value)| value)
+        }
+        (TextValue::List(list), Step::Index(index)) => list.get(*index),
+        _ => None,
+    })?;
+    if let TextValue::Text(text) = end { Some(text) } else { None }
+}
+
+/// Returns the error for a file that is of no use.
+pub fn read_error(error: &ReadError) -> PyErr {
+    file_error(error)
+}
+
+/// Returns the error for settings that cannot be loaded.
+pub fn load_error(tables: &TextValue, error: &LoadError) -> PyErr {
+    match error {
+        LoadError::Read(error) => read_error(error),
+        LoadError::Value(fault) => fault_in(tables, fault),
+        LoadError::Data(_) | LoadError::Coarse(_) | LoadError::Unsuited(_) => mesh_error(error),
+    }
+}

@@ -1,0 +1,92 @@
+//! Many points in the triangles of a mesh.
+
+use glam::DVec2;
+use meshbrush_mesh::mesh::{Extract, Location, Locator, NodeId, TriangleId, barycentric};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::arrays::points_of;
+use crate::mesh::{Mesh, Shared};
+use crate::work::{Watching, run};
+
+/// A search tree is built if there is more than one point for this many triangles.
+const TRIANGLES_PER_POINT: usize = 16;
+/// Points that one thread takes at a time.
+const POINTS: usize = 1 << 12;
+
+/// Where points lie: the number of the triangle or −1, the code of the place, and the weights of the corners
+/// one after the other, NaN where there is no triangle.
+#[derive(Default)]
+struct Found {
+    triangles: Vec<i64>,
+    places: Vec<u8>,
+    weights: Vec<f64>,
+}
+
+/// The arrays of [`Found`].
+type FoundArrays<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<f64>>);
+
+#[pymethods]
+impl Mesh {
+    /// Finds the triangles around points.
+    fn locate<'py>(slf: &Bound<'py, Self>, points: PyReadonlyArray2<'py, f64>) -> PyResult<FoundArrays<'py>> {
+        let points = points_of(&points)?;
+        let shared = slf.get().0.clone();
+        let found =
+            run(slf.py(), &Watching::QUIET, move |watch| shared.found(&points, || watch.is_cancelled()))?;
+        let py = slf.py();
+        Ok((found.triangles.into_pyarray(py), found.places.into_pyarray(py), found.weights.into_pyarray(py)))
+    }
+}
+
+impl Shared {
+    /// Finds the triangles around points; none, once nobody waits for them.
+    fn found(&self, points: &[DVec2], is_cancelled: impl Fn() -> bool + Sync) -> Found {
+        let mesh = self.finished.mesh();
+        let many = points.len() > mesh.raw_triangle_count() / TRIANGLES_PER_POINT;
+        let locator = many.then(|| Locator::new(mesh));
+        let patched = self.patched_locator();
+        self.with_extract(|extract| {
+            let find = |&point: &DVec2| {
+                let in_mesh = locator.as_ref().map_or_else(|| mesh.locate(point), |l| l.locate(point));
+                let (location, triangle) = match patched {
+                    Some(patched) => {
+                        let location = patched.locate(extract, point, in_mesh);
+                        (location, location.triangle())
+                    }
+                    None => (in_mesh, in_mesh.triangle().and_then(|id| extract.place_of(id))),
+                };
+                (triangle, code(&location), triangle.map_or([f64::NAN; 3], |id| weights(extract, id, point)))
+            };
+            let parts: Vec<Vec<_>> = points
+                .par_chunks(POINTS)
+                .map(|points| if is_cancelled() { Vec::new() } else { points.iter().map(find).collect() })
+                .collect();
+            let mut found = Found::default();
+            for (triangle, place, weights) in parts.into_iter().flatten() {
+                found.triangles.push(triangle.map_or(-1, |id| id.index() as i64));
+                found.places.push(place);
+                found.weights.extend(weights);
+            }
+            found
+        })
+    }
+}
+
+/// The barycentric coordinates of a point, in the order of the corners in files.
+fn weights(extract: &Extract<'_>, triangle: TriangleId, point: DVec2) -> [f64; 3] {
+    let corners = extract.cell(triangle).corners.map(|node| extract.node(NodeId::from_index(node)));
+    barycentric(corners, extract.lattice().lattice_from_world(point))
+}
+
+/// The numbers of the words that `meshbrush locate` prints.
+fn code(location: &Location) -> u8 {
+    match location {
+        Location::OutsideBounds | Location::OutsideDomain => 0,
+        Location::Inside { .. } => 1,
+        Location::OnEdge { .. } => 2,
+        Location::OnVertex { .. } => 3,
+        Location::Invalid => 4,
+    }
+}

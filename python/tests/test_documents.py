@@ -1,0 +1,348 @@
+"""Documents: layers, options, strokes, undo, files, pickles, paths, errors."""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+import types
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import meshbrush as mb
+from coasts import bay, feature
+from conftest import run_program
+
+
+def square(**options: Any) -> mb.Document:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.1, **options)
+    document.layers.formula("0.012 + 0.2*hypot(x - 0.3, y - 0.4)", name="near")
+    return document
+
+
+def test_layers_are_a_sequence_that_can_be_changed() -> None:
+    document = square(h_min=0.01)
+    before = document.mesh().fingerprint
+    layer = document.layers.formula(0.01, name="fine")
+    assert [l.name for l in document.layers] == ["near", "fine"] and len(document.layers) == 2
+    assert layer in document.layers and document.layers.index(layer) == 1 and layer != document.layers[0]
+    assert document.layers["fine"].kind == "formula" and document.layers[-1].name == "fine"
+    assert document.mesh().fingerprint != before
+    layer.visible = False
+    assert document.mesh().fingerprint == before and not document.layers[1].visible
+    layer.visible, layer.combine, layer.name, layer.locked = True, "floor", "floor", True
+    assert (layer.visible, layer.combine, layer.name, layer.locked) == (True, "floor", "floor", True)
+    layer.move_to(0)
+    assert document.layers[0].name == "floor" and [l.name for l in document.layers[:1]] == ["floor"]
+    layer.remove()
+    assert document.mesh().fingerprint == before
+    with pytest.raises(mb.MeshError, match="no longer"):
+        layer.visible = True
+    with pytest.raises(KeyError, match="“near”"):
+        document.layers["far"]
+    with pytest.raises(mb.MeshError, match="finest, floor, replace"):
+        document.layers[0].combine = "best"
+    del document.layers["near"]
+    assert "none" in repr(document.layers)
+
+
+def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
+    document = mb.Document(bay(1000.0), h_min=20, h_max=300, unit="m")
+    grid = np.linspace(-50, 0, 200).reshape(10, 20)
+    place = (-1300, -1300, 1300, 1300)
+    added = [
+        document.layers.formula("100 + r/10"),
+        document.layers.formula("0.1", quantity="risk"),
+        document.layers.raster(grid, place, curve=[(-50, 200), (0, 50)]),
+        document.layers.raster(-grid / 100, place, reads="risk"),
+        document.layers.band(grid, (-20, -10), 40, place),
+        document.layers.depth(grid, place),
+        document.layers.depth(grid, place, size="wavelength", period=60, triangles=10, positive="up"),
+        document.layers.depth(grid, place, size="slope", triangles=10, smoothing=100),
+        document.layers.depth(grid, place, size="courant", time_step=2, courant=0.5),
+        document.layers.sample(lambda x, y: 60 + np.hypot(x, y) / 10, pixels=64),
+        document.layers.threats(x=[0, 100], y=0, range=200, law=["disc", "radar"]),
+        document.layers.distance("outline", at_zero=30, slope=0.2),
+        document.layers.distance("coasts", at_zero=30, slope=0.2, range=500),
+        document.layers.distance(feature(bay(100.0)), at_zero=30, slope=0.2),
+        document.layers.corridor([(-500, 0), (500, 100)], width=50, at_zero=30, slope=0.2),
+        document.layers.straits(across=3, width_from=50, width_to=400),
+        document.layers.feature_size(across=3, width_from=50, width_to=400),
+        document.layers.distance(types=["land"], at_zero=30, slope=0.2),
+        document.layers.formula("60 + depth"),
+        document.layers.paint("risk"),
+        document.layers.add("formula", quantity="diameter", formula="90"),
+    ]
+    kinds = [layer.kind for layer in added]
+    assert kinds == [layer.kind for layer in document.layers]
+    assert {"formula", "raster", "band", "depth", "threats", "distance", "corridor", "straits", "paint"} == set(kinds) - {"feature-size"}
+    mesh = document.mesh()
+    assert mesh.violations() == 0
+    document.save(tmp_path / "all.meshbrush")
+    answer = json.loads(run_program("mesh", "--project", "all.meshbrush", "--json", cwd=tmp_path))
+    assert answer["hash"] == mesh.fingerprint
+
+
+def test_a_sampled_function_is_near_its_formula() -> None:
+    exact, sampled = square(), mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.1)
+    calls = []
+
+    def function(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        calls.append(x.shape)
+        return 0.012 + 0.2 * np.hypot(x - 0.3, y - 0.4)
+
+    sampled.layers.sample(function, pixels=1024)
+    assert len(calls) == 4 and sum(rows for rows, _ in calls) == 1024
+    assert len(sampled.mesh()) == pytest.approx(len(exact.mesh()), rel=0.05)
+
+
+def test_options_are_changed_and_undone() -> None:
+    document = square()
+    first = document.mesh()
+    document.set(h_min=0.05, gradation=0.2)
+    assert document.options["h_min"] == 0.05 and document.options["gradation"] == 0.2
+    coarse = document.mesh()
+    assert len(coarse) < len(first)
+    assert document.undo() and document.undo()
+    assert document.mesh().fingerprint == first.fingerprint
+    assert document.redo() and document.redo() and document.mesh().fingerprint == coarse.fingerprint
+    document.set(spacing=0.2, rule="vertex", max_triangles=5000, max_memory="10MB", shape=2, h_max=0.1, h_risk=0.06)
+    now = document.options
+    assert (now["spacing"], now["rule"], now["max_triangles"], now["max_memory"]) == (0.2, "vertex", 5000, 10_000_000)
+    assert (now["h_max"], now["h_risk"], now["shape"]) == (0.1, 0.06, 2)
+    with pytest.raises(TypeError, match="spcaing"):
+        document.set(spcaing=1)
+    with pytest.raises(mb.MeshError, match="h_max"):
+        document.set(h_max=-1)
+    with pytest.raises(TypeError):
+        mb.Document([[0, 0], [1, 0], [1, 1]], spcaing=1)  # type: ignore[call-arg]
+
+
+def test_strokes_update_the_mesh_in_place() -> None:
+    document = square()
+    before = document.mesh()
+    with document.stroke(mb.Brush(radius=0.08, diameter=0.006)) as stroke:
+        stroke.line([(0.6, 0.6), (0.8, 0.9)])
+        stroke.dot((0.9, 0.5))
+    change = document.update()
+    assert not change.replaced and change.triangles > change.before == len(before) and "in place" in repr(change)
+    painted = document.mesh()
+    assert painted.fingerprint == document.mesh(fresh=True).fingerprint and painted.violations() == 0
+    same = [set(map(tuple, np.sort(m.nodes[m.triangles], axis=1).reshape(-1, 6).tolist()))
+            for m in (painted, document.mesh(fresh=True))]
+    assert same[0] == same[1]
+    assert document.undo() and document.update().triangles == len(before)
+    assert document.mesh().fingerprint == before.fingerprint
+    assert document.redo() and document.mesh().fingerprint == painted.fingerprint
+    # An error within takes the stroke back.
+    with pytest.raises(ZeroDivisionError), document.stroke(mb.Brush(radius=0.1, erase=True)) as stroke:
+        stroke.line([(0, 0), (1, 1)])
+        raise ZeroDivisionError
+    assert document.mesh().fingerprint == painted.fingerprint
+    for brush in (dict(radius=0.1), dict(radius=0.1, diameter=1, risk=1), dict(radius=0, diameter=1),
+                  dict(radius=1, risk=2), dict(radius=1, diameter=-1), dict(radius=1, diameter=1, hardness=2),
+                  dict(radius=1, diameter=1, change="better")):
+        with pytest.raises(mb.MeshError), document.stroke(mb.Brush(**brush)) as stroke:
+            stroke.dot((0.5, 0.5))
+    document.layers[-1].locked = True
+    with pytest.raises(mb.MeshError, match="locked"), document.stroke(mb.Brush(radius=0.1, diameter=0.01)) as stroke:
+        stroke.dot((0.5, 0.5))
+
+
+def test_layers_are_followed_in_place_too() -> None:
+    document = square()
+    document.mesh()
+    document.layers.distance([(0.9, 0.1)], at_zero=0.005, slope=0.4)
+    change = document.update()
+    assert not change.replaced
+    assert document.mesh().fingerprint == document.mesh(fresh=True).fingerprint
+    capped = square(max_level=4)
+    with pytest.raises(mb.MeshError, match="max_level"):
+        capped.update()
+    assert capped.mesh().levels.max() == 4 and capped.mesh().statistics["capped"] > 0
+
+
+def test_documents_are_pickled_copied_saved_and_opened(tmp_path: Path) -> None:
+    document = square(name="square", max_level=7, h_min=0.01)
+    with document.stroke(mb.Brush(radius=0.1, risk=0.5)) as stroke:
+        stroke.dot((0.7, 0.7))
+    expected = document.mesh().fingerprint
+    for other in (pickle.loads(pickle.dumps(document)), copy.copy(document), copy.deepcopy(document)):
+        assert other.mesh().fingerprint == expected and repr(other) == repr(document)
+        assert len(other.layers) == 2 and other.options == document.options
+    document.set(max_level=30)
+    document.save(tmp_path / "a.meshbrush")
+    assert mb.open(tmp_path / "a.meshbrush").mesh().fingerprint == document.mesh().fingerprint
+    with pytest.raises(TypeError, match="document"):
+        pickle.dumps(document.mesh())
+
+
+def test_why_and_path() -> None:
+    document = square(h_min=0.01)
+    why = document.why((0.3, 0.4))
+    assert why.cause in ("rule", "compatibility") and why.layer == "near"
+    assert np.hypot(why.place[0] - 0.3, why.place[1] - 0.4) < 0.05 and len(why.chain) >= 1
+    assert "the layer “near” asks for" in str(why) and str(why) in repr(why)
+    with pytest.raises(mb.MeshError, match="No triangle is at 2"):
+        document.why((2, 2))
+    document.layers.threats(x=0.5, y=0.5, range=0.3)
+    path = document.path((0.1, 0.5), (0.9, 0.5), via=[(0.5, 0.95)], risk_weight=20, within=0.02)
+    assert path.lower <= path.cost <= path.upper * (1 + 1e-9) and path.upper <= path.lower * 1.05
+    assert np.allclose(path.points[path.stops], [(0.1, 0.5), (0.5, 0.95), (0.9, 0.5)])
+    steps = np.hypot(*np.diff(path.points, axis=0).T)
+    assert steps.sum() == pytest.approx(path.length)
+    around = document.path((0.1, 0.1), (0.9, 0.1), keep_out=[[(0.4, -0.1), (0.6, -0.1), (0.5, 0.3)]], length_weight=1)
+    assert around.length > 0.85 and around.points[:, 1].max() > 0.29
+    free = document.path((0.1, 0.1), (0.9, 0.1), cost="1 + 0*risk")
+    assert free.length == pytest.approx(0.8, rel=1e-6) and free.note is None
+    with pytest.raises(mb.FormulaError) as caught:
+        document.path((0.1, 0.1), (0.9, 0.1), cost="1 + risc")
+    assert caught.value.position == 4 and "^^^^" in str(caught.value)
+    with pytest.raises(mb.MeshError, match="within"):
+        document.path((0.1, 0.1), (0.9, 0.1), within=3)
+
+
+@pytest.mark.parametrize("fault, kind, part", [
+    (lambda d: d.layers.formula("1 +"), mb.FormulaError, "formula: "),
+    (lambda d: d.layers.formula("-1"), mb.MeshError, "must be positive"),
+    (lambda d: d.layers.formula("1", quantity="speed"), mb.MeshError, '"speed" is not possible here'),
+    (lambda d: d.layers.add("formla"), mb.MeshError, 'did you mean "formula"?'),
+    (lambda d: d.layers.add("formula", quantty="risk"), mb.MeshError, "did you mean `quantity`?"),
+    (lambda d: d.layers.raster(np.ones((2, 2))), mb.MeshError, "what its values mean"),
+    (lambda d: d.layers.raster(np.ones(3), reads="diameter"), mb.MeshError, "two dimensions"),
+    (lambda d: d.layers.raster(np.ones((2, 2)), (0, 0, -1, 1), reads="diameter"), mb.MeshError, "no rectangle"),
+    (lambda d: d.layers.raster(-np.ones((2, 2)), reads="diameter"), mb.MeshError, "it must be positive"),
+    (lambda d: d.layers.raster(np.full((2, 2), 1e300), reads="diameter"), mb.MeshError, "single precision"),
+    (lambda d: d.layers.raster(np.array([["a"]]), reads="diameter"), mb.MeshError, "is no raster"),
+    (lambda d: d.layers.raster("none.tif", reads="diameter"), mb.MeshError, "none.tif"),
+    (lambda d: d.layers.threats(x=1, y=1, range=-1), mb.MeshError, "range"),
+    (lambda d: d.layers.distance("outline", at_zero=0, slope=1), mb.MeshError, "at_zero: 0 cannot be used"),
+    (lambda d: d.layers.distance(np.ones((3, 3)), at_zero=1, slope=1), mb.MeshError, "rows of two numbers"),
+    (lambda d: d.layers.formula("x", quantity="risk"), mb.MeshError, "need `h_min`"),
+    (lambda d: d.layers.paint("risk"), mb.MeshError, "need `h_min`"),
+    (lambda d: d.stroke(mb.Brush(radius=1, risk=1)).dot((0.5, 0.5)), mb.MeshError, "needs h_min"),
+    (lambda d: (d.set(max_triangles=300), d.mesh()), mb.MeshError, "or raise max_triangles"),
+    (lambda d: d.layers.add("paint", quantity="risk", layer="a"), mb.MeshError, "`layer` names a layer"),
+    (lambda d: mb.Document([[0, 0], [1, 1]]), mb.MeshError, "."),
+    (lambda d: mb.Document("nothing.geojson"), mb.MeshError, "nothing.geojson"),
+    (lambda d: mb.Document(mb.Domain.formula("x >", (0, 0, 1, 1))), mb.FormulaError, "inside"),
+    (lambda d: mb.Document(mb.Domain.rectangle(1, 0, 0, 1)), mb.MeshError, "no rectangle"),
+    (lambda d: mb.Document(object()), mb.MeshError, "no shapes"),
+    (lambda d: mb.open("nothing.meshbrush"), mb.FileError, "nothing.meshbrush"),
+    (lambda d: mb.open("nothing.toml"), mb.FileError, "nothing.toml"),
+    (lambda d: d.mesh().write("a.doc"), mb.MeshError, "the ending chooses the format"),
+    (lambda d: d.mesh().write("no/such/folder/a.msh"), mb.FileError, "a.msh cannot be written"),
+    (lambda d: d.save("no/such/folder/a.meshbrush"), mb.FileError, "cannot be written"),
+    (lambda d: d.mesh().write("a.msh", values={"a b": [1]}), mb.MeshError, "letters, digits"),
+    (lambda d: d.mesh().write("a.msh", values={"a": [1]}), mb.MeshError, "nodes"),
+    (lambda d: d.mesh().nodes_in("lonlat"), mb.MeshError, "projection"),
+    (lambda d: d.mesh().write("a.msh", crs="EPSG:32635"), mb.MeshError, "projection"),
+    (lambda d: d.mesh().write("a.msh", quantities=["a = 1/(x-x)"]), mb.MeshError, "finite number at every node"),
+    (lambda d: d.mesh().write("a.png", quantities=["a = 1"]), mb.MeshError, "no values at the nodes"),
+    (lambda d: d.to_world([[1, 2]]), mb.MeshError, "projection"),
+])
+def test_errors_are_sentences_of_their_class(fault: Any, kind: type[Exception], part: str) -> None:
+    document = square()
+    before = len(document.layers)
+    with pytest.raises(kind) as caught:
+        fault(document)
+    assert type(caught.value) is kind and part in str(caught.value), str(caught.value)
+    assert isinstance(caught.value, OSError if kind is mb.FileError else ValueError)
+    assert len(document.layers) == before
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and vars(again) == vars(caught.value)
+
+
+def test_a_mistake_in_a_formula_has_its_place() -> None:
+    with pytest.raises(mb.FormulaError) as caught:
+        square().layers.formula("θ + größe")
+    assert (caught.value.position, caught.value.formula) == (4, "θ + größe")
+    assert str(caught.value).endswith("θ + größe\n        ^^^^^")
+
+
+@pytest.mark.filterwarnings("ignore::meshbrush.MeshbrushWarning")
+def test_documents_on_the_earth() -> None:
+    document = mb.Document(feature(bay(0.4, (24.0, 38.0))), projection="auto", h_min=500, h_max=9000)
+    assert document.options["unit"] == "m" and "+proj=" in document.options["projection"] and document.notes
+    at = document.to_world([[24.0, 38.0]])
+    document.layers.distance(np.array([[24.0, 38.0]]), at_zero=500, slope=0.2)
+    mesh = document.mesh()
+    lonlat = mesh.nodes_in("lonlat")
+    assert np.all(np.abs(lonlat - [24, 38]) < 0.6)
+    nearest = np.argmin(mesh.h)
+    assert np.hypot(*(mesh.nodes[nearest] - at[0])) < 1000
+    assert np.allclose(document.to_world(lonlat), mesh.nodes, atol=1e-6)
+    # Grids without a place cover the domain's rectangle; grids in degrees are projected.
+    finer = len(mesh)
+    document.layers.raster(np.full((4, 4), 700.0), (23.9, 37.9, 24.1, 38.1), reads="diameter")
+    assert len(document.mesh()) > finer
+
+
+def test_data_of_other_libraries(tmp_path: Path) -> None:
+    geometry = pytest.importorskip("shapely.geometry")
+    xarray = pytest.importorskip("xarray")
+    rings = bay()
+    polygon = geometry.Polygon(rings[0], rings[1:])
+    expected = mb.Document(rings).mesh().fingerprint
+    assert mb.Document(polygon).mesh().fingerprint == expected
+    (tmp_path / "bay.geojson").write_text(json.dumps(feature(rings)))
+    assert mb.Document(tmp_path / "bay.geojson").mesh().fingerprint == expected
+    assert list(mb.Document(str(tmp_path / "bay.geojson")).mesh().markers)[0] == "bay"
+
+    values = 0.02 + np.add.outer(np.arange(20.0), np.arange(30.0)) / 500
+    place, x, y = (0, 0, 1.5, 1.0), 0.025 + 0.05 * np.arange(30), 0.025 + 0.05 * np.arange(20)
+    plain = mb.Document(mb.Domain.rectangle(0, 0, 1.5, 1))
+    plain.layers.raster(values, place, reads="diameter", origin="lower")
+    for array in (
+        xarray.DataArray(values, coords={"y": y, "x": x}, dims=("y", "x")),
+        xarray.DataArray(values[::-1], coords={"lat": y[::-1], "lon": x}, dims=("lat", "lon")),
+        xarray.DataArray(values.T[None, ::-1], coords={"x": x[::-1], "y": y}, dims=("time", "x", "y")),
+    ):
+        document = mb.Document(mb.Domain.rectangle(0, 0, 1.5, 1))
+        document.layers.raster(array, reads="diameter")
+        assert document.mesh().fingerprint == plain.mesh().fingerprint
+    # rasterio, by its names; a masked array; and whole numbers.
+    masked = np.ma.masked_equal(np.where(values > 0.1, -9999, values)[::-1], -9999)
+    dataset = types.SimpleNamespace(read=lambda band, masked: data, bounds=place, nodata=-9999, crs=None)
+    data = masked
+    one, two = (mb.Document(mb.Domain.rectangle(0, 0, 1.5, 1)) for _ in range(2))
+    one.layers.raster(dataset, reads="diameter")
+    two.layers.raster(masked.filled(np.nan), place, reads="diameter")
+    assert one.mesh().fingerprint == two.mesh().fingerprint
+    found = set()
+    for kind in (np.uint8, np.int16, np.int32, np.int64, np.float32, np.dtype(">i2"), np.float16):
+        whole = mb.Document(mb.Domain.rectangle(0, 0, 4, 2), spacing=1)
+        whole.layers.raster((1 + np.arange(8).reshape(2, 4)).astype(kind), curve=[(1, 0.05), (8, 1)])
+        found.add(whole.mesh().fingerprint)
+    assert len(found) == 1
+    with pytest.warns(mb.MeshbrushWarning, match="does not meet the domain"):
+        plain.layers.raster(values, (5, 5, 6, 6), reads="diameter")
+
+
+def test_values_of_a_grid_at_points() -> None:
+    values = np.add.outer(np.arange(4.0)[::-1], 10 * np.arange(5.0))  # y + 10 x at pixels of 1
+    at = mb.sample(values, [[0.5, 0.5], [2.25, 1.75], [0.1, 3.9], [6, 1]], bounds=(0, 0, 5, 4))
+    assert np.allclose(at, [0, 17.5 + 1.25 - 0.0, 3, np.nan], equal_nan=True)
+
+
+def test_pictures_and_files(tmp_path: Path) -> None:
+    mesh = square().mesh()
+    picture = mesh.picture(size=(120, 100), edges=False, light=True, colormap="magma")
+    assert picture.shape == (100, 120, 4) and picture.dtype == np.uint8 and picture[..., 3].min() == 255
+    assert len(np.unique(picture.reshape(-1, 4), axis=0)) >= 5
+    assert mesh._repr_png_().startswith(b"\x89PNG")
+    depth = 3 + mesh.nodes[:, 0]
+    for ending in ("msh", "vtu", "2dm", "csv", "obj", "stl", "node", "14", "gr3", "slf", "svg", "png"):
+        values = {"depth": depth} if ending not in ("svg", "png") else None
+        files = mesh.write(tmp_path / f"mesh.{ending}", values=values)
+        assert files and all(Path(file).stat().st_size > 100 for file in files), ending
+    assert mesh.write(tmp_path / "b.msh", binary=True, quantities=["twice = 2*x"])
+    assert b"twice" in (tmp_path / "b.msh").read_bytes()
+    # The same document by the command line gives the same arrays.
+    square().save(tmp_path / "square.meshbrush")
+    run_program("mesh", "--project", "square.meshbrush", "-o", "line.csv", cwd=tmp_path)
+    mesh.write(tmp_path / "own.csv")
+    assert (tmp_path / "own.csv").read_bytes() == (tmp_path / "line.csv").read_bytes()
