@@ -194,6 +194,8 @@ fn the_kinds_and_their_keys_agree() {
         "positive" => r#""up""#,
         "size" => r#""slope""#,
         "file" | "layer" => r#""a""#,
+        "pieces" => r#"["a"]"#,
+        "types" => r#"["land"]"#,
         _ => "1",
     };
     for key in all.iter().flat_map(|kind| kind.keys()) {
