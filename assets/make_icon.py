@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Draws the program's icon: one brush stroke over a coarse grid, refined by bisection. See README.md here."""
+"""Draws the program's icon, as icon.png and icon.svg: one brush stroke over a coarse grid, refined by bisection.
+
+See README.md here.
+"""
 
 import math
 import pathlib
 import sys
-
-from PIL import Image, ImageDraw
 
 SIZE, OVER = 256, 8                     # pixels; oversampling
 MARGIN, RADIUS, GAP = 8, 56, 1.8        # of the rounded square; width of an edge
@@ -77,13 +78,20 @@ def inset(corners, by):
     return [tuple(m + (x - m) * keep for x, m in zip(p, centre)) for p in corners]
 
 
-def main(target):
+def edge(level):
+    """The colour of edges: they fade with the size of triangles."""
+    return mix(GROUND, colour(level), 0.40 + 0.42 * level / DEEPEST)
+
+
+def write_png(triangles, target):
+    from PIL import Image, ImageDraw
+
     low, side = MARGIN * OVER, (SIZE - 2 * MARGIN) * OVER
     picture = Image.new("RGB", (SIZE * OVER, SIZE * OVER), GROUND)
     draw = ImageDraw.Draw(picture)
-    for triangle, level in mesh():
+    for triangle, level in triangles:
         corners = [(low + x * side, low + y * side) for x, y in triangle]
-        draw.polygon(corners, fill=mix(GROUND, colour(level), 0.40 + 0.42 * level / DEEPEST))   # edges fade with size
+        draw.polygon(corners, fill=edge(level))
         draw.polygon(inset(corners, GAP * OVER / 2), fill=colour(level))
     mask = Image.new("L", picture.size, 0)
     ImageDraw.Draw(mask).rounded_rectangle([low, low, low + side - 1, low + side - 1], RADIUS * OVER, fill=255)
@@ -91,5 +99,29 @@ def main(target):
     picture.resize((SIZE, SIZE), Image.LANCZOS).save(target, optimize=True)
 
 
+def write_svg(triangles, target):
+    """One path for each level, the coarsest first; corners are multiples of a unit."""
+    units, side = COARSE * 2 ** math.ceil(DEEPEST / 2), SIZE - 2 * MARGIN
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{SIZE}" height="{SIZE}" viewBox="0 0 {SIZE} {SIZE}">',
+             f'<clipPath id="rounded"><rect x="{MARGIN}" y="{MARGIN}" width="{side}" height="{side}" rx="{RADIUS}"/>',
+             '</clipPath>',
+             '<g clip-path="url(#rounded)">',
+             f'<g transform="translate({MARGIN} {MARGIN}) scale({side / units:g})" stroke-linejoin="round"'
+             f' stroke-width="{GAP * units / side:g}">']
+    hexadecimal = "#{:02x}{:02x}{:02x}".format
+    for level in range(DEEPEST + 1):
+        outlines = ("M" + "L".join(f"{x * units:g} {y * units:g}" for x, y in triangle) + "z"
+                    for triangle, own in triangles if own == level)
+        colours = f'fill="{hexadecimal(*colour(level))}" stroke="{hexadecimal(*edge(level))}"'
+        lines.append('<path %s d="%s"/>' % (colours, "".join(outlines)))
+    pathlib.Path(target).write_text("\n".join([*lines, "</g>", "</g>", "</svg>", ""]))
+
+
+def main(folder):
+    triangles = mesh()
+    write_svg(triangles, folder / "icon.svg")
+    write_png(triangles, folder / "icon.png")
+
+
 if __name__ == "__main__":
-    main(sys.argv[1] if sys.argv[1:] else pathlib.Path(__file__).with_name("icon.png"))
+    main(pathlib.Path(sys.argv[1]) if sys.argv[1:] else pathlib.Path(__file__).parent)

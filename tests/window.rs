@@ -28,6 +28,8 @@ const PROGRESS: Area = Area { x: 800..940, y: 836..852 };
 const RESTING_PLACE: (usize, usize) = (720, 890);
 /// The fill of level 0 where edges are far, and how much a driver may be off.
 const LEVEL_0: ([u8; 3], u8) = ([0x1d, 0x21, 0x2b], 3);
+/// What a desktop finds the menu entry by.
+const WINDOW_CLASS: &str = "org.meshbrush.Meshbrush";
 const BRUSH_KEY: &str = "b";
 const QUERY_KEY: &str = "q";
 const UNDO_KEYS: &str = "ctrl+z";
@@ -276,6 +278,11 @@ impl Program {
             let found = display.try_xdotool(&["search", "--onlyvisible", "--name", "Meshbrush$"])?;
             found.lines().next().map(str::to_owned)
         });
+        let of_class = display.try_xdotool(&["search", "--onlyvisible", "--class", WINDOW_CLASS]);
+        assert!(
+            of_class.is_some_and(|found| found.lines().any(|own| own == window)),
+            "no class {WINDOW_CLASS}"
+        );
         wait_for("the keyboard to go to the window", || {
             display.try_xdotool(&["windowfocus", &window])?;
             (display.try_xdotool(&["getwindowfocus"])?.trim() == window).then_some(())

@@ -84,8 +84,10 @@ use meshbrush_render::render::gpu::device_descriptor;
 
 /// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);
-/// Identifies the program to the desktop, and its folder there.
-const APP_ID: &str = "meshbrush";
+/// Identifies the window to the desktop: the name of the desktop entry in `packaging`.
+const APP_ID: &str = "org.meshbrush.Meshbrush";
+/// The name of the program's folder among the user's data.
+const DATA_FOLDER: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
 /// Key of the number of threads in the window's own storage, where they are limited.
@@ -205,7 +207,7 @@ impl App {
                 self.limit_threads(count);
             }
         }
-        if let Some(folder) = eframe::storage_dir(APP_ID) {
+        if let Some(folder) = eframe::storage_dir(DATA_FOLDER) {
             self.keep_journal_in(folder.join("journals"));
             self.project.keep_claims_in(folder.join("open"));
         }
@@ -281,6 +283,7 @@ pub fn run(file: Option<PathBuf>) -> Result<(), String> {
             .with_icon(window_icon())
             .with_inner_size(FIRST_SIZE)
             .with_min_inner_size(vec2(SMALLEST_SIZE[0], SMALLEST_SIZE[1])),
+        persistence_path: eframe::storage_dir(DATA_FOLDER).map(|folder| folder.join("app.ron")),
         ..eframe::NativeOptions::default()
     };
     if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut options.wgpu_options.wgpu_setup {

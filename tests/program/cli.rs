@@ -741,6 +741,28 @@ fn shells_complete_the_options() {
     assert_eq!(folder.run("completions dos").status, 2);
 }
 
+#[test]
+fn every_command_has_a_man_page() {
+    let folder = Folder::new("cli-man");
+    let ran = folder.run("man pages");
+    assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
+    let page = folder.read("pages/meshbrush-why.1");
+    // The examples stay lines, with the signs that a shell needs.
+    for line in [
+        r"\fB\-\-max\-triangles\fR \fI<N>\fR",
+        ".SH EXAMPLES\n.nf\n",
+        r"\&meshbrush why 2.5,1 \-\-project coast.meshbrush \-\-json",
+        r"\(aq0.01 + 0.2*hypot(x \- 0.5, y \- 0.5)\(aq",
+    ] {
+        assert!(page.contains(line), "no {line} in {page}");
+    }
+    let program = folder.read("pages/meshbrush.1");
+    assert!(program.contains(r"meshbrush\-mesh(1)") && !program.contains(r"meshbrush\-man"), "{program}");
+    let ran = folder.run("man pages/meshbrush.1");
+    assert_eq!(ran.status, 1);
+    assert!(ran.err.contains("cannot be written"), "{}", ran.err);
+}
+
 /// As [`Folder::run`], with bytes on standard input.
 fn run_with_input(folder: &Folder, arguments: &str, input: &str) -> Ran {
     let mut child = folder

@@ -13,6 +13,8 @@ use super::help::{
     target_raster_help, target_raster_long_help,
 };
 use super::lengths::Length;
+#[cfg(feature = "man")]
+use super::more_args::ManArguments;
 use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
@@ -99,6 +101,10 @@ pub enum Command {
     ///
     /// For bash: meshbrush completions bash > ~/.local/share/bash-completion/completions/meshbrush
     Completions(CompletionsArguments),
+    /// Write the man pages of the program and of its commands
+    #[cfg(feature = "man")]
+    #[command(hide = true)]
+    Man(ManArguments),
     /// Write the pictures of the window that the documentation shows
     ///
     /// They are painted without a display, by the program's own commands.

@@ -15,6 +15,8 @@ mod help;
 pub mod input;
 mod lengths;
 mod locate;
+#[cfg(feature = "man")]
+mod man;
 mod mesh;
 mod more_args;
 mod options;
@@ -118,6 +120,8 @@ fn run_command(
             clap_complete::generate(typed.shell, &mut Arguments::command(), "meshbrush", &mut script);
             out.write_all(&script).and_then(|()| out.flush()).map_err(Failure::Print)
         }
+        #[cfg(feature = "man")]
+        (Some(Command::Man(typed)), _) => man::write(&typed.folder),
         (Some(Command::Screenshots(typed)), window) => {
             let Some(window) = window else { return Err(without_window()) };
             let write = match (typed.manual, typed.tour) {

@@ -49,6 +49,15 @@ pub struct CompletionsArguments {
     pub shell: clap_complete::Shell,
 }
 
+/// `meshbrush man`.
+#[cfg(feature = "man")]
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Folder to write to; created if it does not exist
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
 /// `meshbrush screenshots`.
 #[derive(Debug, Args)]
 pub struct ScreenshotsArguments {
