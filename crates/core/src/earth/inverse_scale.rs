@@ -6,6 +6,7 @@ use glam::{DVec2, dvec2};
 use rayon::prelude::*;
 
 use super::Projection;
+use super::squares::Squares;
 use crate::geometry::Rect;
 
 /// The inverse scale 1/k over a rectangle, with bounds of its values and of its derivatives.
@@ -28,18 +29,11 @@ pub struct InverseScale {
     /// The side of a cell, in metres of the plane.
     side: f64,
     /// Cells along x and y.
-    cells: [usize; 2],
+    cells: [u32; 2],
     /// One more around the corners of all cells, row by row from the lowest.
     values: Vec<f64>,
     /// Bounds in each cell, then in squares of 2 × 2 of them, and so on up to one square.
-    squares: Vec<Squares>,
-}
-
-/// The bounds in squares, row by row from the lowest.
-#[derive(Debug)]
-struct Squares {
-    columns: usize,
-    bounds: Vec<SquareBounds>,
+    squares: Vec<Squares<SquareBounds>>,
 }
 
 /// What holds in a square.
@@ -72,16 +66,18 @@ impl InverseScale {
         let size = bounds.size();
         let longest = size.max_element();
         let side = longest / (longest / SIDE).clamp(*CELLS.start(), *CELLS.end());
-        let cells = [size.x, size.y].map(|length| (length / side + 2.0 * MARGIN).ceil() as usize);
+        let cells = [size.x, size.y].map(|length| (length / side + 2.0 * MARGIN).ceil() as u32);
         let origin = bounds.min - MARGIN * side;
-        let [columns, rows] = cells.map(|count| count + 3);
+        let [columns, rows] = cells.map(|count| count as usize + 3);
         let at = |number: usize| {
             let place = dvec2((number % columns) as f64, (number / columns) as f64);
             1.0 / projection.scale_in_plane(origin + side * (place - 1.0))
         };
         let values: Vec<f64> = (0..columns * rows).into_par_iter().with_min_len(1024).map(at).collect();
         let mut inverse = Self { origin, side, cells, values, squares: Vec::new() };
-        inverse.squares = inverse.all_squares();
+        let places = (0..cells[1]).flat_map(|row| (0..cells[0]).map(move |column| [column, row]));
+        let bounds = places.map(|cell| inverse.bounds_in(cell)).collect();
+        inverse.squares = Squares::new(cells[0], bounds).pyramid(SquareBounds::joined);
         inverse
     }
 
@@ -89,12 +85,9 @@ impl InverseScale {
     /// in the plane.
     pub fn at(&self, point: DVec2) -> f64 {
         let (cell, [u, v]) = self.place(point);
-        let (across, up) = (weights(u), weights(v));
-        let mut sum = 0.0;
-        for (row, weight) in up.into_iter().enumerate() {
-            sum += weight * dot(across, self.row(cell, row));
-        }
-        sum
+        let across = weights(u);
+        let rows: [f64; 4] = std::array::from_fn(|number| dot(across, self.row(cell, number)));
+        dot(weights(v), rows)
     }
 
     /// Returns bounds of the inverse scale over a rectangle of the plane: the least and the greatest.
@@ -105,7 +98,7 @@ impl InverseScale {
         let spread = slope.x * width + slope.y * height;
         let curved = around.curvature * (width + height) * (0.5 * (width + height) + self.jump());
         let (middle, most) = (self.at(center), spread + curved);
-        // NaN where the scale is not known.
+        // Numbers that are not finite leave the bounds of the squares.
         let [least, greatest] = [around.least.max(middle - most), around.greatest.min(middle + most)];
         [least * (1.0 - ROUNDING), greatest * (1.0 + ROUNDING)]
     }
@@ -147,21 +140,21 @@ impl InverseScale {
     }
 
     /// Returns the cell of a point, and where it lies there, from 0 to 1 along x and y.
-    fn place(&self, point: DVec2) -> ([usize; 2], [f64; 2]) {
+    fn place(&self, point: DVec2) -> ([u32; 2], [f64; 2]) {
         let from_origin = (point - self.origin) / self.side;
         let of_axis = |axis: usize| {
             let last = self.cells[axis] - 1;
-            let along = from_origin[axis].clamp(0.0, (last + 1) as f64);
-            let cell = (along as usize).min(last);
-            (cell, along - cell as f64)
+            let along = from_origin[axis].clamp(0.0, f64::from(last + 1));
+            let cell = (along as u32).min(last);
+            (cell, along - f64::from(cell))
         };
         let [(column, u), (row, v)] = [of_axis(0), of_axis(1)];
         ([column, row], [u, v])
     }
 
     /// Returns four values of a row, from 0 to 3, around a cell.
-    fn row(&self, [column, row]: [usize; 2], number: usize) -> [f64; 4] {
-        let first = (row + number) * (self.cells[0] + 3) + column;
+    fn row(&self, [column, row]: [u32; 2], number: usize) -> [f64; 4] {
+        let first = (row as usize + number) * (self.cells[0] as usize + 3) + column as usize;
         std::array::from_fn(|n| self.values[first + n])
     }
 
@@ -179,28 +172,16 @@ impl InverseScale {
     /// Returns what holds in all cells that a rectangle in the grid meets, from four squares at most.
     fn bounds_over(&self, within: &Rect) -> SquareBounds {
         let [first, last] = [within.min, within.max].map(|corner| self.place(corner).0);
-        let is_enough = |level: usize| (0..2).all(|axis| (last[axis] >> level) - (first[axis] >> level) <= 1);
-        let level = (0..self.squares.len() - 1).find(|&level| is_enough(level));
-        let level = level.unwrap_or(self.squares.len() - 1);
+        let is_enough =
+            |level: &usize| (0..2).all(|axis| (last[axis] >> level) - (first[axis] >> level) <= 1);
+        let level = (0..self.squares.len()).find(is_enough).expect("the last level has one square");
         let of_axis = |axis: usize| first[axis] >> level..=last[axis] >> level;
-        let squares = &self.squares[level];
-        let places = of_axis(1).flat_map(|row| of_axis(0).map(move |column| row * squares.columns + column));
-        places.map(|place| squares.bounds[place]).fold(SquareBounds::NONE, SquareBounds::joined)
+        let places = of_axis(1).flat_map(|row| of_axis(0).map(move |column| [column, row]));
+        let bounds = places.map(|place| self.squares[level].at(place));
+        bounds.reduce(SquareBounds::joined).expect("the rectangle is in a square")
     }
 
-    fn all_squares(&self) -> Vec<Squares> {
-        let [columns, rows] = self.cells;
-        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
-        let first = Squares { columns, bounds: places.map(|cell| self.bounds_in(cell)).collect() };
-        let mut all = vec![first];
-        while let Some(last) = all.last().filter(|last| last.bounds.len() > 1) {
-            let halved = last.halved();
-            all.push(halved);
-        }
-        all
-    }
-
-    fn bounds_in(&self, cell: [usize; 2]) -> SquareBounds {
+    fn bounds_in(&self, cell: [u32; 2]) -> SquareBounds {
         let rows: [[f64; 4]; 4] = std::array::from_fn(|number| self.row(cell, number));
         let columns: [[f64; 4]; 4] = std::array::from_fn(|n| rows.map(|row| row[n]));
         let straight = rows.iter().chain(&columns).map(bend).fold(0.0, f64::max);
@@ -220,28 +201,12 @@ impl InverseScale {
 }
 
 impl SquareBounds {
-    const NONE: Self = Self { least: f64::INFINITY, greatest: f64::NEG_INFINITY, curvature: 0.0 };
-
     fn joined(self, other: Self) -> Self {
         Self {
             least: self.least.min(other.least),
             greatest: self.greatest.max(other.greatest),
             curvature: self.curvature.max(other.curvature),
         }
-    }
-}
-
-impl Squares {
-    /// Returns the squares that are twice as wide.
-    fn halved(&self) -> Self {
-        let columns = self.columns.div_ceil(2);
-        let rows = (self.bounds.len() / self.columns).div_ceil(2);
-        let mut bounds = vec![SquareBounds::NONE; columns * rows];
-        for (number, &of_square) in self.bounds.iter().enumerate() {
-            let around = &mut bounds[number / self.columns / 2 * columns + number % self.columns / 2];
-            *around = around.joined(of_square);
-        }
-        Self { columns, bounds }
     }
 }
 

@@ -22,6 +22,7 @@ mod reprojection;
 mod route;
 mod scale_map;
 mod speed;
+mod squares;
 mod text;
 mod transverse;
 

@@ -3,6 +3,7 @@
 use glam::{DVec2, dvec2};
 
 use super::Projection;
+use super::squares::Squares;
 use crate::geometry::{Lattice, LatticePoint, Rect};
 
 /// Lower bounds of the scale k in the dyadic squares of a lattice.
@@ -25,8 +26,9 @@ pub struct ScaleMap {
     columns: u32,
     /// Row by row from the lowest.
     cells: Vec<Cell>,
-    /// The bands of squares of 2^bits steps, then of those twice as wide, up to one that holds the lattice.
-    larger: Vec<LargerSquares>,
+    /// The first and the last band in squares of 2^bits steps, then in those twice as wide, up to one that
+    /// holds the lattice.
+    larger: Vec<Squares<[u16; 2]>>,
     bands: Bands,
 }
 
@@ -41,13 +43,6 @@ struct Cell {
     least: f64,
     /// Never greater than this.
     greatest: f64,
-}
-
-#[derive(Debug)]
-struct LargerSquares {
-    columns: u32,
-    /// The first and the last band in each square, row by row from the lowest.
-    bands: Vec<[u16; 2]>,
 }
 
 /// Steps of ln k.
@@ -84,24 +79,17 @@ impl ScaleMap {
             places.map(|place| samples.cell(place, samples.least_in(projection, place))).collect();
         let bands = Bands::of(&cells, 1 << bits);
         let mut map = Self { bits, columns, cells, larger: Vec::new(), bands };
-        map.larger = map.larger_squares(rows);
+        map.larger = map.larger_squares();
         map
     }
 
-    fn larger_squares(&self, rows: u32) -> Vec<LargerSquares> {
+    fn larger_squares(&self) -> Vec<Squares<[u16; 2]>> {
         let side = 1 << self.bits;
         let of_cell = |cell: &Cell| {
             [self.bands.of_value(cell.least_in([0, 0], side)), self.bands.of_value(cell.greatest)]
         };
-        let first = LargerSquares { columns: self.columns, bands: self.cells.iter().map(of_cell).collect() };
-        let mut larger = vec![first];
-        let mut rows = rows;
-        while let Some(last) = larger.last().filter(|last| last.bands.len() > 1) {
-            let next = last.halved(rows);
-            rows = rows.div_ceil(2);
-            larger.push(next);
-        }
-        larger
+        let cells = Squares::new(self.columns, self.cells.iter().map(of_cell).collect());
+        cells.pyramid(|a: [u16; 2], b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
     /// Returns the number of bands.
@@ -147,11 +135,9 @@ impl ScaleMap {
     }
 
     #[inline]
-    fn larger_at(&self, bits: u32, [column, row]: [u32; 2]) -> [u16; 2] {
+    fn larger_at(&self, bits: u32, place: [u32; 2]) -> [u16; 2] {
         let larger = self.larger.get(bits.saturating_sub(self.bits) as usize);
-        larger.map_or([0, self.bands.count - 1], |larger| {
-            larger.bands[(row * larger.columns + column) as usize]
-        })
+        larger.map_or([0, self.bands.count - 1], |larger| larger.at(place))
     }
 }
 
@@ -165,20 +151,6 @@ impl Cell {
             self.slopes[axis] * f64::from(low)
         };
         (self.at_corner + (term(0) + term(1))).max(self.least)
-    }
-}
-
-impl LargerSquares {
-    /// Returns the squares that are twice as wide.
-    fn halved(&self, rows: u32) -> Self {
-        let [columns, halved_rows] = [self.columns, rows].map(|count| count.div_ceil(2));
-        let mut bands = vec![[u16::MAX, 0]; (columns * halved_rows) as usize];
-        for (number, [least, greatest]) in (0..).zip(&self.bands) {
-            let (column, row) = (number % self.columns, number / self.columns);
-            let joined: &mut [u16; 2] = &mut bands[(row / 2 * columns + column / 2) as usize];
-            *joined = [joined[0].min(*least), joined[1].max(*greatest)];
-        }
-        Self { columns, bands }
     }
 }
 
