@@ -50,9 +50,7 @@ impl Coordinates {
     /// Returns the rings, without the repeated last position.
     fn rings(&self) -> Vec<Vec<DVec2>> {
         let mut rings = self.lists();
-        for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
-            ring.pop();
-        }
+        rings.iter_mut().for_each(open_ring);
         rings
     }
 
@@ -171,5 +169,12 @@ impl Coordinates {
             ));
         }
         Ok(())
+    }
+}
+
+/// Leaves out the last position of a ring where it repeats the first.
+pub(super) fn open_ring(ring: &mut Vec<DVec2>) {
+    if ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
     }
 }

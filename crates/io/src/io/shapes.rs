@@ -78,6 +78,15 @@ pub(super) fn check(shapes: &ShapeList) -> Result<(), Flaw> {
     Ok(())
 }
 
+/// Checks that there are not too many points so far, while there may be more.
+pub(super) fn check_count(so_far: usize) -> Result<(), Flaw> {
+    if so_far <= MOST_CORNERS {
+        return Ok(());
+    }
+    let limit = Grouped(MOST_CORNERS);
+    Err(Flaw::Syntax(format!("the shapes have more than {limit} points, the limit. Simplify them first.")))
+}
+
 /// Returns all positions of the shapes.
 pub(super) fn places(shapes: &ShapeList) -> impl Iterator<Item = DVec2> {
     let rings = shapes.polygons.iter().flatten().flatten();

@@ -12,9 +12,10 @@ use super::Meter;
 use super::coordinate_system::CoordinateSystem;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::geojson::{self, Outline};
+use super::positions::open_ring;
 use super::shape_format::ShapeFormatSpec;
 use super::shapes::{self, ShapeFile};
-use meshbrush_core::domain::{MOST_CORNERS, NamedPolygon, Polygon, Ring, signed_area};
+use meshbrush_core::domain::{NamedPolygon, Polygon, Ring, signed_area};
 use meshbrush_core::layers::ShapeList;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::Grouped;
@@ -95,12 +96,7 @@ fn parse(mut input: impl Read) -> Result<ShapeList, PlacedFlaw> {
         at += 8 + size;
         let problem = |rule: String| Flaw::Syntax(format!("record {number} {rule}. Export the layer again."));
         count += take(Numbers(&record), &mut shapes).map_err(problem)?;
-        if count > MOST_CORNERS {
-            let limit = Grouped(MOST_CORNERS);
-            let problem =
-                format!("the shapes have more than {limit} points, the limit. Simplify them first.");
-            return Err(Flaw::Syntax(problem).into());
-        }
+        shapes::check_count(count)?;
     }
     Ok(shapes)
 }
@@ -209,9 +205,7 @@ impl Numbers<'_> {
 /// Returns the polygons of a record: outer rings run clockwise, and holes the other way. A hole belongs to
 /// the smallest outer ring around it; one without an outer ring is a polygon itself.
 fn polygons(mut rings: Vec<Ring>) -> Vec<Polygon> {
-    for ring in rings.iter_mut().filter(|ring| ring.len() > 1 && ring.first() == ring.last()) {
-        ring.pop();
-    }
+    rings.iter_mut().for_each(open_ring);
     rings.retain(|ring| !ring.is_empty());
     let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| signed_area(ring) <= 0.0);
     let mut polygons: Vec<Polygon> = outer.into_iter().map(|ring| vec![ring]).collect();

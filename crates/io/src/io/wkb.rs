@@ -4,6 +4,7 @@
 
 use glam::{DVec2, dvec2};
 
+use super::positions::open_ring;
 use meshbrush_core::domain::{Polygon, Ring};
 use meshbrush_core::layers::ShapeList;
 
@@ -67,9 +68,7 @@ impl<'a> Bytes<'a> {
         let mut rings: Vec<Ring> = Vec::new();
         for _ in 0..self.number()? {
             let mut ring = self.points(numbers)?;
-            if ring.len() > 1 && ring.first() == ring.last() {
-                ring.pop();
-            }
+            open_ring(&mut ring);
             rings.push(ring);
         }
         Ok(rings)

@@ -10,9 +10,8 @@ use crate::io::geojson::{self, Outline};
 use crate::io::shapes::{self, ShapeFile};
 use crate::io::wkb::Bytes;
 use crate::io::{CoordinateSystem, Meter};
-use meshbrush_core::domain::{MOST_CORNERS, NamedPolygon};
+use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::layers::ShapeList;
-use meshbrush_mesh::text::Grouped;
 
 /// Bytes of the envelope in front of a geometry, by its number in the header.
 const ENVELOPES: [usize; 5] = [0, 32, 48, 48, 64];
@@ -154,12 +153,7 @@ fn read_rows(
             Flaw::Syntax(format!("row {number} of the layer {} {rule}. Export it again.", layer.table))
         })?;
         *counts.0 += shapes::places(&shapes).count();
-        if *counts.0 > MOST_CORNERS {
-            let limit = Grouped(MOST_CORNERS);
-            let problem =
-                format!("the shapes have more than {limit} points, the limit. Simplify them first.");
-            return Err(Flaw::Syntax(problem).into());
-        }
+        shapes::check_count(*counts.0)?;
         let name = row.get::<_, Option<String>>(1).map_err(refused)?.unwrap_or_default();
         if shapes::places(&shapes).next().is_some() {
             layer.rows.push((shapes, name));

@@ -10,7 +10,6 @@ use super::{
 use crate::io::RasterFormat;
 use crate::io::settings::SavedBoundaryType;
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
 };
@@ -309,12 +308,6 @@ impl SavedLayer {
         let format = || self.file.as_ref().and_then(|file| RasterFormat::of(file).ok());
         let is_image = || format().is_some_and(|format| !format.is_grid());
         self.is_risk() || (self.read_as == Some(SavedQuantity::Diameter) && is_image())
-    }
-
-    /// Returns whether it is a formula that uses the depth of the water.
-    pub fn uses_depth(&self) -> bool {
-        let formula = self.formula.as_deref().map(Formula::parse_of_size);
-        formula.is_some_and(|formula| formula.is_ok_and(|formula| formula.uses_depth()))
     }
 
     /// Returns whether it asks for risk.

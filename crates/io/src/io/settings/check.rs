@@ -7,7 +7,7 @@ use super::{
     SavedSettings, SavedTreatment,
 };
 use crate::io::layers::{
-    FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
+    CheckedKind, FindFile, SavedKind, SavedLayer, Stored, compiled, each, point, positive_length, rect_of,
 };
 use crate::io::{KeyFault, RasterFormat, Step};
 use glam::DVec2;
@@ -52,8 +52,9 @@ impl SavedSettings {
         self.check_tables()?;
         let has_depths = self.layer.iter().any(|layer| layer.kind == SavedKind::Depth);
         for (index, layer) in self.layer.iter().enumerate() {
-            layer.checked(Stored::InFiles).map_err(|fault| fault.within(index).within("layer"))?;
-            if layer.uses_depth() && !has_depths {
+            let checked = layer.checked(Stored::InFiles);
+            let kind = checked.map_err(|fault| fault.within(index).within("layer"))?;
+            if matches!(kind, CheckedKind::Complete(kind) if kind.uses_depth()) && !has_depths {
                 let problem = "it uses `depth`, and there are no depths. Name a grid of them: on the command line with \
                                --depth, in a recipe in a layer of the kind \"depth\".";
                 return Err(KeyFault::value("formula", problem).within(index).within("layer"));
