@@ -7,7 +7,8 @@ use meshbrush_cli::cli::build::FinishedMesh;
 use meshbrush_cli::cli::details::{DetailUses, MeshDetails, provenance_from};
 use meshbrush_cli::cli::earth_args::OutputCoordinates;
 use meshbrush_cli::cli::failure::Failure;
-use meshbrush_cli::cli::requested_files::RequestedFiles;
+use meshbrush_cli::cli::output::Output;
+use meshbrush_cli::cli::requested_files::{ExportedMesh, RequestedFiles};
 use meshbrush_cli::cli::summary::Summary;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::settings::SavedOutput;
@@ -292,7 +293,18 @@ impl Mesh {
         let written = run(slf.py(), &watching, move |watch| {
             watch.tell("writing", 0);
             let details = shared.details().map_err(|problem| Failure::Work(problem.to_owned()))?;
-            requested.write(&shared.finished, details, coordinates, values, &watch.meter)
+            let source = MeshSource::Document(&shared.name);
+            let provenance = provenance_from(&shared.finished, source, None, coordinates);
+            let target_diameter = match requested.outputs.iter().any(Output::has_targets) {
+                true => shared.targets(&watch.meter).map_err(|error| Failure::Work(error.to_string()))?,
+                false => &[],
+            };
+            shared.with_extract(|extract| {
+                let (finished, provenance) = (&shared.finished, &provenance);
+                let exported =
+                    ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
+                requested.write(&exported, values, &watch.meter)
+            })
         })?;
         written.map_err(|failure| match failure {
             Failure::Write { .. } => file_error(failure),

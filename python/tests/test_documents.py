@@ -346,3 +346,16 @@ def test_pictures_and_files(tmp_path: Path) -> None:
     run_program("mesh", "--project", "square.meshbrush", "-o", "line.csv", cwd=tmp_path)
     mesh.write(tmp_path / "own.csv")
     assert (tmp_path / "own.csv").read_bytes() == (tmp_path / "line.csv").read_bytes()
+
+
+def test_files_say_what_their_coordinates_are(tmp_path: Path) -> None:
+    domain = mb.Domain(feature(bay(0.5, (20.0, 40.0))))
+    document = mb.Document(domain, projection="auto", h_min=5_000)
+    mesh = document.mesh()
+    mesh.write(tmp_path / "degrees.node")
+    mesh.write(tmp_path / "plane.node", crs="plane")
+    said = [
+        next(line for line in (tmp_path / name).read_text().splitlines() if "coordinates" in line)
+        for name in ("degrees.node", "plane.node")
+    ]
+    assert "longitude" in said[0] and "longitude" not in said[1] and "x, y in +proj=" in said[1]

@@ -1,6 +1,6 @@
 //! Builds the mesh of an input, with progress on the terminal.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
@@ -10,7 +10,7 @@ use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
 use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
-use meshbrush_core::earth::{Coordinates, EdgeLengths};
+use meshbrush_core::earth::{Coordinates, EdgeLengths, Ground};
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
@@ -34,6 +34,8 @@ pub struct FinishedMesh {
     pub refinement: Duration,
     /// Triangles that the level cap left coarser than their target.
     pub capped: usize,
+    /// How lengths and areas are measured, once somebody asked.
+    ground: OnceLock<Ground>,
 }
 
 /// What a mesh was made from, beside its size field.
@@ -69,7 +71,7 @@ impl FinishedMesh {
         if derived.patch().leaves_nothing_of(&built.mesh) {
             return Err(CoarseError::EmptyDomain { spacing: built.mesh.lattice().spacing() });
         }
-        Ok(Self { built, derived, origin, refinement, capped })
+        Ok(Self { built, derived, origin, refinement, capped, ground: OnceLock::new() })
     }
 
     /// Returns the mesh with its size field.
@@ -104,7 +106,8 @@ impl FinishedMesh {
 
     /// Returns the boundary of the mesh as files get it, in named pieces.
     pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
-        MeshBoundary::new(extract, &self.origin.domain, &self.origin.marks)
+        let boundary = MeshBoundary::new(extract, &self.origin.domain, &self.origin.marks);
+        boundary.on_ground(extract, self.ground())
     }
 
     /// Returns the names, types and splits of the boundary that are not on it, a sentence each.
@@ -154,6 +157,11 @@ impl FinishedMesh {
     /// Returns the domain, in world units.
     pub fn domain(&self) -> &Domain {
         &self.origin.domain
+    }
+
+    /// Returns how lengths and areas are measured.
+    pub fn ground(&self) -> &Ground {
+        self.ground.get_or_init(|| self.domain().ground())
     }
 
     /// Returns why a triangle is in the mesh.

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::build::FinishedMesh;
 use super::earth_args::OutputCoordinates;
 use super::input::Input;
-use meshbrush_core::domain::{HoleFigures, MeshBoundary, PieceFigures};
-use meshbrush_core::earth::{Coordinates, Ground};
+use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -65,8 +65,7 @@ impl MeshDetails {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
             false => None,
         };
-        let straits =
-            uses.json.then(|| StraitSummary::of(layers, extract, &finished.domain().ground())).flatten();
+        let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         Ok(Self { boundary, parts, provenance, depths, straits })
     }
@@ -181,7 +180,7 @@ const MOST_STRAITS: usize = 1000;
 
 impl StraitSummary {
     /// Counts triangles for the uppermost visible layer that asks for them.
-    fn of(layers: &[Layer], extract: &Extract, ground: &Ground) -> Option<Self> {
+    fn of(layers: &[Layer], extract: &Extract, domain: &Domain) -> Option<Self> {
         let straits =
             layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| match &layer.kind {
                 LayerKind::Straits(straits) => Some(straits),
@@ -191,7 +190,7 @@ impl StraitSummary {
         let is_below = |count: &&StraitCount| (count.triangles as f64) < straits.across;
         let place = |count: &StraitCount| NarrowStrait {
             at: count.disc.center.into(),
-            width: count.disc.width * ground.inverse_scale_at(count.disc.center),
+            width: domain.on_earth(count.disc.width, count.disc.center),
             triangles: count.triangles,
         };
         Some(Self {

@@ -13,7 +13,7 @@ use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{Cancelled, DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues};
+use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_render::render::export::{ExportFormat, Look};
 
@@ -113,6 +113,23 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
 const NOT_ON_EARTH: &str = "--out-crs: the domain is not in the plane of a projection, so its coordinates are those of its \
      files. Choose a plane with --projection, or leave this out.";
 
+/// A mesh as its files have it.
+#[derive(Clone, Copy)]
+pub struct ExportedMesh<'a> {
+    /// The mesh.
+    pub finished: &'a FinishedMesh,
+    /// Its nodes and triangles.
+    pub extract: &'a Extract<'a>,
+    /// Its boundary, parts and depths.
+    pub details: &'a MeshDetails,
+    /// Where it comes from, and what its coordinates are.
+    pub provenance: &'a Provenance,
+    /// Its coordinates in files.
+    pub coordinates: OutputCoordinates,
+    /// h̄ at each node; not needed where no format has it.
+    pub target_diameter: &'a [f64],
+}
+
 /// Writes files, and says which.
 ///
 /// # Errors
@@ -125,9 +142,6 @@ pub fn write_files(
     coordinates: OutputCoordinates,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let mesh = finished.mesh();
-    let placed = in_coordinates(finished, extract, coordinates)?;
-    let placed = placed.as_ref().unwrap_or(extract);
     let mut outputs = requested.iter().flat_map(|files| &files.outputs);
     let target_diameter = match outputs.any(Output::has_targets) {
         true => {
@@ -138,10 +152,15 @@ pub fn write_files(
         false => Vec::new(),
     };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
+    let (mesh, provenance) = (finished.mesh(), &details.provenance);
+    let target_diameter = &target_diameter[..];
+    let exported = ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
+    let placed = exported.in_coordinates()?;
+    let placed = placed.as_ref().unwrap_or(extract);
     for files in requested {
         let look = files.look.for_mesh(mesh);
-        let quantities = files.values_at_nodes(extract, details, Vec::new())?;
-        let data = details.for_files(&target_diameter, &quantities);
+        let quantities = files.values_at_nodes(&exported, Vec::new())?;
+        let data = exported.data(&quantities);
         for output in &files.outputs {
             let meter = interruption.meter();
             let write = || output.write(mesh, placed, &data, &look, &meter);
@@ -178,23 +197,15 @@ impl RequestedFiles {
     /// Fails when a quantity is not finite somewhere, a file cannot be written, or the work was cancelled.
     pub fn write(
         &self,
-        finished: &FinishedMesh,
-        details: &MeshDetails,
-        coordinates: OutputCoordinates,
+        exported: &ExportedMesh,
         values: Vec<NodeValues>,
         meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let (mesh, extract) = (finished.mesh(), finished.extract());
-        let placed = in_coordinates(finished, &extract, coordinates)?;
-        let placed = placed.as_ref().unwrap_or(&extract);
-        let cancelled = |error: Cancelled| Failure::Work(error.to_string());
-        let target_diameter = match self.outputs.iter().any(Output::has_targets) {
-            true => finished.target_at_nodes(&extract, meter).map_err(cancelled)?,
-            false => Vec::new(),
-        };
-        let quantities = self.values_at_nodes(&extract, details, values)?;
-        let data = details.for_files(&target_diameter, &quantities);
-        let look = self.look.for_mesh(mesh);
+        let mesh = exported.finished.mesh();
+        let placed = exported.in_coordinates()?;
+        let placed = placed.as_ref().unwrap_or(exported.extract);
+        let quantities = self.values_at_nodes(exported, values)?;
+        let (data, look) = (exported.data(&quantities), self.look.for_mesh(mesh));
         let write = |output: &Output| output.write(mesh, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }
@@ -203,44 +214,41 @@ impl RequestedFiles {
     /// them is called so.
     fn values_at_nodes(
         &self,
-        extract: &Extract,
-        details: &MeshDetails,
+        exported: &ExportedMesh,
         mut values: Vec<NodeValues>,
     ) -> Result<Vec<NodeValues>, Failure> {
         if !self.wants_node_data() {
             return Ok(Vec::new());
         }
         for quantity in &self.quantities {
-            values.push(quantity.at_nodes(extract)?);
+            values.push(quantity.at_nodes(exported.extract)?);
         }
         let has_own = values.iter().any(|values| values.name == DEPTH);
-        let of_layers = details.depths.as_ref().filter(|_| !has_own);
+        let of_layers = exported.details.depths.as_ref().filter(|_| !has_own);
         values
             .extend(of_layers.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths.clone() }));
         Ok(values)
     }
 }
 
-impl MeshDetails {
-    fn for_files<'a>(&'a self, target_diameter: &'a [f64], quantities: &'a [NodeValues]) -> MeshData<'a> {
-        let Self { boundary, parts, provenance, depths: _, straits: _ } = self;
+impl ExportedMesh<'_> {
+    fn data<'a>(&'a self, quantities: &'a [NodeValues]) -> MeshData<'a> {
+        let Self { details, provenance, target_diameter, .. } = *self;
+        let MeshDetails { boundary, parts, .. } = details;
         MeshData { target_diameter, quantities, boundary, parts, provenance }
     }
-}
 
-/// Returns an extract with other coordinates, if these are not those of the mesh.
-fn in_coordinates<'a>(
-    finished: &FinishedMesh,
-    extract: &'a Extract,
-    coordinates: OutputCoordinates,
-) -> Result<Option<Extract<'a>>, Failure> {
-    let nodes = match coordinates {
-        OutputCoordinates::Lonlat => finished.domain().nodes_in(&Coordinates::Geographic, extract),
-        OutputCoordinates::Plane => None,
-        OutputCoordinates::Other(coordinates) => {
-            let nodes = finished.domain().nodes_in(&coordinates, extract);
-            Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
-        }
-    };
-    Ok(nodes.map(|nodes| extract.with_coordinates(nodes)))
+    /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.
+    fn in_coordinates(&self) -> Result<Option<Extract<'_>>, Failure> {
+        let domain = self.finished.domain();
+        let nodes = match self.coordinates {
+            OutputCoordinates::Lonlat => domain.nodes_in(&Coordinates::Geographic, self.extract),
+            OutputCoordinates::Plane => None,
+            OutputCoordinates::Other(coordinates) => {
+                let nodes = domain.nodes_in(&coordinates, self.extract);
+                Some(nodes.ok_or_else(|| Failure::Usage(NOT_ON_EARTH.into()))?)
+            }
+        };
+        Ok(nodes.map(|nodes| self.extract.with_coordinates(nodes)))
+    }
 }

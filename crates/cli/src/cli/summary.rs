@@ -164,7 +164,7 @@ impl RemovedSummary {
         let part = |part: &RemovedPart| RemovedPartSummary {
             place: part.place.into(),
             triangles: part.triangles,
-            area: part.area * ground.inverse_scale_at(part.place).powi(2),
+            area: ground.area_around(part.area, part.place),
         };
         let Removed { parts, pinches, triangles, area: in_plane, .. } = removed;
         let removed: Vec<RemovedPartSummary> = parts.iter().map(part).collect();
@@ -181,8 +181,8 @@ impl Outline {
         region: &Region,
         boundary: Option<&MeshBoundary>,
     ) -> Self {
-        let ground = finished.domain().ground();
-        let fit = FitQuality::of(extract, region, &ground);
+        let ground = finished.ground();
+        let fit = FitQuality::of(extract, region, ground);
         let Topology { parts, holes, .. } = extract.topology();
         let placed = |farthest: Option<(f64, DVec2)>| farthest.map(|(distance, at)| (distance, at.into()));
         Self {
@@ -190,7 +190,7 @@ impl Outline {
             region_holes: region.hole_count(),
             holes,
             parts,
-            removed: RemovedSummary::new(finished.derived.removed(), &ground),
+            removed: RemovedSummary::new(finished.derived.removed(), ground),
             misclassified_area: fit.misclassified_area,
             boundary_length: fit.boundary_length,
             outline_length: fit.outline_length,
@@ -277,7 +277,7 @@ impl Summary {
     ) -> Self {
         let mesh = finished.mesh();
         let levels = extract.level_counts();
-        let ground = finished.domain().ground();
+        let ground = finished.ground();
         let region = finished.region();
         let boundary = details.map(|details| &details.boundary);
         Self {
@@ -285,18 +285,15 @@ impl Summary {
             unit: (finished.unit() != LengthUnit::None).then(|| finished.unit().name()),
             nodes: extract.nodes().len(),
             area: match ground.inverse_scale() {
-                Some(_) => extract.area_by(|corners| ground.triangle_area(corners)),
-                None if extract.is_patched() => extract.area(),
-                None => mesh.area(),
+                None if !extract.is_patched() => mesh.area(),
+                _ => ground.mesh_area(extract),
             },
             outline_nodes: finished.derived.fit().map(|fit| OutlineNodes::new(fit, finished.domain())),
             outline: region.map(|region| Outline::of(finished, extract, region, boundary)),
             boundary: boundary.map(PieceSummary::of_present),
             lost_pieces: boundary.map(LostPiece::all),
             part_triangles: details.map(MeshDetails::part_triangles),
-            statistics: details.and_then(|_| {
-                extract.statistics_by(|ends| ground.length(ends), |corners| ground.triangle_area(corners))
-            }),
+            statistics: details.and_then(|_| ground.statistics(extract)),
             max_level: levels.len() - 1,
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),

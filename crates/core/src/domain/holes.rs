@@ -19,8 +19,7 @@ pub struct HoleFigures {
 impl HoleFigures {
     /// Returns the hole with its area on the ground. It is small compared with the Earth.
     pub(super) fn on_ground(self, ground: &Ground) -> Self {
-        let scale = ground.inverse_scale_at(self.place);
-        Self { area: self.area * (scale * scale), ..self }
+        Self { area: ground.area_around(self.area, self.place), ..self }
     }
 }
 

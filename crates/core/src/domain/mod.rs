@@ -204,7 +204,14 @@ impl Domain {
         extent.map_or(1.0, |extent| projection.scale_range(&extent)[1])
     }
 
-    /// Returns how lengths and areas in the bounds are measured: on the Earth with a projection.
+    /// Returns what a short length in the plane around a point is on the Earth; the same length without a
+    /// projection. Many lengths are measured faster by [`Self::ground`].
+    pub fn on_earth(&self, length: f64, point: DVec2) -> f64 {
+        self.projection.map_or(length, |projection| length / projection.scale_in_plane(point))
+    }
+
+    /// Returns how lengths and areas in the bounds are measured: on the Earth with a projection. Takes up to
+    /// 20 ms, for a table.
     pub fn ground(&self) -> Ground {
         Ground::new(self.projection.as_ref(), &self.bounds)
     }

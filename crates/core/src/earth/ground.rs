@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{InverseScale, Projection};
-use crate::geometry::{Rect, signed_area};
+use crate::geometry::{Rect, gauss_mean, signed_area};
+use crate::mesh::{Extract, MeshStatistics};
 
 /// Measures what lies in a plane: on the ellipsoid, in metres, where the plane is that of a projection, and
 /// otherwise in the plane, in world units.
@@ -14,8 +15,6 @@ pub struct Ground {
     inverse_scale: Option<Arc<InverseScale>>,
 }
 
-/// Places of Gauss's rule with two points on a line, as shares of it. Each has half the weight.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 /// Longer lines are measured in pieces, in metres: over one, the scale is nearly linear.
 const PIECE: f64 = 1e5;
 /// The most pieces of a line.
@@ -53,10 +52,28 @@ impl Ground {
             .map_or(length, |scale| length * scale.range(&Rect::around(from, length))[1])
     }
 
+    /// Returns an area in the plane around a point as one on the ground. It is small compared with the Earth.
+    pub fn area_around(&self, area: f64, point: DVec2) -> f64 {
+        let scale = self.inverse_scale_at(point);
+        area * (scale * scale)
+    }
+
     /// Returns the area of a triangle that is small compared with the Earth.
     pub fn triangle_area(&self, [a, b, c]: [DVec2; 3]) -> f64 {
-        let scale = self.inverse_scale_at((a + b + c) / 3.0);
-        0.5 * (b - a).perp_dot(c - a).abs() * (scale * scale)
+        self.area_around(0.5 * (b - a).perp_dot(c - a).abs(), (a + b + c) / 3.0)
+    }
+
+    /// Returns the area of a mesh.
+    pub fn mesh_area(&self, mesh: &Extract) -> f64 {
+        match &self.inverse_scale {
+            Some(_) => mesh.area_by(|corners| self.triangle_area(corners)),
+            None => mesh.area(),
+        }
+    }
+
+    /// Returns the figures of a mesh; `None` without triangles.
+    pub fn statistics(&self, mesh: &Extract) -> Option<MeshStatistics> {
+        mesh.statistics_by(|ends| self.length(ends), |corners| self.triangle_area(corners))
     }
 
     /// Returns the area that a ring encloses, negative if it runs clockwise. Its sides are straight in the
@@ -83,8 +100,8 @@ impl Ground {
 /// Returns the mean of a function over a line of a length in metres, from 0 to 1.
 fn mean(length: f64, value: impl Fn(f64) -> f64) -> f64 {
     let pieces = (length / PIECE).ceil().clamp(1.0, MOST_PIECES);
-    let places = (0..pieces as u32).flat_map(|n| GAUSS.map(|share| (f64::from(n) + share) / pieces));
-    places.map(value).sum::<f64>() / (2.0 * pieces)
+    let of_piece = |n: u32| gauss_mean(|share| value((f64::from(n) + share) / pieces));
+    (0..pieces as u32).map(of_piece).sum::<f64>() / pieces
 }
 
 #[cfg(test)]

@@ -273,6 +273,8 @@ mod tests {
         let mut random = fastrand::Rng::with_seed(6);
         let water = water(&mut random).unwrap();
         let found = WaterMiddle::of(&water, [0.2, 8.0]);
+        let size = FeatureSize { across: 3.0, found: found.clone() };
+        let mut steepest = 0.0_f64;
         let shore: Vec<[DVec2; 2]> = water.region().unwrap().edges().collect();
         let place = |random: &mut fastrand::Rng| 24.0 * dvec2(random.f64(), random.f64()) - 12.0;
         for _ in 0..600 {
@@ -292,9 +294,14 @@ mod tests {
                 assert!(bounds.contains(half), "{half} in {bounds:?} at {at}");
                 if let Some((before, of_before)) = last {
                     assert!((half - of_before).abs() <= 2.0 * at.distance(before) + 1e-9);
+                    let change = (size.diameter(half) - size.diameter(of_before)).abs();
+                    let most = size.steepness() * at.distance(before) + 1e-9;
+                    assert!(change <= most, "{change} {most}");
+                    steepest = steepest.max(change / most);
                 }
                 last = Some((at, half));
             }
         }
+        assert!(steepest > 0.999, "{steepest} of the steepness that a bound of the gradation takes");
     }
 }

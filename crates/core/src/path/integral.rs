@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{CostDensity, CostRange};
-use crate::geometry::Rect;
+use crate::geometry::{Rect, gauss_mean};
 
 /// The figures of a polyline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,12 +40,22 @@ impl PathFigures {
         figures
     }
 
+    /// Goes on to a point: adds the figures of the segment from `last`, which the point takes the place of.
+    pub(super) fn go_on(&mut self, last: &mut DVec2, to: DVec2, density: &dyn CostDensity, tolerance: f64) {
+        let Self { cost, upper, length, length_on_ground } = Self::of(&[*last, to], density, tolerance);
+        self.cost += cost;
+        self.upper += upper;
+        self.length += length;
+        self.length_on_ground += length_on_ground;
+        *last = to;
+    }
+
     fn add_piece(&mut self, p: DVec2, q: DVec2, density: &dyn CostDensity, tolerance: f64, halvings: u32) {
         let length = p.distance(q);
         let range = mean_range(p, q, density, tolerance);
         let spread = range.greatest - range.least;
         if spread <= tolerance * (range.greatest + range.least) || halvings == 0 {
-            let mean = if spread > 0.0 { gauss(p, q, density) } else { range.greatest };
+            let mean = if spread > 0.0 { mean_cost(p, q, density) } else { range.greatest };
             self.cost += length * mean.clamp(range.least, range.greatest);
             self.upper += length * range.greatest;
             self.length += length;
@@ -167,15 +177,11 @@ fn rises_as_said(
 }
 
 /// Returns the mean of the cost over a segment, by Gauss's rule with two points.
-pub(super) fn gauss(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
-    by_gauss(p, q, |at| density.at(at))
+pub(super) fn mean_cost(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
+    gauss_mean(|share| density.at(p.lerp(q, share)))
 }
 
 /// Returns the mean of the inverse scale over a segment, by the same rule.
 fn mean_inverse_scale(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
-    by_gauss(p, q, |at| density.inverse_scale_at(at))
-}
-
-fn by_gauss(p: DVec2, q: DVec2, value_at: impl Fn(DVec2) -> f64) -> f64 {
-    0.5 * super::refine::GAUSS.iter().map(|&share| value_at(p.lerp(q, share))).sum::<f64>()
+    gauss_mean(|share| density.inverse_scale_at(p.lerp(q, share)))
 }

@@ -12,12 +12,12 @@ use glam::{DVec2, dvec2};
 use super::march::March;
 use super::path_mesh::PathMesh;
 use super::place::Place;
-use super::refine::{Effort, GAUSS, refine};
+use super::refine::{Effort, refine};
 use super::trace::trace;
 use super::triangle_costs::TriangleCosts;
 use super::walls::Walls;
 use super::{CostDensity, Passage};
-use crate::geometry::Rect;
+use crate::geometry::{GAUSS, Rect};
 
 /// A triangle hides a line if its least cost is below this part of its mean.
 const HIDDEN: f64 = 0.6;

@@ -3,11 +3,9 @@
 use glam::DVec2;
 
 use super::CostDensity;
+use super::integral::mean_cost;
 use super::taut::{is_constant_along, taut};
 use super::walls::Walls;
-
-/// The points of Gauss's rule with two points, as shares of a segment.
-pub(super) const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
 /// How much work goes into a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,10 +202,8 @@ impl Relaxation<'_> {
         points.windows(2).map(|pair| self.piece(pair[0], pair[1])).sum()
     }
 
-    /// Returns the cost of a piece by Gauss's rule with two points.
     fn piece(&self, p: DVec2, q: DVec2) -> f64 {
-        let sum: f64 = GAUSS.iter().map(|&share| self.density.at(p.lerp(q, share))).sum();
-        0.5 * p.distance(q) * sum
+        p.distance(q) * mean_cost(p, q, self.density)
     }
 
     /// Unit vectors across the path; zero at its ends.

@@ -152,17 +152,12 @@ impl Solution {
 
     /// Returns cost, risk and density at all points.
     pub fn samples(&self, density: &dyn CostDensity) -> Vec<PathSample> {
-        let (mut distance, mut cost) = (0.0, 0.0);
+        let mut along = PathFigures::default();
+        let mut last = self.points.first().copied().unwrap_or_default();
         let mut samples = Vec::with_capacity(self.points.len());
-        for (n, &point) in self.points.iter().enumerate() {
-            if n > 0 {
-                let piece = [self.points[n - 1], point];
-                let figures = PathFigures::of(&piece, density, PROFILE_TOLERANCE);
-                distance += figures.length_on_ground;
-                cost += figures.cost;
-            }
-            let (risk, density) = at_place(point, density);
-            samples.push(PathSample { distance, point, cost, risk, density });
+        for &point in &self.points {
+            along.go_on(&mut last, point, density, PROFILE_TOLERANCE);
+            samples.push(sample_at(point, &along, density));
         }
         samples
     }
@@ -176,17 +171,11 @@ impl Solution {
         // Along the path so far.
         let mut along = PathFigures::default();
         let mut last = self.points.first().copied().unwrap_or_default();
-        let walk = |along: &mut PathFigures, last: &mut DVec2, to: DVec2| {
-            let figures = PathFigures::of(&[*last, to], density, PROFILE_TOLERANCE);
-            along.cost += figures.cost;
-            along.length_on_ground += figures.length_on_ground;
-            *last = to;
-        };
         for distance in distances {
             let length = |piece: usize| self.points[piece].distance(self.points[piece + 1]);
             while piece + 2 < self.points.len() && walked + length(piece) < distance {
                 walked += length(piece);
-                walk(&mut along, &mut last, self.points[piece + 1]);
+                along.go_on(&mut last, self.points[piece + 1], density, PROFILE_TOLERANCE);
                 piece += 1;
             }
             let point = match piece + 1 < self.points.len() && length(piece) > 0.0 {
@@ -196,12 +185,13 @@ impl Solution {
                 }
                 false => last,
             };
-            walk(&mut along, &mut last, point);
-            let (risk, density) = at_place(point, density);
-            // Where the risk jumps, the point may lie on the other side by a rounding error.
-            let risk = if distance == self.highest_risk_at { self.highest_risk.max(risk) } else { risk };
-            let PathFigures { cost, length_on_ground: distance, .. } = along;
-            samples.push(PathSample { distance, point, cost, risk, density });
+            along.go_on(&mut last, point, density, PROFILE_TOLERANCE);
+            let mut sample = sample_at(point, &along, density);
+            if distance == self.highest_risk_at {
+                // Where the risk jumps, the point may lie on the other side by a rounding error.
+                sample.risk = self.highest_risk.max(sample.risk);
+            }
+            samples.push(sample);
         }
         samples
     }
@@ -244,9 +234,15 @@ impl Solution {
     }
 }
 
-/// Returns the risk at a point, and the cost per unit of length, on the Earth where the plane lies there.
-fn at_place(point: DVec2, density: &dyn CostDensity) -> (f64, f64) {
-    (density.risk_at(point), density.at(point) / density.inverse_scale_at(point))
+/// Returns the sample at the end of a part of a path.
+fn sample_at(point: DVec2, along: &PathFigures, density: &dyn CostDensity) -> PathSample {
+    PathSample {
+        distance: along.length_on_ground,
+        point,
+        cost: along.cost,
+        risk: density.risk_at(point),
+        density: density.at(point) / density.inverse_scale_at(point),
+    }
 }
 
 /// Bounds of the cost of a piece of a profile differ by this share.

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::integral::gauss;
+use super::integral::mean_cost;
 use super::walls::Walls;
 use super::{CostDensity, CostRange};
 use crate::geometry::{Rect, Side, side_of_points};
@@ -73,7 +73,7 @@ fn costs_less([p, at, q]: [DVec2; 3], chain: &[DVec2], density: &dyn CostDensity
         return true;
     }
     let cost = |way: &[DVec2]| -> f64 {
-        way.windows(2).map(|pair| pair[0].distance(pair[1]) * gauss(pair[0], pair[1], density)).sum()
+        way.windows(2).map(|pair| pair[0].distance(pair[1]) * mean_cost(pair[0], pair[1], density)).sum()
     };
     let way: Vec<DVec2> = [p].into_iter().chain(chain.iter().copied()).chain([q]).collect();
     cost(&way) <= cost(&[p, at, q])

@@ -4,6 +4,7 @@
 
 mod best_first;
 mod box_tree;
+mod gauss;
 mod lattice;
 mod lattice_rect;
 mod octagon;
@@ -15,6 +16,7 @@ mod z_order;
 
 pub use best_first::BestFirst;
 pub use box_tree::{BoxGroup, BoxTree};
+pub use gauss::{GAUSS, gauss_mean};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
 pub use lattice_rect::LatticeRect;
 pub use octagon::Octagon;

@@ -76,10 +76,9 @@ impl Statistics {
             let go_on = || wanted.goes_on().then_some(());
             go_on()?;
             let ground = ground_of.ground();
-            let area_of = |corners| ground.triangle_area(corners);
-            let statistics = extract.statistics_by(|ends| ground.length(ends), area_of);
+            let statistics = ground.statistics(&extract);
             go_on()?;
-            let (area, part_sizes) = (extract.area_by(area_of), extract.part_sizes());
+            let (area, part_sizes) = (ground.mesh_area(&extract), extract.part_sizes());
             go_on()?;
             let fingerprint = mesh.fingerprint().to_string();
             go_on()?;

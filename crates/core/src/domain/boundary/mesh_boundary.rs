@@ -30,7 +30,7 @@ pub struct MeshBoundary {
 pub struct PieceFigures {
     /// How many.
     pub edges: usize,
-    /// The length of these edges in world units, with a projection in metres on the ellipsoid.
+    /// The length of these edges: in world units, or on the ground ([`MeshBoundary::on_ground`]).
     pub length: f64,
 }
 
@@ -47,8 +47,7 @@ impl MeshBoundary {
     /// Returns the boundary of a mesh of a domain. Takes time in proportion to the boundary edges, and to the
     /// corners of the domain that are near each of them.
     pub fn new(extract: &Extract, domain: &Domain, marks: &BoundaryMarks) -> Self {
-        let pieces = BoundaryPieces::of(domain, extract, marks);
-        Self::measured(extract, pieces, &domain.ground())
+        Self::of_pieces(extract, BoundaryPieces::of(domain, extract, marks))
     }
 
     /// Returns the boundary of a mesh in pieces that follow from the mesh alone: sides of the frame, outer
@@ -57,16 +56,9 @@ impl MeshBoundary {
         Self::of_pieces(extract, BoundaryPieces::of_mesh(extract, &BoundaryMarks::default()))
     }
 
-    /// Returns the boundary of a mesh in pieces that were found before. Lengths are those in the plane.
+    /// Returns the boundary of a mesh in pieces that were found before.
     pub fn of_pieces(extract: &Extract, pieces: BoundaryPieces) -> Self {
-        Self::measured(extract, pieces, &Ground::default())
-    }
-
-    fn measured(extract: &Extract, pieces: BoundaryPieces, ground: &Ground) -> Self {
-        let edges: Vec<[DVec2; 2]> = extract
-            .boundary_edges()
-            .map(|edge| edge.ends.map(|node| extract.world(NodeId::from_index(node))))
-            .collect();
+        let edges: Vec<[DVec2; 2]> = edges(extract).collect();
         let candidates = Candidates::new(extract, &pieces);
         let mut piece_of_edge = vec![0; edges.len()];
         for numbers in extract.boundary_edge_loops() {
@@ -84,13 +76,23 @@ impl MeshBoundary {
                 piece_of_edge[n] = piece;
             }
         }
-        let mut figures = vec![PieceFigures::default(); pieces.list().len()];
-        for (&piece, edge) in piece_of_edge.iter().zip(edges) {
-            let figures = &mut figures[piece as usize];
+        let figures = vec![PieceFigures::default(); pieces.list().len()];
+        Self { pieces, piece_of_edge, figures }.measured(edges.into_iter(), &Ground::default())
+    }
+
+    /// Returns the same boundary, of the same mesh, with lengths on the ground.
+    pub fn on_ground(self, extract: &Extract, ground: &Ground) -> Self {
+        self.measured(edges(extract), ground)
+    }
+
+    fn measured(mut self, edges: impl Iterator<Item = [DVec2; 2]>, ground: &Ground) -> Self {
+        self.figures.fill(PieceFigures::default());
+        for (&piece, edge) in self.piece_of_edge.iter().zip(edges) {
+            let figures = &mut self.figures[piece as usize];
             figures.edges += 1;
             figures.length += ground.length(edge);
         }
-        Self { pieces, piece_of_edge, figures }
+        self
     }
 
     /// Returns all pieces of the domain's boundary, also those that the mesh does not have.
@@ -165,6 +167,11 @@ struct Candidates<'a> {
     pieces: &'a BoundaryPieces,
     frame: Rect,
     has_coast: bool,
+}
+
+/// Returns the ends of the boundary edges of a mesh, in world units.
+fn edges(extract: &Extract) -> impl Iterator<Item = [DVec2; 2]> {
+    extract.boundary_edges().map(|edge| edge.ends.map(|node| extract.world(NodeId::from_index(node))))
 }
 
 /// How much farther than the nearest a piece may be, in lengths of the edge.

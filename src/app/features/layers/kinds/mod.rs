@@ -9,6 +9,7 @@ mod formula;
 mod paint;
 mod raster;
 mod straits;
+mod water;
 
 use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
 use meshbrush_core::layers::{LayerKind, Quantity};
