@@ -8,8 +8,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, Projection};
-use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::{Mask, RiskField};
+use meshbrush_core::field::{CostFormula, Formula};
+use meshbrush_core::layers::{Layer, LayerKind, Mask, PaintLayers, RiskField};
 use meshbrush_core::path::{
     Certificate, CertificateTask, CostDensity, PathFigures, PathMesh, PathRequest, Planner, Solution, Weights,
 };
@@ -78,13 +78,23 @@ struct Sea {
 }
 
 impl Sea {
-    fn new((projection, bounds): (Projection, Rect), cost: &PathCost) -> Self {
+    fn new(plane: (Projection, Rect), cost: &PathCost) -> Self {
+        Self::with_risk(plane, cost, RiskField::default(), 40.0)
+    }
+
+    /// A sea whose triangles have a part of its width as diameter.
+    fn with_risk(
+        (projection, bounds): (Projection, Rect),
+        cost: &PathCost,
+        risk: RiskField,
+        part: f64,
+    ) -> Self {
         let lattice = Lattice::covering(bounds, bounds.size().max_element() / 24.0, 100_000).unwrap();
         let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
-        let diameter = bounds.size().max_element() / 40.0;
+        let diameter = bounds.size().max_element() / part;
         mesh.refine(&Limits::default(), |element| element.diameter() > diameter).unwrap();
         let domain = Domain { projection: Some(projection), ..Domain::rectangle(bounds) };
-        let density = cost.density(RiskField::default(), &domain).unwrap();
+        let density = cost.density(risk, &domain).unwrap();
         Self { projection, bounds, mesh, density }
     }
 
@@ -96,6 +106,20 @@ impl Sea {
     fn geodesic(&self, from: DVec2, to: DVec2) -> f64 {
         let [from, to] = [from, to].map(|at| self.projection.geographic_from_plane(at));
         geodesic(from, to)
+    }
+
+    /// The cost of a line, by the risk and the scale at many places of it.
+    fn cost_of(&self, line: &[DVec2], cost_at: impl Fn(DVec2) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for pair in line.windows(2) {
+            let pieces = (200_000 / line.len()).max(20) as u32;
+            for n in 0..pieces {
+                let [a, b] = [n, n + 1].map(|n| pair[0].lerp(pair[1], f64::from(n) / f64::from(pieces)));
+                let at = a.midpoint(b);
+                sum += cost_at(at) * a.distance(b) / self.projection.scale_in_plane(at);
+            }
+        }
+        sum
     }
 
     fn path(&self, from: DVec2, to: DVec2, keep_out: &[Mask]) -> Solution {
@@ -185,21 +209,74 @@ fn costs_add_up_over_lengths_on_the_ellipsoid() {
         let mut random = Rng::with_seed(120 + number as u64);
         let line: Vec<DVec2> = (0..6).map(|_| sea.place(&mut random)).collect();
         let figures = PathFigures::of(&line, &*sea.density, 1e-6);
-        let mut sum = 0.0;
-        for pair in line.windows(2) {
-            let pieces = 20_000;
-            for n in 0..pieces {
-                let [a, b] = [n, n + 1].map(|n| pair[0].lerp(pair[1], f64::from(n) / f64::from(pieces)));
-                let at = a.midpoint(b);
-                let cost = 2.0 + (at.x / 3e5).sin() * (at.y / 2e5).cos();
-                sum += cost * a.distance(b) / sea.projection.scale_in_plane(at);
-            }
-        }
+        let cost_at = |at: DVec2| 2.0 + (at.x / 3e5).sin() * (at.y / 2e5).cos();
+        let sum = sea.cost_of(&line, cost_at);
         let off = figures.cost / sum - 1.0;
         assert!(off.abs() < 1e-6 && figures.upper >= sum * (1.0 - 1e-8), "{}: {off}", sea.projection);
         // The profile knows the cost per metre.
         let sample = Solution::joined([sea.path(line[0], line[1], &[])]).samples(&*sea.density)[0];
         let expected = 2.0 + (line[0].x / 3e5).sin() * (line[0].y / 2e5).cos();
         assert!((sample.density - expected).abs() < 1e-9, "{} {expected}", sample.density);
+    }
+}
+
+/// Hills of risk in a sea, and a wedge that paths stay out of.
+fn hills(bounds: &Rect, random: &mut Rng) -> (RiskField, Vec<Mask>) {
+    let mut point = || bounds.min + bounds.size() * (0.1 + 0.8 * dvec2(random.f64(), random.f64()));
+    let hills: Vec<String> = (0..4)
+        .map(|n| {
+            let (DVec2 { x, y }, width) = (point(), (0.06 + 0.03 * f64::from(n)) * bounds.size().y);
+            format!("0.{}*gauss(hypot(x-{x}, y-{y}), {width})", 9 - n)
+        })
+        .collect();
+    let formula = Formula::parse(&format!("max(0, {})", hills.join(", "))).unwrap();
+    let stack = Layer::stack([LayerKind::risk(formula)]);
+    let center = point();
+    let wedge = [0.0, 2.1, 4.2].map(|turn| center + 0.06 * bounds.size().y * DVec2::from_angle(turn));
+    (RiskField::new(&stack, PaintLayers::blank()), vec![Mask::new(&[vec![wedge.to_vec()]]).unwrap()])
+}
+
+/// Risk, a region to stay out of, two meshes, a certificate and an edit: whatever is proved holds for all.
+#[test]
+fn intervals_over_risk_on_the_earth_overlap_and_follow_edits() {
+    let weights = PathCost::Weighted(Weights { length: 1.0, risk: 8.0 });
+    for seed in seeds(1) {
+        for (number, plane) in planes().into_iter().enumerate() {
+            let mut random = Rng::with_seed(1000 * seed + 200 + number as u64);
+            let (risk, keep_out) = hills(&plane.1, &mut random);
+            let seas = [30.0, 55.0].map(|part| Sea::with_risk(plane, &weights, risk.clone(), part));
+            let (from, to) = (seas[0].place(&mut random), seas[0].place(&mut random));
+            let is_kept_out = |at| keep_out.iter().any(|mask| mask.contains(at));
+            if is_kept_out(from) || is_kept_out(to) {
+                continue;
+            }
+            let paths = seas.each_ref().map(|sea| sea.path(from, to, &keep_out));
+            let (cost, points) = (Arc::clone(&seas[0].density), paths[0].points.clone());
+            let task = CertificateTask::in_rectangle(plane.1, cost, points, paths[0].upper, 0.05).unwrap();
+            let task = CertificateTask { most_nodes: 1500, ..task.outside_of(keep_out.clone()) };
+            let mut certificate = Certificate::new(task).unwrap();
+            while certificate.advance().unwrap().is_none() {}
+            let lowers = [paths[0].lower, paths[1].lower, certificate.lower()];
+            for path in &paths {
+                let what = format!("{} {seed}: {lowers:?} {}", plane.0, path.upper);
+                assert!(lowers.iter().all(|&lower| lower > 0.0 && lower <= path.upper), "{what}");
+                let sum = seas[0].cost_of(&path.points, |at| 1.0 + 8.0 * risk.at(at));
+                assert!(
+                    (path.cost / sum - 1.0).abs() < 1e-4 && path.upper >= sum * (1.0 - 1e-7),
+                    "{what} {sum}"
+                );
+                assert!(path.points.iter().all(|&at| !is_kept_out(at)), "{what}");
+            }
+            // Another risk: a planner that follows finds what a new one does.
+            let (other, _) = hills(&plane.1, &mut random);
+            let changed = Sea::with_risk(plane, &weights, other, 30.0);
+            let mesh = Arc::new(PathMesh::with_keep_out(seas[0].mesh.view(), &keep_out));
+            let mut planner = Planner::new(Arc::clone(&mesh), &*seas[0].density).unwrap();
+            planner.update(&*changed.density, &[plane.1]).unwrap();
+            let followed = planner.solve(&*changed.density, &[from, to], PathRequest::FULL).unwrap();
+            let mut fresh = Planner::new(mesh, &*changed.density).unwrap();
+            let expected = fresh.solve(&*changed.density, &[from, to], PathRequest::FULL).unwrap();
+            assert_eq!(followed, expected, "{} {seed}", plane.0);
+        }
     }
 }
