@@ -13,7 +13,7 @@ use crate::raster::{PixelRect, Raster};
 /// value at the node itself is closer to the surface.
 const PIXELS_TO_AVERAGE: f64 = 4.0;
 /// Farthest that a node without a value may be from a pixel with one, in pixels.
-const FARTHEST_PIXEL: i64 = 64;
+const FARTHEST_PIXEL: u32 = 64;
 /// Nodes or triangles that a thread takes at a time.
 const GRAIN: usize = 256;
 
@@ -228,30 +228,8 @@ fn pixels_within(raster: &Raster, area: &Rect) -> PixelRect {
 
 /// Returns the depth of the nearest pixel with a value, and the distance of its centre.
 fn nearest(depths: &Depths, at: DVec2) -> Option<(f64, f64)> {
-    let raster = depths.source().raster.raster();
-    let [x, y] = raster.pixel_from_world(at).floor().to_array().map(|at| at as i64);
-    let mut best: Option<(f64, f64)> = None;
-    let pixel = raster.pixel_size();
-    for ring in 0..=FARTHEST_PIXEL {
-        // Pixels of a farther ring have their centres farther than this.
-        let closest = (ring as f64 - 0.5) * pixel.min_element();
-        if best.is_some_and(|(_, distance)| distance <= closest) {
-            break;
-        }
-        let on_ring = (-ring..=ring).flat_map(|d| match d.abs() == ring {
-            true => (-ring..=ring).map(|e| (d, e)).collect::<Vec<_>>(),
-            false => vec![(d, -ring), (d, ring)],
-        });
-        for (dx, dy) in on_ring {
-            let (x, y) = (x + dx, y + dy);
-            let Some(value) = raster.known(x, y) else { continue };
-            let distance = raster.pixel_center(x as u32, y as u32).distance(at);
-            if best.is_none_or(|(_, least)| distance < least) {
-                best = Some((depths.sizes().depth_of(f64::from(value)), distance));
-            }
-        }
-    }
-    best
+    let nearest = depths.source().raster.raster().nearest(at, FARTHEST_PIXEL)?;
+    Some((depths.sizes().depth_of(nearest.value), nearest.distance))
 }
 
 /// Sums over pixels, by area.

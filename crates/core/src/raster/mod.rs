@@ -2,6 +2,7 @@
 //! and the ranges of their values over squares of any size.
 
 mod linear;
+mod nearest;
 mod projected;
 mod pyramid;
 mod ranges;
@@ -14,6 +15,7 @@ use glam::DVec2;
 
 use crate::geometry::Rect;
 
+pub use nearest::NearestPixel;
 pub use projected::{ProjectedRasterError, projected_raster};
 pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
