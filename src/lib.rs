@@ -41,8 +41,8 @@ pub use meshbrush_core::field::{
 };
 #[doc(inline)]
 pub use meshbrush_core::raster::{
-    PixelGrid, PixelRect, Raster, RasterPyramid, SquareValues, Tile, TilePlace, TiledRaster, ValueRange,
-    ValueRanges,
+    NearestPixel, PixelGrid, PixelRect, Raster, RasterPyramid, SquareValues, Tile, TilePlace, TiledRaster,
+    ValueRange, ValueRanges,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::geometry::{GridError, Lattice, LatticePoint, LatticeRect, Rect};
@@ -66,11 +66,15 @@ pub use meshbrush_core::layers::{
     DiameterLimit, DistanceTo, FeatureSize, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget,
     Mask, NoDepth, NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading,
     RasterSource, RiskField, SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec,
-    StraitCount, StraitDisc, StraitDiscs, Straits, Threat, ThreatError, ThreatLaw, Threats, ValueCurve,
-    WaterMiddle,
+    StraitCount, StraitDisc, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceGoalError, SurfaceSource,
+    Threat, ThreatError, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};
+#[doc(inline)]
+pub use meshbrush_core::surface::{
+    SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
+};
 #[doc(inline)]
 pub use meshbrush_mesh::text::LengthUnit;
 

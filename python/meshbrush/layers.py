@@ -228,6 +228,31 @@ class Layers(Sequence[Layer]):
         }
         return self._raster("depth", keys, values, bounds, origin, crs)
 
+    def surface(
+        self,
+        values: Any = None,
+        bounds: Bounds | None = None,
+        *,
+        formula: str | None = None,
+        within: float | None = None,
+        at_most: int | None = None,
+        origin: str = "upper",
+        crs: str | None = None,
+        **common: Unpack[Common],
+    ) -> Layer:
+        """Adds a surface that the mesh is to be close to, with values linear over triangles.
+
+        Either `within` is the largest error, and the mesh is the smallest one, or `at_most` is the largest number of
+        triangles, and the error is the least. Values are as for `raster`; in their place a `formula` in x and y gives the
+        surface. Files have the heights at the nodes, and `mesh.statistics` the errors.
+        """
+        keys = {"within": within, "at_most": at_most, **common}
+        if values is None:
+            return self._add("surface", {"formula": formula, **keys}, {})
+        if formula is not None:
+            raise MeshError("A surface has values or a formula, not both.")
+        return self._raster("surface", keys, values, bounds, origin, crs)
+
     def sample(
         self,
         function: Callable[[npt.NDArray[np.float64], npt.NDArray[np.float64]], Any],

@@ -71,6 +71,8 @@ def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
         document.layers.corridor([(-500, 0), (500, 100)], width=50, at_zero=30, slope=0.2),
         document.layers.straits(across=3, width_from=50, width_to=400),
         document.layers.feature_size(across=3, width_from=50, width_to=400),
+        document.layers.surface(grid, place, within=30),
+        document.layers.surface(formula="20*sin(x/300)", at_most=20_000),
         document.layers.distance(types=["land"], at_zero=30, slope=0.2),
         document.layers.formula("60 + depth"),
         document.layers.paint("risk"),
@@ -78,7 +80,10 @@ def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
     ]
     kinds = [layer.kind for layer in added]
     assert kinds == [layer.kind for layer in document.layers]
-    assert {"formula", "raster", "band", "depth", "threats", "distance", "corridor", "straits", "paint"} == set(kinds) - {"feature-size"}
+    assert {"formula", "raster", "band", "depth", "threats", "distance", "corridor", "straits", "paint"} == set(kinds) - {
+        "feature-size",
+        "surface",
+    }
     mesh = document.mesh()
     assert mesh.violations() == 0
     document.save(tmp_path / "all.meshbrush")
@@ -359,3 +364,20 @@ def test_files_say_what_their_coordinates_are(tmp_path: Path) -> None:
         for name in ("degrees.node", "plane.node")
     ]
     assert "longitude" in said[0] and "longitude" not in said[1] and "x, y in +proj=" in said[1]
+
+
+def test_a_mesh_within_an_error_of_an_array() -> None:
+    y, x = np.mgrid[0:65, 0:65] / 64
+    heights = np.sin(6 * x) * np.cos(4 * y)
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25)
+    half = 0.5 / 64
+    bounds = (-half, -half, 1 + half, 1 + half)
+    layer = document.layers.surface(heights, bounds, within=0.01, origin="lower")
+    mesh = document.mesh()
+    assert mesh.statistics["max_error"] <= 0.01 and mesh.statistics["rms_error"] > 0
+    at_nodes = np.sin(6 * mesh.nodes[:, 0]) * np.cos(4 * mesh.nodes[:, 1])
+    at_samples = mesh.interpolate(at_nodes, np.c_[x.ravel(), y.ravel()])
+    assert np.abs(at_samples - heights.ravel()).max() <= 0.01 + 1e-6
+    layer.remove()
+    document.layers.surface(heights, bounds, at_most=len(mesh.triangles), origin="lower")
+    assert document.mesh().fingerprint == mesh.fingerprint

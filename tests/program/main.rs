@@ -18,3 +18,4 @@ mod recipe;
 #[path = "../shared/runs.rs"]
 mod runs;
 mod straits;
+mod surface;

@@ -12,8 +12,8 @@ use meshbrush_core::domain::{
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
-    PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat,
-    ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface,
+    SurfaceGoal, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -120,7 +120,7 @@ fn shapes(random: &mut fastrand::Rng) -> Shapes {
 fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
     let at_zero = between(random, 0.05, 0.3);
     let (slope, range) = (between(random, 0.0, 0.6), [f64::INFINITY, 0.7][random.usize(..2)]);
-    match random.u8(..if has_outline { 15 } else { 13 }) {
+    match random.u8(..if has_outline { 16 } else { 14 }) {
         0 => LayerKind::constant(between(random, 0.1, 1.0)),
         1 => LayerKind::target(formula("0.1 + 0.2*abs(x - y)")),
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
@@ -152,7 +152,8 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
             let to = DistanceTo::Corridor { lines: shapes(random), width: 0.2 };
             LayerKind::Distance { to, at_zero, slope, range }
         }
-        13 => {
+        13 => LayerKind::Surface(surface(random)),
+        14 => {
             let (across, widths) = (between(random, 1.0, 5.0), [0.3, 1.5]);
             match random.bool() {
                 true => LayerKind::Straits(Straits { across, found: StraitDiscs::unknown(widths) }),
@@ -161,6 +162,21 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
         }
         _ => LayerKind::Distance { to: boundary_of(random), at_zero, slope, range },
     }
+}
+
+fn surface(random: &mut fastrand::Rng) -> Surface {
+    let source = match random.u8(..3) {
+        0 => SurfaceSource::Formula(formula("sin(2*x) * cos(3*y) + if(x > y, 0.3, 0)")),
+        _ => {
+            let raster = raster(random, -3.0, 5.0);
+            SurfaceSource::Raster(RasterSource { name: "heights.asc".into(), raster })
+        }
+    };
+    let goal = match random.bool() {
+        true => SurfaceGoal::Within(between(random, 0.3, 3.0)),
+        false => SurfaceGoal::AtMost(random.usize(20_000..40_000)),
+    };
+    Surface { source, goal }
 }
 
 fn depths(random: &mut fastrand::Rng) -> Depths {

@@ -10,10 +10,10 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 26] = [
-    "text", "geometry", "mesh", "earth", "raster", "field", "domain", "layers", "outline", "paint", "build",
-    "path", "explain", "document", "plot", "steps", "levels", "pixels", "relief", "report", "io", "colormap",
-    "scene", "render", "cli", "app",
+const MODULES: [&str; 27] = [
+    "text", "geometry", "mesh", "earth", "raster", "field", "domain", "layers", "surface", "outline",
+    "paint", "build", "path", "explain", "document", "plot", "steps", "levels", "pixels", "relief", "report",
+    "io", "colormap", "scene", "render", "cli", "app",
 ];
 
 /// What `src/lib.rs` declares besides: documentation.

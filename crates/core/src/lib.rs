@@ -8,6 +8,7 @@ pub mod raster;
 pub mod field;
 pub mod domain;
 pub mod layers;
+pub mod surface;
 pub mod outline;
 pub mod paint;
 pub mod build;

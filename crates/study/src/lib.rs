@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![deny(unsafe_code)]
 
-use meshbrush_core::{build, document, domain, explain, field, layers, outline, raster};
+use meshbrush_core::{build, document, domain, explain, field, layers, outline, raster, surface};
 use meshbrush_mesh::{geometry, mesh, text};
 
 pub mod plot;

@@ -19,6 +19,7 @@ use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
 use super::path_args::PathArguments;
+use super::surface_args::SurfaceArguments;
 use super::water::WaterArguments;
 use meshbrush_core::field::RefinementRule;
 
@@ -239,6 +240,9 @@ pub struct InputArguments {
 
     #[command(flatten)]
     pub water: WaterArguments,
+
+    #[command(flatten)]
+    pub surfaces: SurfaceArguments,
 
     /// Bound on the gradation: over a distance d, the target diameter changes by G times d at most
     ///

@@ -8,13 +8,14 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
-use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec, RefinementCriterion};
+use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use meshbrush_core::earth::{Coordinates, EdgeLengths, Ground};
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
 use meshbrush_core::outline::DerivedMesh;
+use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{Cancelled, Meter};
 use meshbrush_mesh::mesh::{
     Cleaning, CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId,
@@ -166,9 +167,14 @@ impl FinishedMesh {
 
     /// Returns why a triangle is in the mesh.
     pub fn explanation(&self, id: TriangleId) -> Explanation {
-        let BuiltMesh { domain, field, rule, mesh, .. } = &self.built;
-        let criterion = RefinementCriterion::new(domain, field, *rule, Some(&self.origin.paint));
+        let criterion = self.built.criterion(Some(&self.origin.paint));
+        let mesh = &self.built.mesh;
         Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.limits)
+    }
+
+    /// Returns how far the mesh as files get it is from the surfaces of its layers, if one is a surface.
+    pub fn surface_fit(&self, extract: &Extract) -> Option<SurfaceFit> {
+        self.built.surface.as_ref().map(|rule| rule.samples().fit(extract.view()))
     }
 
     /// Returns the diameters of triangles, which targets are compared with.
@@ -209,9 +215,24 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
+    check_surface(&built)?;
     let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
     Ok(FinishedMesh::new(built, derived, origin, refinement, capped)?)
+}
+
+/// Checks that the mesh has no more triangles than the surfaces allow, which coarse grid and sizes may need.
+fn check_surface(built: &BuiltMesh) -> Result<(), Failure> {
+    let most = built.surface.as_ref().filter(|rule| rule.has_too_few_triangles());
+    match most.and_then(|rule| rule.most_triangles()) {
+        None => Ok(()),
+        Some(most) => Err(Failure::Work(format!(
+            "A mesh of at most {} triangles cannot be made: without the surface it has {} already. Ask for more, take a \
+             larger spacing, or ask for larger triangles elsewhere.",
+            Grouped(most),
+            Grouped(built.mesh.triangles().count())
+        ))),
+    }
 }
 
 impl ToMesh {

@@ -8,6 +8,7 @@ use super::input::Input;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
+use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 
@@ -21,6 +22,8 @@ pub struct MeshDetails {
     pub provenance: Provenance,
     /// The depths at the nodes, if a layer has them and they are wanted.
     pub depths: Option<NodeDepths>,
+    /// How far the mesh is from the surfaces of its layers, if one is a surface.
+    pub surface: Option<SurfaceFit>,
     /// The triangles across straits, if a layer asks for them and they are wanted.
     pub straits: Option<StraitSummary>,
 }
@@ -67,7 +70,8 @@ impl MeshDetails {
         };
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
-        Ok(Self { boundary, parts, provenance, depths, straits })
+        let surface = finished.surface_fit(extract);
+        Ok(Self { boundary, parts, provenance, depths, surface, straits })
     }
 
     /// Returns the number of triangles of each part.
@@ -114,6 +118,24 @@ pub fn provenance_from(
         OutputCoordinates::Other(other) => other,
     };
     provenance.in_coordinates(&coordinates, finished.domain().projection)
+}
+
+/// How far surfaces that are linear over triangles are from their samples.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct SurfaceSummary {
+    /// The largest difference of either sign, in the unit of the surface.
+    pub max_error: f64,
+    /// The square root of the mean of the squares of all differences.
+    pub rms_error: f64,
+    /// The place of the largest difference: x and y.
+    pub worst: [f64; 2],
+}
+
+impl From<&SurfaceFit> for SurfaceSummary {
+    fn from(fit: &SurfaceFit) -> Self {
+        let SurfaceFit { heights: _, largest, at, rms, samples: _ } = fit;
+        Self { max_error: *largest, rms_error: *rms, worst: (*at).into() }
+    }
 }
 
 /// How far depths that are linear over triangles are from the pixels of the layers of depths.

@@ -60,6 +60,7 @@ pub fn run(
     }
     note_capped(&finished, terminal);
     note_filled(details.as_ref(), terminal);
+    note_far_from_surface(&finished, &extract, details.as_ref(), terminal);
     note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
@@ -94,6 +95,35 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
             "{filled} of {nodes} nodes are where no raster of depths has a value; they have that of the nearest pixel, at \
              most {:.1} away.",
             depths.farthest
+        ));
+    }
+}
+
+/// Tells the user where the mesh is farther from a surface than asked for, and which nodes have no height.
+fn note_far_from_surface(
+    finished: &FinishedMesh,
+    extract: &Extract,
+    details: Option<&MeshDetails>,
+    terminal: &mut Terminal,
+) {
+    let Some(fit) = details.and_then(|details| details.surface.as_ref()) else { return };
+    let without = fit.heights.iter().filter(|height| height.is_none()).count();
+    if without > 0 {
+        terminal.note(&format!(
+            "{} of {} nodes are more than 64 pixels from every value of the surface; they have the height 0 in files.",
+            Grouped(without),
+            Grouped(fit.heights.len())
+        ));
+    }
+    let asked = finished.built().surface.iter().flat_map(|rule| rule.errors().map(|(_, error)| error));
+    if fit.largest > asked.fold(0.0, f64::max) {
+        let reason = match extract.is_patched() {
+            true => "nodes were moved onto the outline, or the surface jumps",
+            false => "the surface jumps there, and no mesh is closer",
+        };
+        terminal.note(&format!(
+            "The mesh is {} from the surface at x = {}, y = {}: {reason}.",
+            fit.largest, fit.at.x, fit.at.y
         ));
     }
 }

@@ -31,6 +31,7 @@ mod report;
 pub mod requested_files;
 mod run_clock;
 pub mod summary;
+mod surface_args;
 mod terminal;
 mod water;
 pub mod why;

@@ -132,6 +132,7 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         let of_water = OfWater { option, kind, widest: value(widest), widest_option };
         layers.extend(of_water.layer(across, typed)?);
     }
+    layers.extend(typed.surfaces.layers());
     Ok(layers)
 }
 
@@ -187,6 +188,8 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
             "width_to" if layers[*layer].1.kind == SavedKind::Straits => {
                 length("--widest-strait", typed.water.widest_strait.as_ref())
             }
+            "within" => with("--max-error", typed.surfaces.max_error.map(|error| error.to_string())),
+            "at_most" => with("--at-most", typed.surfaces.at_most.map(|count| count.to_string())),
             "width_to" => length("--widest-feature", typed.water.widest_feature.as_ref()),
             _ => layers[*layer].0.clone(),
         },

@@ -13,7 +13,7 @@ use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance};
+use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_render::render::export::{ExportFormat, Look};
 
@@ -210,8 +210,8 @@ impl RequestedFiles {
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
-    /// Returns the values at the nodes: those given, the quantities, and the depths of layers, unless one of
-    /// them is called so.
+    /// Returns the values at the nodes: those given, the quantities, and the depths and surfaces of layers,
+    /// unless one of them is called so.
     fn values_at_nodes(
         &self,
         exported: &ExportedMesh,
@@ -223,10 +223,16 @@ impl RequestedFiles {
         for quantity in &self.quantities {
             values.push(quantity.at_nodes(exported.extract)?);
         }
-        let has_own = values.iter().any(|values| values.name == DEPTH);
-        let of_layers = exported.details.depths.as_ref().filter(|_| !has_own);
-        values
-            .extend(of_layers.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths.clone() }));
+        let details = exported.details;
+        let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
+        // Far from every sample a surface has no height: 0 takes its place.
+        let height = |height: &Option<f64>| height.unwrap_or(0.0);
+        let heights = details.surface.as_ref().map(|fit| (SURFACE, fit.heights.iter().map(height).collect()));
+        for (name, of_layers) in depths.into_iter().chain(heights) {
+            if !values.iter().any(|values| values.name == name) {
+                values.push(NodeValues { name: name.into(), values: of_layers });
+            }
+        }
         Ok(values)
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::build::FinishedMesh;
 use super::details::{
-    DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
+    DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary, SurfaceSummary,
 };
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
@@ -51,6 +51,9 @@ pub struct Summary {
     /// How far the depths at the nodes are from the layers of depths, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthSummary>,
+    /// How far the mesh is from surfaces, if a layer is one.
+    #[serde(flatten)]
+    pub surface: Option<SurfaceSummary>,
     /// The triangles across straits, if a layer asks for them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub straits: Option<StraitSummary>,
@@ -280,6 +283,10 @@ impl Summary {
         let ground = finished.ground();
         let region = finished.region();
         let boundary = details.map(|details| &details.boundary);
+        let fit = match details {
+            Some(details) => details.surface.clone(),
+            None => finished.surface_fit(extract),
+        };
         Self {
             triangles: extract.triangles().len(),
             unit: (finished.unit() != LengthUnit::None).then(|| finished.unit().name()),
@@ -298,6 +305,7 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
+            surface: fit.as_ref().map(SurfaceSummary::from),
             straits: details.and_then(|details| details.straits.clone()),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
@@ -321,6 +329,15 @@ impl Summary {
         );
         if let Some(outline) = &self.outline {
             text.insert_str(text.len() - 1, &outline.for_people(self.area));
+        }
+        if let Some(SurfaceSummary { max_error, rms_error, worst: [x, y] }) = self.surface {
+            let (max_error, rms_error) = (short(max_error), short(rms_error));
+            let line = format!(
+                "at most {max_error} from the surface, at {}, {}; root mean square {rms_error}\n",
+                short(x),
+                short(y)
+            );
+            text.insert_str(text.len() - 1, &line);
         }
         if let Some(nodes) = &self.outline_nodes {
             text.insert_str(text.len() - 1, &nodes.for_people());

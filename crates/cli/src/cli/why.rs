@@ -13,6 +13,7 @@ use super::points::TypedPoint;
 use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
 use meshbrush_core::layers::DiameterLimit;
+use meshbrush_core::surface::SurfaceDemand;
 use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId};
 
 /// Runs the command. `out` is standard output.
@@ -118,6 +119,14 @@ enum SavedDemand<'a> {
         #[serde(skip_serializing_if = "Option::is_none")]
         limit: Option<&'static str>,
     },
+    Surface {
+        /// The largest difference of a sample in the triangle, and its place.
+        error: f64,
+        at: [f64; 2],
+        layer: Option<&'a str>,
+        /// The largest error that the layer allows.
+        most: f64,
+    },
 }
 
 impl<'a> Answer<'a> {
@@ -133,6 +142,12 @@ impl<'a> Answer<'a> {
         let name = |id| finished.layers().iter().find(|layer| Some(layer.id) == id);
         let demand = explanation.demand.map(|demand| match demand {
             Demand::Outline => SavedDemand::Outline,
+            Demand::Surface(SurfaceDemand { layer, error, at, most }) => SavedDemand::Surface {
+                error,
+                at: at.to_array(),
+                layer: name(Some(layer)).map(|layer| layer.name.as_str()),
+                most,
+            },
             Demand::Target(least) => SavedDemand::Target {
                 target: least.target,
                 at: least.at.to_array(),

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::approximation::Approximation;
 use super::{MeshSpec, RefinementCriterion};
 use crate::domain::{DomainOnLattice, DomainOnLatticeBuilder};
 use crate::field::{RefinementRule, VertexRule};
@@ -8,12 +9,13 @@ use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SettledPool, SizeFiel
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
 };
+use crate::surface::SurfaceRule;
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
 /// ```text
-///  index the outline ──▶ coarse grid ──▶ check the layers ──▶ refine ──▶ classify ──▶ done
-///  (polygons only)                       (area rule)                   (fitted only)
+///  index the outline ──▶ coarse grid ──▶ check the layers ──▶ refine ──▶ approximate ──▶ classify ──▶ done
+///  (polygons only)                       (area rule)                  (surfaces only)  (fitted only)
 /// ```
 #[derive(Clone, Debug)]
 pub struct MeshBuilder {
@@ -43,6 +45,8 @@ enum BuildStep {
         check: LayerCheck,
     },
     Refine(Box<Refinement>),
+    /// The mesh is brought close to surfaces.
+    Approximate(Box<(BuiltMesh, Approximation)>),
     /// Triangles outside a fitted domain are marked; those before `first` are done.
     Classify {
         built: BuiltMesh,
@@ -75,6 +79,8 @@ pub struct BuiltMesh {
     pub field: Arc<SizeField>,
     /// The points of a triangle whose target diameters count.
     pub rule: RefinementRule,
+    /// How close the mesh is to surfaces, if a layer is one.
+    pub surface: Option<Arc<SurfaceRule>>,
     /// The mesh. Triangles outside a fitted domain are marked.
     pub mesh: Mesh,
 }
@@ -159,7 +165,9 @@ impl MeshBuilder {
         match &self.step {
             None | Some(BuildStep::Index(_)) => BuildStage::Indexing,
             Some(BuildStep::Check { .. }) => BuildStage::Checking,
-            Some(BuildStep::Grid(_) | BuildStep::Refine(_)) => BuildStage::Refining { triangles },
+            Some(BuildStep::Grid(_) | BuildStep::Refine(_) | BuildStep::Approximate(_)) => {
+                BuildStage::Refining { triangles }
+            }
             Some(BuildStep::Classify { .. } | BuildStep::Done(_)) => BuildStage::Classifying { triangles },
         }
     }
@@ -170,6 +178,7 @@ impl MeshBuilder {
             None | Some(BuildStep::Index(_) | BuildStep::Grid(_)) => return 0,
             Some(BuildStep::Check { mesh, .. }) => mesh,
             Some(BuildStep::Refine(refinement)) => return refinement.triangles(),
+            Some(BuildStep::Approximate(work)) => return work.1.triangles(&work.0),
             Some(BuildStep::Classify { built, .. } | BuildStep::Done(built)) => &built.mesh,
         };
         mesh.raw_triangle_count()
@@ -208,7 +217,14 @@ impl MeshBuilder {
                 Progress::More => BuildStep::Refine(refinement),
                 Progress::Done => {
                     self.capped = refinement.capped();
-                    self.begin_classification(refinement.built)
+                    self.begin_approximation(refinement.built)
+                }
+            },
+            BuildStep::Approximate(mut work) => match work.1.advance(&mut work.0, paint, budget)? {
+                Progress::More => BuildStep::Approximate(work),
+                Progress::Done => {
+                    self.capped += work.1.capped();
+                    self.begin_classification(work.0)
                 }
             },
             BuildStep::Classify { built, first } => self.classify(built, first, budget),
@@ -262,12 +278,19 @@ impl MeshBuilder {
                 RefinerByRule::Vertex(Refiner::new(&mesh, limits), VertexRule::default())
             }
         };
-        let built = BuiltMesh { domain, field, rule, mesh };
+        let built = BuiltMesh { domain, field, rule, surface: None, mesh };
         BuildStep::Refine(Box::new(Refinement { built, refiner }))
     }
 }
 
 impl MeshBuilder {
+    fn begin_approximation(&self, built: BuiltMesh) -> BuildStep {
+        match Approximation::new(&self.spec.field.layers, &built, self.spec.limits) {
+            Some(work) => BuildStep::Approximate(Box::new((built, work))),
+            None => self.begin_classification(built),
+        }
+    }
+
     fn begin_classification(&self, built: BuiltMesh) -> BuildStep {
         if built.domain.is_fitted() {
             BuildStep::Classify { built, first: 0 }
@@ -324,6 +347,7 @@ impl BuiltMesh {
     /// Returns the criterion that the mesh satisfies, for the paint that it was made with.
     pub fn criterion<'a>(&'a self, paint: Option<&'a PaintLayers>) -> RefinementCriterion<'a> {
         RefinementCriterion::new(&self.domain, &self.field, self.rule, paint)
+            .with_surface(self.surface.as_deref())
     }
 
     /// Returns the triangles whose diameter exceeds their target, for the paint that the mesh was made with.

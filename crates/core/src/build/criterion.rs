@@ -6,6 +6,7 @@ use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
 use crate::layers::{Decision, LeastTarget, PaintLayers, SettledPool, SettledSquares, SizeField};
 use crate::mesh::{Element, InvalidTarget, LevelsWithin, RuleAnswers, SharedRule};
+use crate::surface::{SurfaceDemand, SurfaceNodes, SurfaceRule};
 
 /// The local refinement condition (Eq. 13 of \[Report\]) of a whole mesh: h̄ by a refinement rule, combined
 /// with the condition of the boundary of the domain.
@@ -17,6 +18,8 @@ pub struct RefinementCriterion<'a> {
     field: &'a SizeField,
     rule: RefinementRule,
     paint: &'a PaintLayers,
+    /// How close the mesh is to be to surfaces, with the heights at nodes.
+    surface: Option<(&'a SurfaceRule, SurfaceNodes)>,
     vertex_rule: VertexRule,
     /// The field's answers by the area rule so far.
     squares: Option<SettledSquares>,
@@ -31,7 +34,13 @@ impl<'a> RefinementCriterion<'a> {
         paint: Option<&'a PaintLayers>,
     ) -> Self {
         let paint = paint.unwrap_or(PaintLayers::blank());
-        Self { domain, field, rule, paint, vertex_rule: VertexRule::default(), squares: None }
+        let vertex_rule = VertexRule::default();
+        Self { domain, field, rule, paint, surface: None, vertex_rule, squares: None }
+    }
+
+    /// Returns this criterion for a mesh that is to be close to surfaces as well.
+    pub fn with_surface(self, surface: Option<&'a SurfaceRule>) -> Self {
+        Self { surface: surface.map(|rule| (rule, SurfaceNodes::default())), ..self }
     }
 
     /// Creates the criterion of a field over a domain by the area rule, with the pixels of `paint`.
@@ -50,13 +59,16 @@ impl<'a> RefinementCriterion<'a> {
         self.vertex_rule
     }
 
-    /// Returns whether an element's diameter exceeds its target.
+    /// Returns whether an element's diameter exceeds its target, or its error that of a surface.
     ///
     /// # Errors
     /// Fails by the vertex rule where h̄ is not a positive, finite length.
     #[inline]
     pub fn exceeds(&mut self, element: &Element) -> Result<bool, InvalidTarget> {
-        let Self { domain, field, rule, paint, vertex_rule, squares } = self;
+        let Self { domain, field, rule, paint, surface, vertex_rule, squares } = self;
+        if surface.as_mut().is_some_and(|(rule, nodes)| rule.exceeds(element, nodes)) {
+            return Ok(true);
+        }
         domain.exceeds(element, |element| match rule {
             RefinementRule::Area => {
                 let (corners, level) = (element.corners, element.triangle.level());
@@ -96,9 +108,12 @@ impl<'a> RefinementCriterion<'a> {
     /// Returns whether a triangle, given by its corners and level, exceeds its target by the rule of the
     /// criterion.
     ///
-    /// [`Self::exceeds_at`] is faster by the area rule; this function also knows the vertex rule, and ignores
-    /// impossible targets.
+    /// [`Self::exceeds_at`] is faster by the area rule; this function also knows the vertex rule and
+    /// surfaces, and ignores impossible targets.
     pub fn asks_to_bisect(&self, corners: [LatticePoint; 3], level: u32) -> bool {
+        if self.surface_asks(corners) {
+            return true;
+        }
         if self.rule == RefinementRule::Area {
             return self.exceeds_at(corners, level);
         }
@@ -110,6 +125,18 @@ impl<'a> RefinementCriterion<'a> {
             Ok::<_, InvalidTarget>(targets.into_iter().any(|target| length > target))
         };
         self.domain.exceeds_at(corners, level, by_vertices).unwrap_or(false)
+    }
+
+    /// Returns whether a triangle, given by its corners, is bisected because of a surface.
+    fn surface_asks(&self, corners: [LatticePoint; 3]) -> bool {
+        let exceeded = |(rule, _): &(&SurfaceRule, _)| rule.exceeded_at(corners, self.field.lattice());
+        self.surface.as_ref().and_then(exceeded).is_some()
+    }
+
+    /// Returns why a triangle, given by its corners, is bisected because of a surface, if it is.
+    pub fn surface_demand(&self, corners: [LatticePoint; 3]) -> Option<SurfaceDemand> {
+        let (rule, _) = self.surface.as_ref()?;
+        rule.demand_in(corners, self.field.lattice())
     }
 
     /// Returns whether a triangle, given by its corners and level, is bisected because of the outline of the

@@ -5,7 +5,7 @@
 use super::Settings;
 use crate::domain::Domain;
 use crate::field::RefinementRule;
-use crate::layers::{Circumstances, Layer, PaintLayers};
+use crate::layers::{Circumstances, Layer, Mask, PaintLayers, Surface};
 
 /// The work that brings the mesh of some settings up to date with others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +74,8 @@ impl Settings {
             rule: old_rule,
         } = old;
         // Only polygons are met in one way or another; nodes are moved onto them in the derived mesh.
-        let has_polygons = [domain, old_domain].iter().any(|domain| domain.region().is_some());
-        let is_fitted_alike = boundary.diameter() == old_boundary.diameter() || !has_polygons;
+        let is_fitted_alike = boundary.diameter() == old_boundary.diameter()
+            || [domain, old_domain].iter().all(|domain| domain.region().is_none());
         let outline = domain != old_domain;
         let has_other_grid = spacing != old_spacing || rule != old_rule || !is_fitted_alike;
         if has_other_grid || (outline && !self.can_follow_outline(old_domain)) {
@@ -87,11 +87,23 @@ impl Settings {
             || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()));
         match rule {
             _ if !outline && !field => Change::Nothing,
+            _ if self.surfaces_need_another_mesh(old, paint) => Change::NewMesh { is_similar: !outline },
             RefinementRule::Area => Change::Update { outline, field },
             // Coarsening would leave triangles behind. What does not matter to the mesh is taken over.
             RefinementRule::Vertex if self.has_same_field(old, paint) => Change::Update { outline, field },
             RefinementRule::Vertex => Change::NewMesh { is_similar: true },
         }
+    }
+
+    /// Returns whether coarsening would leave triangles behind because of surfaces.
+    fn surfaces_need_another_mesh(&self, old: &Self, paint: &PaintLayers) -> bool {
+        let is_same = || self.domain == old.domain && self.has_same_field(old, paint);
+        !self.surfaces_asked().eq(old.surfaces_asked()) || (self.has_surface() && !is_same())
+    }
+
+    /// Returns what matters of the visible layers of surfaces, from the bottom to the top.
+    fn surfaces_asked(&self) -> impl Iterator<Item = (Option<&Mask>, &Surface)> {
+        self.surfaces().map(|(layer, surface)| (layer.mask.as_ref(), surface))
     }
 
     /// Returns whether some visible layer is of a sort.

@@ -31,6 +31,7 @@ use crate::build::{BuildError, BuiltMesh, Parts};
 use crate::domain::DomainOnLattice;
 use crate::layers::{PaintLayers, SizeField};
 use crate::mesh::{Changes, Mesh, MeshCopy, Progress};
+use crate::surface::SurfaceRule;
 
 /// Keeps field and mesh in step with a document, in slices.
 ///
@@ -115,11 +116,12 @@ impl Follower {
 
     /// Returns a copy of the shown mesh, with what it was made from.
     pub fn built(&self) -> BuiltMesh {
-        let Shown { settings, domain, field, mesh, .. } = &self.shown;
+        let Shown { settings, domain, field, surface, mesh, .. } = &self.shown;
         BuiltMesh {
             domain: domain.clone(),
             field: field.clone(),
             rule: settings.rule,
+            surface: surface.clone(),
             mesh: (**mesh).clone(),
         }
     }
@@ -148,6 +150,11 @@ impl Follower {
     /// Returns the field as it is, for work that takes longer than a frame.
     pub fn shared_field(&self) -> Arc<SizeField> {
         self.shown.field.clone()
+    }
+
+    /// Returns how close the shown mesh is to surfaces, if a layer is one.
+    pub fn surface(&self) -> Option<&Arc<SurfaceRule>> {
+        self.shown.surface.as_ref()
     }
 
     /// Returns the settings that mesh and field were made from.

@@ -27,6 +27,7 @@ mod settings;
 mod shown;
 mod stage;
 mod strokes;
+mod surfaces;
 mod transfer_price;
 
 pub use background::{Background, Picture};

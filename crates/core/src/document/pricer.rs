@@ -1,7 +1,6 @@
 use super::pace::questions_per_thread;
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
-use crate::field::RefinementRule;
 use crate::geometry::Rect;
 use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SettledSquares, SizeField};
 use crate::mesh::{Forecast, Progress};
@@ -100,7 +99,7 @@ impl Pricer {
     /// There is a price only while the follower is in step with its document and no stroke is being painted.
     pub fn ask(&mut self, plan: Option<StrokePlan>, document: &Document, follower: &Follower) {
         let answerable = document.stroke().is_none()
-            && document.settings().rule == RefinementRule::Area
+            && document.settings().is_updated_in_place()
             && follower.is_in_step(document);
         let question = plan.filter(|plan| answerable && plan.is_finite()).and_then(|plan| {
             let layer = document.layer_for(&plan.brush.medium).ok()?;

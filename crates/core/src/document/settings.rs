@@ -8,7 +8,9 @@ use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
 use crate::geometry::{GridError, Lattice, Rect};
-use crate::layers::{DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, ShapesError, SizeFieldSpec};
+use crate::layers::{
+    DepthRule, DistanceTo, Layer, LayerKind, Quantity, Shapes, ShapesError, SizeFieldSpec, SurfaceGoalError,
+};
 use crate::mesh::{Cleaning, KeptParts, Limits, MemoryLimit, bisection_edge_length};
 use crate::path::PathError;
 use crate::text::{Bytes, Grouped, LengthUnit, Number, short_name};
@@ -134,6 +136,14 @@ pub enum SettingsError {
         /// The quantity that they would be read as.
         read_as: &'static str,
     },
+    /// No mesh is as close to a surface.
+    #[error("The layer “{}”: {error}", short_name(layer))]
+    Surface {
+        /// The name of the layer.
+        layer: String,
+        /// The rule that it breaks.
+        error: SurfaceGoalError,
+    },
     /// The rasters of all layers are too large together.
     #[error(
         "The rasters of all layers have {} pixels, and {} are possible in a document. Remove a layer with a raster, or \
@@ -221,6 +231,7 @@ impl Settings {
         }
         self.check_depth_formulas()?;
         self.check_depth_unit()?;
+        self.check_surfaces()?;
         let pixels = self.raster_pixels();
         if pixels > MOST_RASTER_PIXELS { Err(SettingsError::RasterPixels { pixels }) } else { Ok(()) }
     }

@@ -16,6 +16,7 @@ use crate::mesh::{
     ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
     TriangleId, Updater,
 };
+use crate::surface::SurfaceRule;
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -25,6 +26,8 @@ pub(super) struct Shown {
     pub(super) domain: DomainOnLattice,
     /// Shared with a rebuild that reuses it, and not changed meanwhile.
     pub(super) field: Arc<SizeField>,
+    /// How close the mesh is to surfaces, if a layer is one. Such a mesh is not updated in place.
+    pub(super) surface: Option<Arc<SurfaceRule>>,
     pub(super) mesh: Arc<Mesh>,
     /// Updates of the mesh; idle under the vertex rule.
     updater: Updater,
@@ -89,10 +92,11 @@ impl Shown {
         repainted: &[PaintChange],
         paint: &PaintLayers,
     ) -> Self {
-        let BuiltMesh { domain, field, mesh, .. } = built;
+        let BuiltMesh { domain, field, surface, mesh, .. } = built;
         let updater = Updater::new(settings.limits());
         let (pending, upkeep) = (Pending::default(), Upkeep::InPlace);
-        let mut shown = Self { settings, domain, field, mesh: Arc::new(mesh), updater, pending, upkeep };
+        let mut shown =
+            Self { settings, domain, field, surface, mesh: Arc::new(mesh), updater, pending, upkeep };
         shown.repaint(repainted, paint);
         shown
     }
@@ -103,6 +107,7 @@ impl Shown {
             return;
         }
         match self.settings.rule {
+            _ if self.settings.has_surface() => self.upkeep = Upkeep::NewMesh,
             RefinementRule::Area => {
                 self.pending.paint(self.updater.is_done(), changes, &self.field);
                 let mut squares = self.pending.known().take();
@@ -217,7 +222,8 @@ impl Shown {
         let spec = wanted.mesh_spec()?;
         let same_lattice = spec.lattice == *self.mesh.lattice();
         let same_domain = same_lattice && wanted.domain == self.settings.domain;
-        let is_current = same_lattice && *self.field.spec() == spec.field && spec.rule == self.settings.rule;
+        let is_current =
+            same_lattice && self.field.spec().asks_as(&spec.field) && spec.rule == self.settings.rule;
         let field = is_current.then(|| self.field.clone());
         let domain = same_domain.then(|| self.domain.clone());
         Ok(Rebuild::new(wanted, spec, Parts { domain, field, spare }))

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use super::field_price::FieldPrice;
 use super::pricer::Price;
 use super::{CountEstimate, Document, Follower, Settings};
-use crate::field::{RefinementRule, Transfer};
+use crate::field::Transfer;
 use crate::geometry::Rect;
 use crate::layers::SizeField;
 use crate::mesh::Progress;
@@ -207,7 +207,5 @@ impl SizePrice {
 
 /// Returns whether prices can be computed: the mesh is that of the document, by the area rule.
 fn is_answerable(document: &Document, follower: &Follower) -> bool {
-    document.stroke().is_none()
-        && document.settings().rule == RefinementRule::Area
-        && follower.is_in_step(document)
+    document.stroke().is_none() && document.settings().is_updated_in_place() && follower.is_in_step(document)
 }

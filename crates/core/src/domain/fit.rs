@@ -187,14 +187,24 @@ impl DomainOnLattice {
         if self.is_fitted() {
             return true;
         }
+        self.contains(node)
+    }
+
+    /// Returns whether a point, in world units, is in the domain itself, whatever the boundary treatment.
+    pub fn contains(&self, point: DVec2) -> bool {
         if let Some(formula) = &self.formula {
-            let value = formula.eval(node.x, node.y);
-            return value != 0.0 && !value.is_nan() && self.bounds.contains(node);
+            let value = formula.eval(point.x, point.y);
+            return value != 0.0 && !value.is_nan() && self.bounds.contains(point);
         }
         match &self.region {
-            Some(region) => region.contains(self.lattice.nearest(node)),
-            None => self.bounds.contains(node),
+            Some(region) => region.contains(self.lattice.nearest(point)),
+            None => self.bounds.contains(point),
         }
+    }
+
+    /// Returns whether the domain is all of its bounds.
+    pub fn is_whole(&self) -> bool {
+        self.formula.is_none() && self.region.is_none()
     }
 
     /// Returns whether an element's diameter exceeds its target, given whether it exceeds h̄. A triangle

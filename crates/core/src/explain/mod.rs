@@ -7,6 +7,7 @@ mod sentences;
 use crate::build::RefinementCriterion;
 use crate::layers::LeastTarget;
 use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
+use crate::surface::SurfaceDemand;
 
 pub use ages::{Ages, AgesNow};
 pub use node::NodeFacts;
@@ -30,6 +31,8 @@ pub enum Demand {
     Outline,
     /// h̄ is below its diameter at some point.
     Target(LeastTarget),
+    /// A surface is farther from it than a layer allows.
+    Surface(SurfaceDemand),
 }
 
 impl Explanation {
@@ -46,10 +49,10 @@ impl Explanation {
         let cause = mesh.cause_of(&triangle, |one| asks_to_bisect(one, criterion, limits));
         let demand = cause.required_by().map(|one| {
             if criterion.outline_asks(one.corners(), one.level()) {
-                Demand::Outline
-            } else {
-                Demand::Target(criterion.least_within(one.corners()))
+                return Demand::Outline;
             }
+            let target = || Demand::Target(criterion.least_within(one.corners()));
+            criterion.surface_demand(one.corners()).map_or_else(target, Demand::Surface)
         });
         Self { triangle, cause, demand }
     }

@@ -7,6 +7,7 @@ use crate::earth::EdgeLengths;
 use crate::geometry::LatticePoint;
 use crate::layers::{DiameterLimit, Layer, LeastTarget};
 use crate::mesh::{Cause, Mesh, TreeTriangle};
+use crate::surface::SurfaceDemand;
 use crate::text::{LengthUnit, short_name, significant};
 
 /// The names and units that sentences use.
@@ -21,6 +22,14 @@ pub struct Words<'a> {
     pub unit: LengthUnit,
 }
 
+/// Returns what is wrong with the triangle that must be bisected.
+fn fault(explanation: &Explanation) -> &'static str {
+    match explanation.demand {
+        Some(Demand::Surface(_)) => "is too far from a surface",
+        Some(Demand::Outline | Demand::Target(_)) | None => "exceeds its target",
+    }
+}
+
 impl Words<'_> {
     /// Returns the explanation, a sentence for each step of the argument.
     pub fn sentences(&self, explanation: &Explanation) -> Vec<String> {
@@ -29,9 +38,10 @@ impl Words<'_> {
             Cause::Coarse => vec!["It is a triangle of the coarse grid: no bisection made it.".into()],
             Cause::OwnRule { parent } => vec![
                 format!(
-                    "It is half of a triangle of level {}, which has the diameter {} and exceeds its target.",
+                    "It is half of a triangle of level {}, which has the diameter {} and {}.",
                     parent.level(),
-                    self.length(parent)
+                    self.length(parent),
+                    fault(explanation)
                 ),
                 self.demand(explanation),
             ],
@@ -45,10 +55,11 @@ impl Words<'_> {
                     ),
                     format!(
                         "A triangle of level {} near {} required it, {steps} {plural} away; it has the diameter {} and \
-                         exceeds its target.",
+                         {}.",
                         first.level(),
                         self.place(self.centroid(first)),
-                        self.length(first)
+                        self.length(first),
+                        fault(explanation)
                     ),
                     self.demand(explanation),
                 ]
@@ -65,6 +76,16 @@ impl Words<'_> {
                     .into()
             }
             Some(Demand::Target(least)) => self.least(&least),
+            Some(Demand::Surface(SurfaceDemand { layer, error, at, most })) => {
+                let layer = self.layers.iter().find(|one| one.id == layer);
+                let name = layer.map_or_else(String::new, |layer| short_name(&layer.name).to_string());
+                format!(
+                    "The surface “{name}” is {} from it at {}, and {} is allowed.",
+                    significant(error, 4),
+                    self.place(at),
+                    significant(most, 4)
+                )
+            }
         }
     }
 

@@ -412,6 +412,7 @@ fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<T
             _ => Some(Any),
         },
         LayerKind::Depth(_) | LayerKind::Straits(_) | LayerKind::FeatureSize(_) => Some(Any),
+        LayerKind::Surface(_) => None,
     }
 }
 

@@ -90,7 +90,8 @@ impl Layer {
             | LayerKind::Band { .. }
             | LayerKind::Depth(_)
             | LayerKind::Straits(_)
-            | LayerKind::FeatureSize(_) => false,
+            | LayerKind::FeatureSize(_)
+            | LayerKind::Surface(_) => false,
         }
     }
 
@@ -136,6 +137,7 @@ impl Layer {
             LayerKind::Depth(depths) if depths.sizes().rule == DepthRule::Nothing => {
                 Extent::Within(Vec::new())
             }
+            LayerKind::Surface(_) => Extent::Within(Vec::new()),
             LayerKind::Depth(depths) => Extent::of([depths.source().raster.raster().bounds()]),
             LayerKind::Straits(straits) => Extent::of(straits.found.extent()),
             LayerKind::FeatureSize(size) => self.extent_of_feature_size(size, context),

@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Depths, FeatureSize, Mask, PaintLayers, Shapes, Straits, Threats, ValueCurve};
+use super::{
+    Depths, FeatureSize, Mask, PaintLayers, Shapes, Straits, Surface, SurfaceSource, Threats, ValueCurve,
+};
 use crate::domain::PieceChoice;
 use crate::field::Formula;
 use crate::raster::{Raster, RasterPyramid};
@@ -112,6 +114,8 @@ pub enum LayerKind {
     Straits(Straits),
     /// A number of triangles across the water, which grow with the way from it.
     FeatureSize(FeatureSize),
+    /// A surface that the mesh is to be close to. It asks for no diameter.
+    Surface(Surface),
 }
 
 /// The target of a distance.
@@ -273,6 +277,7 @@ impl LayerKind {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(source),
             Self::Depth(depths) => Some(depths.source()),
+            Self::Surface(surface) => surface.source.raster(),
             _ => None,
         }
     }
@@ -282,13 +287,15 @@ impl LayerKind {
         match self {
             Self::Raster { source, .. } | Self::Band { source, .. } => Some(&source.name),
             Self::Depth(depths) => Some(&depths.source().name),
+            Self::Surface(Surface { source: SurfaceSource::Raster(source), .. }) => Some(&source.name),
             Self::Distance { to: DistanceTo::Shapes { name, .. }, .. } if !name.is_empty() => Some(name),
             Self::Paint(_)
             | Self::Formula { .. }
             | Self::Threats(_)
             | Self::Distance { .. }
             | Self::Straits(_)
-            | Self::FeatureSize(_) => None,
+            | Self::FeatureSize(_)
+            | Self::Surface(_) => None,
         }
     }
 
@@ -311,6 +318,7 @@ impl LayerKind {
             Self::Depth(_) => "Depth",
             Self::Straits(_) => "Straits",
             Self::FeatureSize(_) => "Feature size",
+            Self::Surface(_) => "Surface",
         }
     }
 
@@ -327,6 +335,7 @@ impl LayerKind {
             Self::Depth(_) => "depth",
             Self::Straits(_) => "straits",
             Self::FeatureSize(_) => "feature size",
+            Self::Surface(_) => "surface",
         }
     }
 
@@ -350,6 +359,10 @@ impl LayerKind {
             }
             Self::Straits(straits) => [Some(straits.found.shared_data()), None],
             Self::FeatureSize(size) => [Some(size.found.shared_data()), None],
+            Self::Surface(surface) => match &surface.source {
+                SurfaceSource::Raster(source) => [raster(source), None],
+                SurfaceSource::Formula(formula) => [Some((formula.address(), formula.bytes())), None],
+            },
             Self::Threats(threats) => [Some(threats.shared_data()), None],
             Self::Distance { to, .. } => [to.shapes().map(Shapes::shared_data), None],
         };

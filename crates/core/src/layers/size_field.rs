@@ -4,7 +4,7 @@ use super::engine::parts::PartId;
 use super::engine::reading::Answer;
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, CompiledPlane, KnownParts, gradation};
-use super::{Combine, Layer, LayerId, PaintLayers, Shapes, settled};
+use super::{Combine, Layer, LayerId, LayerKind, PaintLayers, Shapes, settled};
 use crate::earth::{EdgeLengths, LEVELS, Projection};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
@@ -27,6 +27,21 @@ pub struct SizeFieldSpec {
     /// the ellipsoid, and world units are metres in the plane. Distances, also those of the gradation, count
     /// as if the scale were the greatest one everywhere: h̄ is never larger than by lengths on the ellipsoid.
     pub projection: Option<Projection>,
+}
+
+impl SizeFieldSpec {
+    /// Returns whether h̄ of another spec is the same: they differ in surfaces at most, which ask for no
+    /// diameter.
+    pub(crate) fn asks_as(&self, other: &Self) -> bool {
+        let Self { layers, transfer, unasked, outline, gradation, projection } = self;
+        let without_surfaces = |layers: &[Layer]| -> Vec<Layer> {
+            let others = layers.iter().filter(|layer| !matches!(layer.kind, LayerKind::Surface(_)));
+            others.cloned().collect()
+        };
+        without_surfaces(layers) == without_surfaces(&other.layers)
+            && (transfer, unasked, outline, gradation, projection)
+                == (&other.transfer, &other.unasked, &other.outline, &other.gradation, &other.projection)
+    }
 }
 
 /// h̄ over a lattice, as a stack of layers asks for it.

@@ -4,9 +4,16 @@ use std::sync::Arc;
 
 use super::{
     DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, FineAt, LayerKind, PositiveDepth, RasterReading,
-    RasterSource, Shapes, StraitDiscs, Straits, ValueCurve, WaterMiddle,
+    RasterSource, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceSource, ValueCurve, WaterMiddle,
 };
-use crate::field::Transfer;
+use crate::field::{Formula, Transfer};
+use crate::geometry::Rect;
+
+/// Returns a positive number with one digit: 1, 2 or 5 times a power of ten, no larger than it.
+fn rounded(number: f64) -> f64 {
+    let power = libm::exp10(libm::floor(libm::log10(number)));
+    [5.0, 2.0, 1.0].map(|digit| digit * power).into_iter().find(|round| *round <= number).unwrap_or(power)
+}
 
 impl LayerKind {
     /// Returns a band of the middle third of a raster's values, with the geometric mean of `h_min` and
@@ -36,6 +43,29 @@ impl LayerKind {
     /// Returns depths as [`Self::depths_of`] does, which ask for nothing.
     pub fn depths_without_sizes(source: RasterSource, _: &Transfer) -> Option<Self> {
         Self::depths(source, DepthRule::Nothing)
+    }
+
+    /// Returns the surface of a raster, within a hundredth of the range of its values. `None` if no pixel has
+    /// a finite value.
+    pub fn surface_of(source: RasterSource, _: &Transfer) -> Option<Self> {
+        let goal = SurfaceGoal::Within(Self::usual_error(&source)?);
+        Some(Self::Surface(Surface { source: SurfaceSource::Raster(source), goal }))
+    }
+
+    /// Returns about a hundredth of the range of the values of a raster, as a round number. `None` if no
+    /// pixel has a finite value.
+    pub fn usual_error(source: &RasterSource) -> Option<f64> {
+        let range = source.raster.finite_range()?;
+        let hundredth = 0.01 * (f64::from(range.greatest) - f64::from(range.least));
+        Some(if hundredth > 0.0 { rounded(hundredth) } else { 1.0 })
+    }
+
+    /// Returns a hill in the middle of a domain as a surface, within a hundredth of its height.
+    pub fn usual_surface(bounds: &Rect) -> Self {
+        let (at, width) = (bounds.center(), rounded(0.25 * bounds.size().min_element()));
+        let text = format!("exp(-((x - {})^2 + (y - {})^2) / {width}^2)", at.x, at.y);
+        let formula = Formula::parse(&text).unwrap_or_else(|_| Formula::constant_of(0.0));
+        Self::Surface(Surface { source: SurfaceSource::Formula(formula), goal: SurfaceGoal::Within(0.01) })
     }
 
     fn depths(source: RasterSource, rule: DepthRule) -> Option<Self> {

@@ -47,4 +47,5 @@ mod size_price;
 mod slabs;
 mod smallest_diameter;
 mod stacks;
+mod surface;
 mod symmetry;

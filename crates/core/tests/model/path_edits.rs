@@ -44,7 +44,7 @@ fn operation(random: &mut fastrand::Rng) -> Operation {
 fn a_planner_follows_edits_of_every_kind_of_layer_as_a_new_one_does() {
     let (mesh, request) = (mesh(), PathRequest::FULL);
     let (mut within, mut changed) = (0, 0);
-    for seed in seeds(8) {
+    for seed in seeds(16) {
         let mut random = fastrand::Rng::with_seed(2800 + seed);
         let mut document = Document::new(Settings::default(), None).unwrap();
         let mut known = risk(&document);

@@ -169,6 +169,9 @@ pub struct NodeValues {
 /// The name of the quantity that is the depth.
 pub const DEPTH: &str = "depth";
 
+/// The name of the values of surfaces at the nodes.
+pub const SURFACE: &str = "surface";
+
 impl MeshData<'_> {
     /// The depth at each node, positive downwards, for the formats of coastal solvers: the quantity with the
     /// name `depth`. Without it they have depth 0 everywhere; h̄ is a length of triangles and no depth.

@@ -90,6 +90,7 @@ impl CompiledLayer {
                 let function = Function::FeatureSize(size.clone(), greatest_scale);
                 (reading(Quantity::Diameter, NO_RISK), Values::of_diameters(function))
             }
+            LayerKind::Surface(_) => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
             LayerKind::Depth(depths) => {
                 let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };
                 (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))

@@ -7,8 +7,8 @@ use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, LayerKind, Mask, PositiveDepth, Quantity,
-    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Threat, ThreatLaw, Threats,
-    ValueCurve, WaterMiddle,
+    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal,
+    SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -61,7 +61,7 @@ pub fn mask(choices: &mut impl Choices, scale: Scale) -> Option<Mask> {
 /// Any kind of layer.
 pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
     let diameter = scale.diameter * (1.0 + 9.0 * choices.share());
-    match choices.below(17) {
+    match choices.below(18) {
         0 => LayerKind::constant(8.0 * diameter),
         1 => small_constant(choices, scale),
         2..5 => formula(choices, scale),
@@ -79,8 +79,32 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
                 }
             }
         }
+        14 => surface(choices),
         _ => distance(choices, scale),
     }
+}
+
+/// Returns a surface of a few pixels, or of a formula, with either goal.
+fn surface(choices: &mut impl Choices) -> LayerKind {
+    let source = match choices.below(3) {
+        0 => SurfaceSource::Formula(Formula::parse("sin(7 * x) * y + if(x + y > 1.3, 0.4, 0)").unwrap()),
+        _ => {
+            let corner = dvec2(choices.share(), choices.share()) - 0.4;
+            let size = [1 + choices.below(9) as u32, 1 + choices.below(9) as u32];
+            let values = (0..size[0] * size[1]).map(|n| match n {
+                2 => f32::NAN,
+                _ => choices.share() as f32,
+            });
+            let raster = Raster::from_values(Rect::new(corner, corner + 1.2), size, values.collect());
+            let raster = Arc::new(RasterPyramid::new(raster));
+            SurfaceSource::Raster(RasterSource { name: "surface.asc".into(), raster })
+        }
+    };
+    let goal = match choices.below(3) {
+        0 => SurfaceGoal::AtMost(1 + choices.below(3000)),
+        _ => SurfaceGoal::Within(0.1 + choices.share()),
+    };
+    LayerKind::Surface(Surface { source, goal })
 }
 
 /// Returns a constant that is too fine for all of the domain: it needs a mask, or is refused.
@@ -242,6 +266,10 @@ pub fn tweaked(kind: &LayerKind, choices: &mut impl Choices, scale: Scale) -> Op
         },
         LayerKind::Straits(straits) => straits.across = (straits.across / factor).clamp(1.0, 4.0),
         LayerKind::FeatureSize(size) => size.across = (size.across / factor).clamp(1.0, 4.0),
+        LayerKind::Surface(Surface { goal: SurfaceGoal::Within(error), .. }) => *error *= factor.max(0.9),
+        LayerKind::Surface(Surface { goal: SurfaceGoal::AtMost(count), .. }) => {
+            *count = (factor * *count as f64) as usize + 1;
+        }
         LayerKind::Depth(depths) => {
             let mut sizes = *depths.sizes();
             match &mut sizes.rule {

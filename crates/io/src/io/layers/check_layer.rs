@@ -9,7 +9,7 @@ use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
     DepthSizes, DistanceTo, FeatureSize, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits,
-    Threat, ThreatError, ValueCurve, WaterMiddle,
+    SurfaceGoal, Threat, ThreatError, ValueCurve, WaterMiddle,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -45,6 +45,8 @@ pub enum CheckedKind {
     Band([f64; 2], f64),
     /// Depths of water.
     Depth(DepthSizes),
+    /// The values of a raster as a surface.
+    Surface(SurfaceGoal),
 }
 
 /// The target of a distance.
@@ -100,6 +102,7 @@ impl SavedLayer {
                 self.check_raster_file(stored)?;
                 CheckedKind::Depth(self.depth_sizes()?)
             }
+            SavedKind::Surface => self.checked_surface(stored)?,
             SavedKind::Straits => {
                 let (across, between) = self.across_widths()?;
                 let found = StraitDiscs::unknown(between);
@@ -258,7 +261,7 @@ impl SavedLayer {
         Ok((across, [from, to]))
     }
 
-    fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {
+    pub(super) fn check_raster_file(&self, stored: Stored) -> Result<(), KeyFault> {
         self.needed("file", self.file.as_ref())?;
         if stored == Stored::InFiles { self.raster_file().map(|_| ()) } else { Ok(()) }
     }
@@ -285,7 +288,7 @@ impl SavedLayer {
         value.ok_or_else(|| self.missing(&format!("needs `{key}`")))
     }
 
-    fn missing(&self, needs: &str) -> KeyFault {
+    pub(super) fn missing(&self, needs: &str) -> KeyFault {
         KeyFault::entry("kind", format!("a layer of the kind \"{}\" {needs}.", self.kind.word()))
     }
 

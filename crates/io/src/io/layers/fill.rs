@@ -8,7 +8,8 @@ use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
 use crate::io::KeyFault;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Threat, Threats,
+    Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Surface,
+    SurfaceSource, Threat, Threats,
 };
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::text::abridged;
@@ -85,6 +86,10 @@ impl SavedLayer {
             }
             CheckedKind::Band(between, diameter) => {
                 LayerKind::Band { source: self.source(data)?, between, diameter }
+            }
+            CheckedKind::Surface(goal) => {
+                let source = SurfaceSource::Raster(self.source(data)?);
+                LayerKind::Surface(Surface { source, goal })
             }
             CheckedKind::Depth(sizes) => LayerKind::Depth(Depths::new(self.source(data)?, sizes)),
         };

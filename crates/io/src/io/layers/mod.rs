@@ -13,6 +13,7 @@
 //! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
 //! | `"straits"`, `"feature-size"` | `across`, `width_from`, `width_to` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
+//! | `"surface"` | `file` and `bounds`, or `formula`; `within` or `at_most` |
 
 mod check_layer;
 mod checks;
@@ -20,6 +21,7 @@ mod depth;
 mod fill;
 mod rasters;
 mod saved;
+mod surface;
 #[cfg(test)]
 mod tests;
 mod words;

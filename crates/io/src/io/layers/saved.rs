@@ -131,6 +131,12 @@ pub struct SavedLayer {
     /// The greatest width of a strait.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_to: Option<f64>,
+    /// The largest error of a triangle, in the unit of a surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<f64>,
+    /// The largest number of triangles for a surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<usize>,
 }
 
 /// A polygon: its rings, the outer one first, and their points.
@@ -208,6 +214,8 @@ impl SavedLayer {
             across: None,
             width_from: None,
             width_to: None,
+            within: None,
+            at_most: None,
         }
     }
 
@@ -245,6 +253,7 @@ impl SavedLayer {
                 Self { between: Some(*between), diameter: Some(*diameter), ..Self::of_kind(SavedKind::Band) }
             }
             LayerKind::Depth(depths) => Self::of_depths(depths.sizes()),
+            LayerKind::Surface(surface) => Self::of_surface(surface),
             LayerKind::Straits(Straits { across, found }) => {
                 Self::of_widths(SavedKind::Straits, *across, found.between())
             }
@@ -321,7 +330,8 @@ impl SavedLayer {
             | SavedKind::Band
             | SavedKind::Depth
             | SavedKind::Straits
-            | SavedKind::FeatureSize => false,
+            | SavedKind::FeatureSize
+            | SavedKind::Surface => false,
         }
     }
 
@@ -331,6 +341,7 @@ impl SavedLayer {
             (SavedKind::Raster, Some(SavedQuantity::Risk)) => Some(RasterValues::Risk),
             (SavedKind::Raster, Some(SavedQuantity::Diameter)) => Some(RasterValues::Diameter),
             (SavedKind::Raster | SavedKind::Band | SavedKind::Depth, _) => Some(RasterValues::Any),
+            (SavedKind::Surface, _) if self.formula.is_none() => Some(RasterValues::Any),
             _ => None,
         }
     }
@@ -369,6 +380,8 @@ impl SavedLayer {
             ("across", self.across.is_some()),
             ("width_from", self.width_from.is_some()),
             ("width_to", self.width_to.is_some()),
+            ("within", self.within.is_some()),
+            ("at_most", self.at_most.is_some()),
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
     }

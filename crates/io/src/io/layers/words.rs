@@ -29,6 +29,8 @@ pub enum SavedKind {
     /// Triangles across the water.
     #[serde(rename = "feature-size")]
     FeatureSize,
+    /// A surface that the mesh is to be close to.
+    Surface,
 }
 
 /// See [`Combine`].
@@ -178,6 +180,7 @@ impl SavedKind {
             Self::Depth => "depth",
             Self::Straits => "straits",
             Self::FeatureSize => "feature-size",
+            Self::Surface => "surface",
         }
     }
 
@@ -194,6 +197,7 @@ impl SavedKind {
             Self::Depth => "Depth",
             Self::Straits => "Straits",
             Self::FeatureSize => "Feature size",
+            Self::Surface => "Surface",
         }
     }
 
@@ -208,6 +212,7 @@ impl SavedKind {
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
             Self::Straits | Self::FeatureSize => &["across", "width_from", "width_to"],
+            Self::Surface => &["file", "bounds", "formula", "within", "at_most"],
             Self::Depth => &[
                 "file",
                 "bounds",

@@ -14,7 +14,8 @@ use super::to_text;
 use meshbrush_core::document::{KeepOut, Settings};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Threats,
+    DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Surface,
+    SurfaceSource, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
@@ -182,6 +183,9 @@ impl Plan {
             }
             LayerKind::Depth(depths) => {
                 self.put_grid(&mut saved, layer, depths.source(), AtInfinity::Nothing);
+            }
+            LayerKind::Surface(Surface { source: SurfaceSource::Raster(source), .. }) => {
+                self.put_grid(&mut saved, layer, source, AtInfinity::Nothing);
             }
             LayerKind::Threats(threats) if threats.list().len() > MOST_IN_PLACE => {
                 saved.threats = None;

@@ -3,14 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{SavedSettings, SavedTreatment, marks_of};
+use super::{SavedDomain, SavedSettings, SavedTreatment, marks_of};
 use crate::io::KeyFault;
 use crate::io::layers::{SavedLayer, TextError};
 use meshbrush_core::document::{PathPlan, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, DepthContour, Domain, DomainShape, Polygon};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerId, PositiveDepth};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, PositiveDepth};
+use meshbrush_core::surface::domain_on_samples;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, CoarseError, bisection_edge_length};
 use meshbrush_mesh::text::LengthUnit;
@@ -133,7 +134,11 @@ impl<L> SavedSettings<L> {
         let transfer = self.transfer::<S>(coarse_diameter);
         let numbered = self.layer.iter().zip((0..).map(LayerId));
         let layers = numbered.map(|(layer, number)| storage.layer(layer, number, bounds, &transfer));
-        let layers = layers.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let layers: Vec<Layer> = layers.filter_map(Result::transpose).collect::<Result<_, _>>()?;
+        let (domain, spacing) = match self.on_samples(&layers) {
+            Some((bounds, spacing)) => (Domain { bounds, ..domain }, spacing),
+            None => (domain, spacing),
+        };
         let keep_out = self.keep_out.iter().map(|region| region.load(|file| storage.polygons(file)));
         let paths = PathPlan {
             keep_out: keep_out.collect::<Result<_, _>>()?,
@@ -161,6 +166,19 @@ impl<L> SavedSettings<L> {
             ..Settings::default()
         };
         Ok(self.override_settings(settings)?)
+    }
+
+    /// Returns the bounds of a domain and a spacing that suit the samples of a surface, where the text leaves
+    /// the domain to the layers.
+    fn on_samples(&self, layers: &[Layer]) -> Option<(Rect, f64)> {
+        let SavedDomain { bounds, inside, region, .. } = &self.domain;
+        let is_free = bounds.is_none() && inside.is_none() && region.is_none();
+        let mut rasters = layers.iter().filter_map(|layer| match &layer.kind {
+            LayerKind::Surface(surface) => surface.source.raster(),
+            _ => None,
+        });
+        let source = rasters.next_back().filter(|_| is_free)?;
+        domain_on_samples(source.raster.raster(), self.mesh.spacing)
     }
 
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {

@@ -246,7 +246,7 @@ impl Mesh {
     /// that it bisects, in the order of the new entries. Each entry of the chain is one level above the one
     /// before, so it ends at a coarse triangle at the latest.
     #[inline]
-    pub(super) fn refine_triangle_with(
+    pub fn refine_triangle_with(
         &mut self,
         id: TriangleId,
         chain: &mut Vec<TriangleId>,

@@ -1,0 +1,55 @@
+//! The options on a surface that the mesh is to be close to.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use meshbrush_io::io::RasterFormat;
+use meshbrush_io::io::layers::{SavedKind, SavedLayer};
+
+/// A surface, and how close the mesh is to be to it.
+#[derive(Debug, Args)]
+pub struct SurfaceArguments {
+    /// A surface: a grid or a formula in x and y; with it the mesh is the smallest within --max-error, or the
+    /// closest with --at-most triangles; may be repeated, the first that has a value at a place counts
+    ///
+    /// The error of a triangle is the largest difference between a sample in it, such as the centre of a
+    /// pixel, and the plane through the surface at its corners. Where no file has a value, the mesh is not
+    /// refined. What other options ask for counts as well. A formula has 1024 samples or more along the
+    /// longer side of the domain.
+    #[arg(long, value_name = "FILE|EXPR", allow_hyphen_values = true, requires = "goal")]
+    pub surface: Vec<String>,
+
+    /// Largest error of a triangle, in the unit of the surface
+    #[arg(
+        long,
+        value_name = "E",
+        requires = "surface",
+        conflicts_with = "at_most",
+        group = "goal",
+        allow_hyphen_values = true
+    )]
+    pub max_error: Option<f64>,
+
+    /// Largest number of triangles: the mesh has the least error that is possible with them
+    #[arg(long, value_name = "N", requires = "surface", group = "goal")]
+    pub at_most: Option<usize>,
+}
+
+impl SurfaceArguments {
+    /// Returns the layers of the surfaces, from the bottom of the stack to its top, each with its option as
+    /// typed. The last surface is the lowest.
+    pub fn layers(&self) -> impl Iterator<Item = (String, SavedLayer)> {
+        self.surface.iter().rev().map(|text| {
+            let is_raster = RasterFormat::of(Path::new(text)).is_ok();
+            let layer = SavedLayer {
+                file: is_raster.then(|| PathBuf::from(text)),
+                formula: (!is_raster).then(|| text.clone()),
+                within: self.max_error,
+                at_most: self.at_most,
+                ..SavedLayer::of_kind(SavedKind::Surface)
+            };
+            (format!("--surface {text}"), layer)
+        })
+    }
+}

@@ -1,0 +1,65 @@
+//! The heights of a surface at the nodes of a mesh, each found once.
+
+use glam::DVec2;
+
+use super::SurfaceSamples;
+use crate::mesh::Element;
+
+/// The heights of the surface at the nodes of a mesh that is being refined, by the numbers of the nodes.
+#[derive(Clone, Debug, Default)]
+pub struct SurfaceNodes {
+    known: Vec<Known>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Known {
+    NotYet,
+    /// The height, if the surface has one there.
+    Height(Option<f64>),
+}
+
+/// A triangle with the surface at its corners.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SurfaceTriangle {
+    /// In world units.
+    pub(super) corners: [DVec2; 3],
+    /// `None` where the surface has no height at a corner.
+    pub(super) heights: Option<[f64; 3]>,
+}
+
+impl SurfaceNodes {
+    pub(super) fn triangle(&mut self, element: &Element, samples: &SurfaceSamples) -> SurfaceTriangle {
+        let corners = element.world_corners();
+        let found = [0, 1, 2].map(|n| {
+            let node = element.triangle.vertices[n].index();
+            if node >= self.known.len() {
+                self.known.resize(node + 1, Known::NotYet);
+            }
+            match self.known[node] {
+                Known::Height(height) => height,
+                Known::NotYet => {
+                    let height = samples.height_at(corners[n]);
+                    self.known[node] = Known::Height(height);
+                    height
+                }
+            }
+        });
+        SurfaceTriangle::new(corners, found)
+    }
+}
+
+impl SurfaceTriangle {
+    pub(super) fn new(corners: [DVec2; 3], heights: [Option<f64>; 3]) -> Self {
+        let heights = match heights {
+            [Some(a), Some(b), Some(c)] => Some([a, b, c]),
+            _ => None,
+        };
+        Self { corners, heights }
+    }
+
+    /// Returns the longest edge, in world units.
+    pub(super) fn diameter(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        a.distance(b).max(b.distance(c)).max(c.distance(a))
+    }
+}

@@ -1,0 +1,167 @@
+//! Finds the samples of a surface, in slices.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::samples::{LayerSamples, SampleGrid, SampleValues, SurfaceSamples};
+use crate::domain::DomainOnLattice;
+use crate::geometry::Lattice;
+use crate::layers::{Layer, LayerKind, SurfaceSource};
+use crate::mesh::Progress;
+use crate::raster::Raster;
+
+/// The least number of steps between samples of a formula along the longer side of the domain. Coarse cells
+/// are halved until there are so many, so that samples are at nodes of the mesh.
+const STEPS_OF_FORMULA: u32 = 1024;
+
+/// Finds the samples of the surface that a stack of layers describes, in slices.
+#[derive(Clone, Debug)]
+pub struct SurfaceSampling {
+    found: SurfaceSamples,
+    /// The layer that is next.
+    layer: usize,
+    /// The row that is next.
+    row: u32,
+}
+
+impl SurfaceSampling {
+    /// Returns the work for the layers of surfaces of a stack, from the bottom to the top, on a lattice;
+    /// `None` if no visible layer is one.
+    pub fn new(layers: &[Layer], lattice: &Lattice) -> Option<Self> {
+        let visible = layers.iter().rev().filter(|layer| layer.visible);
+        let layers: Vec<LayerSamples> =
+            visible.filter_map(|layer| LayerSamples::of(layer, lattice)).collect();
+        let found = SurfaceSamples { layers };
+        (!found.layers.is_empty()).then_some(Self { found, layer: 0, row: 0 })
+    }
+
+    /// One slice of work: about `budget` samples.
+    pub fn advance(&mut self, domain: &DomainOnLattice, budget: usize) -> Progress {
+        let Some(layer) = self.found.layers.get(self.layer) else { return Progress::Done };
+        let [columns, rows] = layer.grid.size;
+        let count = (budget / columns.max(1) as usize).clamp(1, rows as usize) as u32;
+        let range = self.row..(self.row + count).min(rows);
+        // A raster of which every pixel counts stays as it is.
+        let all_count = self.layer == 0 && layer.is_finite && layer.mask.is_none() && domain.is_whole();
+        let new = match &layer.source {
+            SurfaceSource::Raster(_) if all_count => None,
+            SurfaceSource::Raster(source) => {
+                Some(SampleValues::Singles(self.pixels(source.raster.raster(), domain, range.clone())))
+            }
+            SurfaceSource::Formula(_) => Some(SampleValues::Doubles(self.heights(domain, range.clone()))),
+        };
+        self.row = if new.is_some() { range.end } else { rows };
+        if let Some(new) = new {
+            self.found.layers[self.layer].values.append(new);
+        }
+        if self.row >= rows {
+            (self.layer, self.row) = (self.layer + 1, 0);
+        }
+        if self.layer == self.found.layers.len() { Progress::Done } else { Progress::More }
+    }
+
+    /// Returns the samples.
+    ///
+    /// # Panics
+    /// Panics when the work is not done.
+    pub fn finish(self) -> SurfaceSamples {
+        assert_eq!(self.layer, self.found.layers.len(), "the samples are found once `advance` says so");
+        self.found
+    }
+
+    /// Returns the samples of a formula in some rows.
+    fn heights(&self, domain: &DomainOnLattice, rows: Range<u32>) -> Vec<f64> {
+        let (layer, counts) = (&self.found.layers[self.layer], self.counts(domain));
+        layer.grid.each_place(rows, |place| {
+            let height = counts(place).then(|| layer.source.height_at(place));
+            height.flatten().unwrap_or(f64::NAN)
+        })
+    }
+
+    /// Returns the samples of a raster in some rows.
+    fn pixels(&self, pixels: &Raster, domain: &DomainOnLattice, rows: Range<u32>) -> Vec<f32> {
+        let layer = &self.found.layers[self.layer];
+        let counts = layer.grid.each_place(rows.clone(), self.counts(domain));
+        let values = rows.flat_map(|row| pixels.row(row, 0..layer.grid.size[0]).iter());
+        let counting = values.zip(counts).map(
+            |(&value, counts)| {
+                if counts && value.is_finite() { value } else { f32::NAN }
+            },
+        );
+        counting.collect()
+    }
+
+    /// Returns the condition for a sample of the layer that is next: it is in the domain, the layer covers
+    /// it, and no layer above has a value there.
+    fn counts<'a>(&'a self, domain: &'a DomainOnLattice) -> impl Fn(DVec2) -> bool + Sync + 'a {
+        let (above, layer) = (&self.found.layers[..self.layer], &self.found.layers[self.layer]);
+        move |place| {
+            let is_hidden =
+                |above: &LayerSamples| above.covers(place) && above.source.height_at(place).is_some();
+            domain.contains(place) && layer.covers(place) && !above.iter().any(is_hidden)
+        }
+    }
+}
+
+impl LayerSamples {
+    /// Returns the samples of a layer, without values yet; `None` if it is not one of a surface.
+    fn of(layer: &Layer, lattice: &Lattice) -> Option<Self> {
+        let LayerKind::Surface(surface) = &layer.kind else { return None };
+        let (grid, values, is_finite) = match &surface.source {
+            SurfaceSource::Raster(source) => {
+                let raster = source.raster.raster();
+                let grid = SampleGrid {
+                    first: raster.pixel_center(0, 0),
+                    step: raster.pixel_size(),
+                    size: raster.size(),
+                };
+                let range = source.raster.whole().range;
+                let is_finite =
+                    range.is_none_or(|range| range.least.is_finite() && range.greatest.is_finite());
+                (grid, SampleValues::Pixels(Arc::clone(&source.raster)), is_finite)
+            }
+            SurfaceSource::Formula(_) => (SampleGrid::over(lattice), SampleValues::Doubles(Vec::new()), true),
+        };
+        Some(Self {
+            id: layer.id,
+            goal: surface.goal,
+            source: surface.source.clone(),
+            mask: layer.mask.clone(),
+            is_finite,
+            grid,
+            values,
+        })
+    }
+}
+
+impl SampleGrid {
+    /// Returns the grid of the samples of a formula: the corners of equal parts of the coarse cells.
+    fn over(lattice: &Lattice) -> Self {
+        let cells = lattice.cells();
+        let longest = cells[0].max(cells[1]);
+        let halvings = (0..lattice.halvings()).find(|&n| longest << n >= STEPS_OF_FORMULA);
+        let steps = cells.map(|count| count << halvings.unwrap_or(lattice.halvings()));
+        let bounds = lattice.bounds();
+        let step = bounds.size() / DVec2::new(f64::from(steps[0]), f64::from(steps[1]));
+        Self { first: bounds.min, step, size: steps.map(|count| count + 1) }
+    }
+
+    /// Returns the value of a function at each place of some rows, row by row, found by several threads.
+    fn each_place<T: Send>(&self, rows: Range<u32>, value: impl Fn(DVec2) -> T + Sync) -> Vec<T> {
+        let columns = self.size[0];
+        let places = (rows.start as usize * columns as usize)..(rows.end as usize * columns as usize);
+        places
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|place| {
+                value(self.place((place % columns as usize) as u32, (place / columns as usize) as u32))
+            })
+            .collect()
+    }
+}
+
+/// Samples that a thread takes at a time.
+const GRAIN: usize = 1024;

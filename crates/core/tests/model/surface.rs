@@ -1,0 +1,283 @@
+//! Meshes close to surfaces, compared with every conforming mesh of a small grid, and by a search of its own.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::{DVec2, dvec2};
+use meshbrush_core::build::{BuiltMesh, MeshBuilder};
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::{Layer, LayerKind, RasterSource, Surface, SurfaceGoal, SurfaceSource};
+use meshbrush_core::raster::{Raster, RasterPyramid};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::{Limits, Mesh, Progress, TriangleId};
+
+/// A document of the unit square with one coarse cell, which asks for nothing but a surface.
+fn settings(domain: Domain, spacing: f64, surfaces: impl IntoIterator<Item = LayerKind>) -> Settings {
+    let kinds = [LayerKind::constant(f64::INFINITY)].into_iter().chain(surfaces);
+    let mut settings = Settings::for_domain("surface".into(), domain);
+    settings.spacing = spacing;
+    settings.layers = Layer::stack(kinds);
+    settings.boundary = BoundaryTreatment::Report;
+    settings.transfer.h_min = 1e-9;
+    settings.transfer.h_max = f64::MAX;
+    settings.checked().unwrap()
+}
+
+fn built(settings: &Settings, max_level: Option<u32>) -> BuiltMesh {
+    let limits = Limits { max_level, ..Limits::default() };
+    let mut builder = MeshBuilder::new(settings.mesh_spec_on(settings.lattice().unwrap(), limits));
+    while builder.advance(None, 700).unwrap() == Progress::More {}
+    builder.finish()
+}
+
+fn of_raster(raster: Raster, goal: SurfaceGoal) -> LayerKind {
+    let raster = Arc::new(RasterPyramid::new(raster));
+    let source = SurfaceSource::Raster(RasterSource { name: "heights.asc".into(), raster });
+    LayerKind::Surface(Surface { source, goal })
+}
+
+/// Every conforming mesh down to a level, from the coarsest.
+fn all_meshes(coarse: &Mesh, levels: u32) -> Vec<Mesh> {
+    let mut found = vec![coarse.clone()];
+    let mut seen = BTreeSet::from([coarse.fingerprint().0]);
+    let mut next = 0;
+    while next < found.len() {
+        for index in 0..found[next].raw_triangle_count() {
+            let id = TriangleId::from_index(index);
+            if found[next].triangle(id).level() < levels {
+                let mut finer = found[next].clone();
+                finer.refine_triangle(id);
+                if seen.insert(finer.fingerprint().0) {
+                    found.push(finer);
+                }
+            }
+        }
+        next += 1;
+    }
+    found
+}
+
+/// A surface as the referee sees it: samples at places, and values between them.
+struct Referee {
+    samples: Vec<(DVec2, f64)>,
+    at: Box<dyn Fn(DVec2) -> f64>,
+}
+
+impl Referee {
+    /// Returns the largest difference of a sample in the closed triangle from the plane through its corners.
+    fn error(&self, corners: [DVec2; 3]) -> f64 {
+        let [a, b, c] = corners;
+        let whole = (b - a).perp_dot(c - a);
+        let heights = corners.map(|corner| (self.at)(corner));
+        let mut largest = 0.0_f64;
+        for &(place, value) in &self.samples {
+            let parts = [(b, c), (c, a), (a, b)].map(|(p, q)| (q - p).perp_dot(place - p) / whole);
+            if parts.iter().all(|&part| part >= -1e-10) && !value.is_nan() {
+                let plane: f64 = (0..3).map(|n| parts[n] * heights[n]).sum();
+                largest = largest.max((plane - value).abs());
+            }
+        }
+        largest
+    }
+
+    fn errors(&self, mesh: &Mesh) -> Vec<f64> {
+        let ids = (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
+        ids.map(|id| self.error(mesh.world_corners(id))).collect()
+    }
+}
+
+/// Values between the centres of pixels that all have one.
+fn bilinear(values: Vec<f32>, size: [usize; 2], bounds: Rect) -> Box<dyn Fn(DVec2) -> f64> {
+    Box::new(move |point| {
+        let steps = dvec2(size[0] as f64, size[1] as f64);
+        let at = (point - bounds.min) / bounds.size() * steps - 0.5;
+        let at = at.clamp(DVec2::ZERO, steps - 1.0);
+        let cell = at.floor().min((steps - 2.0).max(DVec2::ZERO));
+        let (x, y, share) = (cell.x as usize, cell.y as usize, at - cell);
+        let value = |x: usize, y: usize| f64::from(values[y.min(size[1] - 1) * size[0] + x.min(size[0] - 1)]);
+        let along = |y| value(x, y) * (1.0 - share.x) + value(x + 1, y) * share.x;
+        along(y) * (1.0 - share.y) + along(y + 1) * share.y
+    })
+}
+
+/// Returns a random raster over the unit square and the referee of its surface. Its samples are the nodes of
+/// the small grid, or lie anywhere.
+fn random_raster(random: &mut fastrand::Rng) -> (Raster, Referee) {
+    let is_on_nodes = random.bool();
+    raster_with(random, is_on_nodes)
+}
+
+fn raster_with(random: &mut fastrand::Rng, is_on_nodes: bool) -> (Raster, Referee) {
+    let size = if is_on_nodes { [5, 5] } else { [3 + random.usize(..7), 3 + random.usize(..7)] };
+    let pixel = dvec2(1.0, 1.0) / dvec2(size[0] as f64 - 1.0, size[1] as f64 - 1.0);
+    let bounds = match is_on_nodes {
+        true => Rect::new(-0.5 * pixel, 1.0 + 0.5 * pixel),
+        false => Rect::new(DVec2::splat(-0.3 * random.f64()), DVec2::splat(1.0 + 0.3 * random.f64())),
+    };
+    let coarse = random.bool();
+    let values: Vec<f32> = (0..size[0] * size[1])
+        .map(|_| if coarse { random.u32(..4) as f32 } else { 4.0 * random.f32() })
+        .collect();
+    let raster = Raster::from_values(bounds, size.map(|n| n as u32), values.clone());
+    let samples =
+        raster.all().pixels().map(|(x, y)| (raster.pixel_center(x, y), f64::from(raster.get(x, y))));
+    let referee = Referee { samples: samples.collect(), at: bilinear(values, size, bounds) };
+    (raster, referee)
+}
+
+/// The errors that matter: triangles of the last level are not bisected.
+fn largest_error(mesh: &Mesh, levels: u32, errors: &BTreeMap<[[u64; 2]; 3], f64>) -> f64 {
+    let ids = (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
+    let coarser = ids.filter(|&id| mesh.triangle(id).level() < levels);
+    coarser.map(|id| errors[&key(mesh.world_corners(id))]).fold(0.0, f64::max)
+}
+
+fn key(corners: [DVec2; 3]) -> [[u64; 2]; 3] {
+    corners.map(|corner| corner.to_array().map(f64::to_bits))
+}
+
+/// A domain with every conforming mesh of it down to the last level.
+struct Grid {
+    domain: Domain,
+    spacing: f64,
+    levels: u32,
+    meshes: Vec<Mesh>,
+}
+
+impl Grid {
+    fn new(domain: Domain, spacing: f64, levels: u32) -> Self {
+        let coarse = built(&settings(domain.clone(), spacing, []), Some(levels)).mesh;
+        Self { domain, spacing, levels, meshes: all_meshes(&coarse, levels) }
+    }
+
+    fn ours(&self, raster: &Raster, goal: SurfaceGoal) -> Mesh {
+        let surface = of_raster(raster.clone(), goal);
+        built(&settings(self.domain.clone(), self.spacing, [surface]), Some(self.levels)).mesh
+    }
+
+    /// Compares the meshes of a surface with all of them, for errors and a number of triangles. Returns 1 if
+    /// the mesh of the number is the smallest of its error, also where rounding matters.
+    fn compare(&self, raster: &Raster, referee: &Referee, random: &mut fastrand::Rng) -> usize {
+        let mut errors = BTreeMap::new();
+        for mesh in &self.meshes {
+            for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
+                let corners = mesh.world_corners(id);
+                errors.entry(key(corners)).or_insert_with(|| referee.error(corners));
+            }
+        }
+        let largest: Vec<f64> =
+            self.meshes.iter().map(|mesh| largest_error(mesh, self.levels, &errors)).collect();
+        let count = |mesh: &Mesh| mesh.raw_triangle_count();
+        for _ in 0..3 {
+            // An error that a mesh has, one just below it, or any.
+            let of_a_mesh = largest[random.usize(..largest.len())];
+            let error = match random.u8(..3) {
+                0 => of_a_mesh * (1.0 - 1e-9) + 1e-12,
+                1 => of_a_mesh * (1.0 + 1e-9) + 1e-12,
+                _ => 3.0 * random.f64() + 1e-6,
+            };
+            let meeting = self.meshes.iter().zip(&largest).filter(|(_, of_mesh)| **of_mesh <= error);
+            let least = meeting.clone().map(|(mesh, _)| count(mesh)).min().unwrap();
+            let smallest: Vec<_> = meeting.filter(|(mesh, _)| count(mesh) == least).collect();
+            assert_eq!(smallest.len(), 1, "the smallest mesh of {error} is unique");
+            let ours = self.ours(raster, SurfaceGoal::Within(error));
+            assert_eq!(smallest[0].0.fingerprint(), ours.fingerprint(), "within {error}");
+        }
+        let coarse = count(&self.meshes[0]);
+        let most = coarse + random.usize(..30);
+        let possible = self.meshes.iter().zip(&largest).filter(|(mesh, _)| count(mesh) <= most);
+        let least = possible.clone().map(|(_, error)| *error).fold(f64::INFINITY, f64::min);
+        let best = possible.filter(|(_, error)| **error <= least + 1e-9);
+        let smallest = best.min_by_key(|(mesh, _)| count(mesh)).unwrap().0;
+        let ours = self.ours(raster, SurfaceGoal::AtMost(most));
+        // Errors that only rounding tells apart are two steps for the program, and one here.
+        let of_ours = largest_error(&ours, self.levels, &errors);
+        assert!(count(&ours) <= most && of_ours <= least + 1e-9, "at most {most}: {of_ours} {least}");
+        let within = self.ours(raster, SurfaceGoal::Within(least + 1e-9));
+        assert_eq!(smallest.fingerprint(), within.fingerprint(), "at most {most}");
+        usize::from(within.fingerprint() == ours.fingerprint())
+    }
+}
+
+#[test]
+fn no_conforming_mesh_of_the_error_is_as_small() {
+    let mut random = fastrand::Rng::with_seed(32);
+    let square = Grid::new(Domain::rectangle(Rect::UNIT), 1.0, 4);
+    assert_eq!(square.meshes.len(), 5489, "conforming meshes of 5 x 5 nodes");
+    let runs = crate::runs::runs(150);
+    let mut equal = 0;
+    for _ in 0..runs {
+        let (raster, referee) = random_raster(&mut random);
+        equal += square.compare(&raster, &referee, &mut random);
+    }
+    assert!(10 * equal > 9 * runs as usize, "{equal} of {runs}");
+}
+
+#[test]
+fn where_a_part_is_missing_the_mesh_is_the_smallest_too() {
+    let mut random = fastrand::Rng::with_seed(33);
+    // Three quarters of the square: five of eight coarse triangles.
+    let inside = Formula::parse("if(x > 0.6 and y > 0.6, 0, 1)").unwrap();
+    let shape = DomainShape::Formula(inside.clone());
+    let domain = Domain { shape, ..Domain::rectangle(Rect::new(DVec2::ZERO, dvec2(1.0, 1.0))) };
+    let grid = Grid::new(domain, 0.5, 2);
+    assert!(grid.meshes.len() > 100, "{}", grid.meshes.len());
+    for _ in 0..crate::runs::runs(20) {
+        let (raster, mut referee) = random_raster(&mut random);
+        referee.samples.retain(|(place, _)| inside.eval(place.x, place.y) != 0.0);
+        grid.compare(&raster, &referee, &mut random);
+    }
+}
+
+#[test]
+fn the_errors_of_meshes_are_those_of_the_referee_and_one_ulp_below_another_mesh_results() {
+    let mut random = fastrand::Rng::with_seed(5);
+    for _ in 0..6 {
+        let (raster, referee) = raster_with(&mut random, false);
+        let error = 0.05 + 0.3 * random.f64();
+        let of = |goal| settings(Domain::rectangle(Rect::UNIT), 0.25, [of_raster(raster.clone(), goal)]);
+        let ours = built(&of(SurfaceGoal::Within(error)), None);
+        let errors = referee.errors(&ours.mesh);
+        let largest = errors.iter().copied().fold(0.0, f64::max);
+        assert!(largest <= error * (1.0 + 1e-9), "{largest} {error}");
+        let extract = ours.mesh.extract();
+        let fit = ours.surface.as_ref().unwrap().samples().fit(extract.view());
+        assert!((fit.largest - largest).abs() < 1e-9, "{} {largest}", fit.largest);
+        let again = built(&of(SurfaceGoal::Within(fit.largest)), None);
+        assert_eq!(again.mesh.fingerprint(), ours.mesh.fingerprint());
+        let below = built(&of(SurfaceGoal::Within(fit.largest.next_down())), None);
+        assert_ne!(below.mesh.fingerprint(), ours.mesh.fingerprint());
+        let count = ours.mesh.raw_triangle_count();
+        let counted = built(&of(SurfaceGoal::AtMost(count)), None);
+        assert_eq!(counted.mesh.fingerprint(), ours.mesh.fingerprint());
+        let (_, found) = counted.surface.as_ref().unwrap().errors().next().unwrap();
+        assert_eq!(found, fit.largest);
+    }
+}
+
+#[test]
+fn a_formula_that_jumps_ends_and_its_error_says_where() {
+    let formula = Formula::parse("if(x + 0.3 * y > 0.61, 1, 0)").unwrap();
+    let surface = Surface { source: SurfaceSource::Formula(formula), goal: SurfaceGoal::Within(0.1) };
+    let ours = built(&settings(Domain::rectangle(Rect::UNIT), 0.25, [LayerKind::Surface(surface)]), None);
+    // Samples are at nodes: no triangle has another one once all of them are nodes.
+    let fit = ours.surface.as_ref().unwrap().samples().fit(ours.mesh.extract().view());
+    assert!(fit.largest <= 0.1);
+    assert!(ours.mesh.raw_triangle_count() < 100_000);
+}
+
+#[test]
+fn samples_outside_the_domain_do_not_count() {
+    let domain = Domain {
+        shape: DomainShape::Formula(Formula::parse("x < 0.5").unwrap()),
+        ..Domain::rectangle(Rect::UNIT)
+    };
+    let values = (0..16 * 16).map(|n| if n % 16 < 8 { 1.0 } else { 100.0 * f32::from(n as u8) }).collect();
+    let raster = Raster::from_values(Rect::UNIT, [16, 16], values);
+    let surface = of_raster(raster, SurfaceGoal::Within(0.5));
+    let ours = built(&settings(domain, 0.125, [surface]), None).mesh;
+    let beyond = ours.nodes().filter(|&(id, _)| ours.world(id).x > 0.51).count();
+    assert_eq!(beyond, 0);
+}

@@ -1,0 +1,180 @@
+//! Meshes within an error of a surface, as files have them, against the samples of the grid.
+
+use crate::folder::Folder;
+
+/// A grid of heights by row from the south, with pixels of side 1 from the origin on.
+struct Grid {
+    columns: usize,
+    heights: Vec<f64>,
+}
+
+impl Grid {
+    fn new([columns, rows]: [usize; 2], height: impl Fn(f64, f64) -> f64) -> Self {
+        let place = |n: usize| ((n % columns) as f64 + 0.5, (n / columns) as f64 + 0.5);
+        // As a file has it, with three decimals, and as the program reads it.
+        let rounded = |n| f64::from(((1000.0 * height(place(n).0, place(n).1)).round() / 1000.0) as f32);
+        Self { columns, heights: (0..columns * rows).map(rounded).collect() }
+    }
+
+    fn text(&self) -> String {
+        let rows = self.heights.len() / self.columns;
+        let mut text =
+            format!("ncols {}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1\n", self.columns);
+        for row in self.heights.chunks(self.columns).rev() {
+            text += &row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+            text.push('\n');
+        }
+        text
+    }
+
+    /// Returns the largest difference of a sample from the triangle that it is in, and how many samples are in
+    /// one.
+    fn error(&self, nodes: &[[f64; 3]], triangles: &[[usize; 3]]) -> (f64, usize) {
+        let (mut largest, mut is_in) = (0.0_f64, vec![false; self.heights.len()]);
+        for corners in triangles.iter().map(|triangle| triangle.map(|node| nodes[node])) {
+            let [a, b, c] = corners;
+            let cross = |p: [f64; 3], q: [f64; 3], x: f64, y: f64| {
+                (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0])
+            };
+            let whole = cross(a, b, c[0], c[1]);
+            for (place, &height) in self.heights.iter().enumerate() {
+                let (x, y) = ((place % self.columns) as f64 + 0.5, (place / self.columns) as f64 + 0.5);
+                let parts =
+                    [cross(b, c, x, y), cross(c, a, x, y), cross(a, b, x, y)].map(|part| part / whole);
+                if parts.iter().all(|part| *part >= -1e-12) {
+                    let of_mesh: f64 = (0..3).map(|n| parts[n] * corners[n][2]).sum();
+                    largest = largest.max((of_mesh - height).abs());
+                    is_in[place] = true;
+                }
+            }
+        }
+        (largest, is_in.iter().filter(|is_in| **is_in).count())
+    }
+}
+
+/// Nodes with their heights, and triangles, of a file of SMS.
+fn two_dm(text: &str) -> (Vec<[f64; 3]>, Vec<[usize; 3]>) {
+    let rows = |word: &'static str| {
+        text.lines().filter(move |line| line.starts_with(word)).map(|line| {
+            line.split_whitespace().skip(2).map(|number| number.parse().unwrap()).collect::<Vec<f64>>()
+        })
+    };
+    let nodes = rows("ND ").map(|row| [row[0], row[1], row[2]]).collect();
+    let triangles = rows("E3T ").map(|row| [0, 1, 2].map(|n| row[n] as usize - 1)).collect();
+    (nodes, triangles)
+}
+
+#[test]
+fn files_are_within_the_error_and_a_smaller_one_needs_another_mesh() {
+    let folder = Folder::new("surface");
+    let surfaces: [Box<dyn Fn(f64, f64) -> f64>; 5] = [
+        Box::new(|x, y| 0.3 * x - 0.2 * y),
+        Box::new(|x, y| 8.0 * (0.2 * x).sin() * (0.15 * y).cos()),
+        Box::new(|x, y| if x + y > 40.0 { 10.0 } else { 0.0 }),
+        Box::new(|x, y| 50.0 / (1.0 + (x - 11.0).hypot(y - 17.0))),
+        Box::new(|x, y| ((x * 12.9898 + y * 78.233).sin() * 43758.5453).fract()),
+    ];
+    let sizes = [[33, 33], [40, 25], [17, 49], [29, 31], [24, 18]];
+    for (number, (surface, size)) in surfaces.iter().zip(sizes).enumerate() {
+        let grid = Grid::new(size, surface);
+        folder.file("heights.asc", grid.text());
+        for (options, error) in [("", 0.5), ("--domain 1,2,16,16 --spacing 3", 1.0)] {
+            let run = |goal: String| {
+                let ran = folder
+                    .run(format!("mesh --surface heights.asc {goal} {options} -o m.2dm --json --checks"));
+                (ran.json(), two_dm(&folder.read("m.2dm")))
+            };
+            let (said, (nodes, triangles)) = run(format!("--max-error {error}"));
+            let (largest, samples) = grid.error(&nodes, &triangles);
+            let of_all = if options.is_empty() { grid.heights.len() } else { 15 * 14 };
+            assert_eq!(samples, of_all, "surface {number}");
+            let printed = said["max_error"].as_f64().unwrap();
+            assert!(
+                largest <= error + 1e-9 && (largest - printed).abs() < 1e-9,
+                "{number}: {largest} {printed}"
+            );
+            assert!(
+                said["rms_error"].as_f64().unwrap() <= printed
+                    && said["worst"].as_array().unwrap().len() == 2
+            );
+            let hash = |said: &serde_json::Value| said["hash"].as_str().unwrap().to_owned();
+            if printed > 0.0 {
+                assert_eq!(hash(&run(format!("--max-error {printed}")).0), hash(&said));
+                assert_ne!(hash(&run(format!("--max-error {}", printed.next_down())).0), hash(&said));
+            }
+            let count = said["triangles"].as_u64().unwrap();
+            let (counted, _) = run(format!("--at-most {count}"));
+            assert!(counted["triangles"].as_u64().unwrap() <= count);
+            assert!(counted["max_error"].as_f64().unwrap() <= printed);
+        }
+    }
+}
+
+#[test]
+fn another_error_in_a_mask_and_other_layers_count_too() {
+    let folder = Folder::new("surface-mask");
+    let grid = Grid::new([64, 64], |x, y| 8.0 * (0.3 * x).sin() * (0.2 * y).cos());
+    folder.file("heights.asc", grid.text());
+    folder.file(
+        "both.toml",
+        "[domain]\nbounds = [0, 0, 64, 64]\n[mesh]\nspacing = 16\n\
+         [[layer]]\nkind = \"formula\"\nquantity = \"diameter\"\nformula = \"if(y > 48, 1, inf)\"\n\
+         [[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 4\n\
+         [[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 0.2\n\
+         mask = [[[[0, 0], [20, 0], [20, 20], [0, 20]]]]\n",
+    );
+    let ran = folder.run("mesh both.toml -o m.2dm --json --checks");
+    assert_eq!(ran.json()["violations"], 0);
+    let (nodes, triangles) = two_dm(&folder.read("m.2dm"));
+    let within = |bounds: [f64; 4]| -> Vec<[usize; 3]> {
+        let is_in = |node: &usize| {
+            let [x, y, _] = nodes[*node];
+            x >= bounds[0] && x <= bounds[2] && y >= bounds[1] && y <= bounds[3]
+        };
+        triangles.iter().copied().filter(|triangle| triangle.iter().all(is_in)).collect()
+    };
+    let fine = within([0.0, 0.0, 19.0, 19.0]);
+    let (error, samples) = grid.error(&nodes, &fine);
+    assert!(error <= 0.2 + 1e-9 && samples > 250, "{error} at {samples}");
+    let (coarse, _) = grid.error(&nodes, &triangles);
+    assert!(coarse > 1.0 && coarse <= 4.0 + 1e-9, "{coarse}");
+    let short = within([0.0, 49.0, 64.0, 64.0]);
+    let longest = |triangle: &[usize; 3]| {
+        let [a, b, c] = triangle.map(|node| nodes[node]);
+        [(a, b), (b, c), (c, a)]
+            .map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1]))
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    assert!(short.len() > 1000 && short.iter().all(|triangle| longest(triangle) <= 1.0 + 1e-9));
+}
+
+#[test]
+fn what_cannot_be_met_is_said() {
+    let folder = Folder::new("surface-refused");
+    folder.file("heights.asc", Grid::new([8, 8], |x, y| x * y).text());
+    folder.file("pixel.asc", Grid::new([1, 1], |_, _| 3.0).text());
+    for (options, parts) in [
+        ("--surface heights.asc", &["--max-error", "--at-most"][..]),
+        ("--surface heights.asc --max-error 0", &["--max-error 0", "positive"]),
+        ("--surface heights.asc --max-error=-2", &["--max-error -2", "positive"]),
+        ("--surface heights.asc --max-error nan", &["--max-error"]),
+        ("--surface heights.asc --at-most 0", &["--at-most 0", "one triangle"]),
+        ("--surface heights.asc --max-error 1 --at-most 9", &["--max-error", "--at-most"]),
+        ("--max-error 1", &["--surface"]),
+        ("--surface x+ --max-error 1", &["--surface x+", "^"]),
+        ("--surface none.asc --max-error 1", &["none.asc"]),
+        ("--domain 0,0,8,8 --spacing 1 --surface heights.asc --at-most 60", &["at most 60 triangles", "128"]),
+    ] {
+        let ran = folder.run(format!("mesh {options}"));
+        let said = &ran.err;
+        assert!(ran.status != 0, "{options}");
+        assert!(parts.iter().all(|part| said.contains(part)), "{options}: {said}");
+    }
+    // One pixel has no slope, and a jump ends: the program says where.
+    let one = folder.run("mesh --surface pixel.asc --max-error 1 --json");
+    assert_eq!(one.json()["max_error"], 0.0);
+    let jump =
+        folder.run(["mesh", "--surface", "if(x + 0.3*y > 0.61, 1, 0)", "--max-error", "0.1", "--json"]);
+    assert!(jump.json()["triangles"].as_u64().unwrap() < 200_000);
+}
