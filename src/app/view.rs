@@ -37,11 +37,13 @@ pub enum FieldOverlay {
     Depth,
     /// How far the mesh is from the depths.
     DepthError,
+    /// How far the mesh is from surfaces.
+    SurfaceError,
 }
 
 impl FieldOverlay {
     /// All of them, in the order of lists.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::None,
         Self::Risk,
         Self::Target,
@@ -51,6 +53,7 @@ impl FieldOverlay {
         Self::Age,
         Self::Depth,
         Self::DepthError,
+        Self::SurfaceError,
     ];
 
     /// Returns the name of the choice in the list of the panel.
@@ -65,6 +68,7 @@ impl FieldOverlay {
             Self::Age => "Age",
             Self::Depth => "Depth",
             Self::DepthError => "Depth error",
+            Self::SurfaceError => "Surface error",
         }
     }
 
@@ -80,6 +84,7 @@ impl FieldOverlay {
             Self::Age => "Overlay age of triangles",
             Self::Depth => "Overlay depth of water",
             Self::DepthError => "Overlay depth error of the mesh",
+            Self::SurfaceError => "Overlay surface error of the mesh",
         }
     }
 }

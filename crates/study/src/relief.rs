@@ -9,6 +9,7 @@ use crate::geometry::Rect;
 use crate::layers::DepthSurface;
 use crate::mesh::MeshView;
 use crate::raster::Raster;
+use crate::surface::SurfaceRule;
 
 /// About how many isobaths there are from the shore to the deepest place.
 const ISOBATHS: f64 = 10.0;
@@ -119,6 +120,38 @@ pub fn depth_differences(
     mesh: MeshView,
     depths: &[f64],
     surface: &DepthSurface,
+    pixels: (Rect, [u32; 2]),
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Raster> {
+    let share = |at, of_mesh: f64| {
+        let depth = surface.depth_at(at)?;
+        Some((of_mesh - depth) / depth.abs().max(LEAST_DEPTH))
+    };
+    differences(mesh, |node| depths[node], share, pixels, goes_on)
+}
+
+/// Returns how much higher a mesh is than surfaces at the pixels over `bounds`, as a share of the error that
+/// is allowed there; NaN beyond the mesh, and without a surface. `heights` are those at the nodes of the
+/// mesh. `None` where `goes_on` says that nobody wants it any more.
+pub fn surface_differences(
+    mesh: MeshView,
+    heights: &[Option<f64>],
+    rule: &SurfaceRule,
+    pixels: (Rect, [u32; 2]),
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Raster> {
+    let share = |at, of_mesh: f64| {
+        let (height, allowed) = rule.allowed_at(at)?;
+        Some((of_mesh - height) / allowed)
+    };
+    differences(mesh, |node| heights[node].unwrap_or(f64::NAN), share, pixels, goes_on)
+}
+
+/// Returns `difference` of the place of each pixel and the value of the mesh there; NaN where there is none.
+fn differences(
+    mesh: MeshView,
+    at_node: impl Fn(usize) -> f64,
+    difference: impl Fn(DVec2, f64) -> Option<f64>,
     (bounds, size): (Rect, [u32; 2]),
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Raster> {
@@ -137,9 +170,10 @@ pub fn depth_differences(
         for (x, y) in differences.pixels_touching(&around).pixels() {
             let at = centers(x, y);
             let Some(weights) = weights(corners, at) else { continue };
-            let Some(depth) = surface.depth_at(at) else { continue };
-            let of_mesh: f64 = (0..3).map(|n| weights[n] * depths[triangle.vertices[n].index()]).sum();
-            differences.set(x, y, ((of_mesh - depth) / depth.abs().max(LEAST_DEPTH)) as f32);
+            let of_mesh = (0..3).map(|n| weights[n] * at_node(triangle.vertices[n].index())).sum();
+            if let Some(difference) = difference(at, of_mesh) {
+                differences.set(x, y, difference as f32);
+            }
         }
     }
     Some(differences)

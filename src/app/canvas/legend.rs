@@ -35,6 +35,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Age => Some(age_legend(ui, inner, palette)),
         FieldOverlay::Depth => Some(depth_legend(ui, inner, state, palette)),
         FieldOverlay::DepthError => Some(depth_error_legend(ui, inner, state, palette)),
+        FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None => None,
     };
@@ -118,6 +119,33 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
     let ends = [format!("−{percent} %"), "0".into(), format!("{percent} %")];
     scale(ui, place, (-steps..=steps).map(color), ends);
     below_scale(ui, place, "shallower, deeper".into());
+    place
+}
+
+/// Returns how much higher the mesh is than the surface, up to the error that is allowed.
+fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
+    let errors = state.session.follower().surface().into_iter().flat_map(|rule| rule.errors());
+    let errors: Vec<f64> = errors.map(|(_, error)| error).collect();
+    let ends = match errors[..] {
+        [] => {
+            let place = boxed(ui, inner, ROW, "Surface error", "Legend: no layer of a surface");
+            let text = "no layer of a surface";
+            ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
+            return place;
+        }
+        [first, ..] if first.is_finite() && errors.iter().all(|error| *error == first) => {
+            let error = format::significant(first, 3);
+            [format!("−{error}"), "0".into(), error]
+        }
+        // Several errors are allowed.
+        _ => ["−100 %", "0", "100 %"].map(str::to_owned),
+    };
+    let spoken = format!("Legend: surface error {} to {}", ends[0], ends[2]);
+    let place = boxed(ui, inner, 30.0 + ROW, "Surface error", &spoken);
+    let steps = 8_i8;
+    let color = |step: i8| palette.surface_error(f32::from(step) / f32::from(steps));
+    scale(ui, place, (-steps..=steps).map(color), ends);
+    below_scale(ui, place, "mesh lower, higher".into());
     place
 }
 

@@ -12,11 +12,12 @@ use super::overlay_palette::{OverlayPalette, lit};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::layers::{DepthSurface, Layer, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
+use meshbrush_core::surface::SurfaceRule;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::scene::{Camera, Overlay};
 use meshbrush_study::pixels::PixelTriangles;
-use meshbrush_study::relief::{Relief, ReliefPixel, depth_differences};
+use meshbrush_study::relief::{Relief, ReliefPixel, depth_differences, surface_differences};
 
 /// The light on an isobath, and the most on any ground.
 const ISOBATH: f32 = 0.72;
@@ -48,7 +49,12 @@ impl OverlayState {
 
     /// Returns whether colours depend on the triangles.
     fn needs_mesh(kind: FieldOverlay) -> bool {
-        Self::is_of_triangles(kind) || kind == FieldOverlay::DepthError
+        Self::is_of_triangles(kind) || Self::is_compared(kind)
+    }
+
+    /// Returns whether the mesh with its nodes on the outline is compared with something.
+    fn is_compared(kind: FieldOverlay) -> bool {
+        matches!(kind, FieldOverlay::DepthError | FieldOverlay::SurfaceError)
     }
 
     /// Returns whether each triangle has one colour.
@@ -65,7 +71,7 @@ impl OverlayState {
         };
         let mesh = if kind == FieldOverlay::Depth { 0 } else { follower.revision() };
         let document = document.revision();
-        let is_derived = kind == FieldOverlay::DepthError && session.derived().is_some();
+        let is_derived = Self::is_compared(kind) && session.derived().is_some();
         Self { kind, document, mesh, is_derived, domain, bounds, size, palette }
     }
 }
@@ -145,11 +151,12 @@ fn colors_of(
     let (paint, layers) = (document.paint().clone(), document.settings().layers.clone());
     let field = follower.shared_field();
     let mesh = OverlayState::needs_mesh(state.kind).then(|| follower.shared_mesh());
-    let is_compared = state.kind == FieldOverlay::DepthError;
+    let is_compared = OverlayState::is_compared(state.kind);
     let derived = session.derived().filter(|_| is_compared).map(Derived::shared_extract);
     let ages = (state.kind == FieldOverlay::Age).then(|| session.ages());
     let rule = (state.kind == FieldOverlay::Forced)
         .then(|| (follower.domain().clone(), follower.settings().rule, follower.settings().limits()));
+    let surface = follower.surface().cloned();
     move |wanted| {
         let OverlayState { bounds, size, palette, .. } = &state;
         let goes_on = &|| wanted.goes_on();
@@ -162,7 +169,8 @@ fn colors_of(
                 triangles.colors(goes_on, palette.neutral(), |id| palette.age(ages.of(id)))
             }
             (Some(triangles), _, Some((domain, rule, limits))) => {
-                let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+                let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
+                    .with_surface(surface.as_deref());
                 triangles.colors(goes_on, palette.neutral(), |id| {
                     palette.forced(triangles.is_forced(id, &criterion, &limits))
                 })
@@ -176,6 +184,9 @@ fn colors_of(
             _ if state.kind == FieldOverlay::Depth => depth_colors(&layers, &state, goes_on),
             _ if state.kind == FieldOverlay::DepthError => {
                 depth_error_colors(&layers, &*extract()?, &state, goes_on)
+            }
+            _ if state.kind == FieldOverlay::SurfaceError => {
+                surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
             }
             _ if state.kind == FieldOverlay::Risk => risk_colors(&layers, &paint, &state, goes_on),
             _ if state.kind == FieldOverlay::Layer => {
@@ -234,6 +245,19 @@ fn depth_error_colors(
     let Some((surface, depths)) = surface.zip(depths) else { return Some(neutral(*size, palette)) };
     let differences = depth_differences(mesh.view(), &depths, &surface, (*bounds, *size), goes_on)?;
     Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
+}
+
+/// Returns how far the mesh is from surfaces; neutral beyond it, and without a surface.
+fn surface_error_colors(
+    rule: Option<&SurfaceRule>,
+    mesh: &Extract,
+    OverlayState { bounds, size, palette, .. }: &OverlayState,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
+    let Some(rule) = rule else { return Some(neutral(*size, palette)) };
+    let heights = rule.samples().heights_at_nodes(mesh.view());
+    let differences = surface_differences(mesh.view(), &heights, rule, (*bounds, *size), goes_on)?;
+    Some(differences.values().iter().map(|&share| palette.surface_error(share)).collect())
 }
 
 fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {

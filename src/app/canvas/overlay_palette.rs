@@ -110,6 +110,12 @@ impl OverlayPalette {
         mixed(self.neutral(), strongest, if share.is_nan() { 0.0 } else { share.abs() })
     }
 
+    /// Returns the colour of an error as a share of the one that is allowed: red where the mesh is higher
+    /// than the surface, blue where it is lower. Neutral for NaN.
+    pub fn surface_error(&self, share: f32) -> Opaque {
+        self.depth_error(-MOST_ERROR * share)
+    }
+
     /// Returns a colour from neutral to one that stands out in the theme, by a share from 0 to 1.
     fn emphasised(&self, share: f32) -> Opaque {
         let strongest = match self.ground {

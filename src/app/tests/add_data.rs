@@ -95,7 +95,7 @@ fn a_dropped_grid_of_depths_is_asked_about_and_gives_an_empty_document_its_exten
     assert!(window.query_by_role_and_label(Role::Image, "Picture of depths.asc").is_some());
     assert!(window.query_by_label_contains("takes the extent of the file").is_some());
     let (possible, chosen) = roles(&window);
-    let uses = ["Values through a curve", "Band of values", "Depth of water"];
+    let uses = ["Values through a curve", "Band of values", "Depth of water", "Surface"];
     assert_eq!(possible, uses, "neither risks nor diameters");
     assert_eq!(chosen.as_deref(), Some("Values through a curve"));
     click_button(&mut window, "Add");

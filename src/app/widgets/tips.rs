@@ -37,6 +37,7 @@ static SENTENCES: &[(&str, &str)] = &[
         "Overlay/Depth error",
         "Shows where depths that are linear over triangles are deeper or shallower than the grids.",
     ),
+    ("Overlay/Surface error", "Shows where the mesh is higher (red) or lower (blue) than surfaces."),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),
     ("Colours/Cividis", "Navy to yellow; looks nearly the same with and without red-green blindness."),

@@ -66,7 +66,8 @@ impl Explore {
             let settings = follower.settings();
             let paint = Some(document.paint());
             let criterion =
-                RefinementCriterion::new(follower.domain(), follower.field(), settings.rule, paint);
+                RefinementCriterion::new(follower.domain(), follower.field(), settings.rule, paint)
+                    .with_surface(follower.surface().map(|surface| &**surface));
             let triangle = TreeTriangle::of(follower.mesh(), id);
             Explanation::new(follower.mesh(), triangle, &criterion, &settings.limits())
         });

@@ -46,6 +46,10 @@ pub enum LayerCommand {
     OpenDiameters(PathBuf),
     /// Reads a picture or a grid, and adds a band of its values.
     OpenBand(PathBuf),
+    /// Measures how far the mesh is from surfaces.
+    MeasureSurface,
+    /// Reads a picture or a grid, and adds it as a surface that the mesh is to be close to.
+    OpenSurface(PathBuf),
     /// Reads a grid of heights or depths, and adds a layer of depths.
     OpenDepth(PathBuf),
     /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.

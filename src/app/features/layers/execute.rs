@@ -30,6 +30,8 @@ impl Feature for LayerEditor {
             LayerCommand::OpenImage(path) => load::load_image(session, background, &path),
             LayerCommand::OpenDiameters(path) => load::load_diameters(session, background, &path),
             LayerCommand::OpenBand(path) => load::load_band(session, background, &path),
+            LayerCommand::MeasureSurface => self.surface_fit.measure(ctx.session, ctx.jobs),
+            LayerCommand::OpenSurface(path) => load::load_surface(session, background, &path),
             LayerCommand::OpenDepth(path) => load::load_depth(session, background, &path),
             LayerCommand::OpenValues(path) => load::load_values(session, background, &path),
             LayerCommand::OpenShapes(path) => load::load_shapes(session, background, &path),
@@ -65,7 +67,7 @@ impl Feature for LayerEditor {
         if ctx.view.panels {
             self.pictures.advance(ctx.session, ctx.view, ctx.jobs, ctx.egui);
         }
-        false
+        self.surface_fit.follow(ctx.session, ctx.jobs)
     }
 }
 

@@ -53,6 +53,15 @@ pub static OPEN_BAND: FileKind = FileKind {
     ..FileKind::new(|path| Command::Layer(LayerCommand::OpenBand(path)))
 };
 
+/// A picture or a grid as a surface that the mesh is to be close to.
+pub static OPEN_SURFACE: FileKind = FileKind {
+    title: "Open picture or grid as surface",
+    endings: raster_endings,
+    contents: "Pictures and grids",
+    folder: "pictures",
+    ..FileKind::new(|path| Command::Layer(LayerCommand::OpenSurface(path)))
+};
+
 /// A picture or a grid through a curve of its values.
 pub static OPEN_VALUES: FileKind = FileKind {
     title: "Open picture or grid through a curve",
@@ -90,7 +99,7 @@ pub static OPEN_MASK: FileKind = FileKind {
 };
 
 /// The uses of a file that layers have.
-pub static ROLES: [DataRole; 7] = [
+pub static ROLES: [DataRole; 8] = [
     DataRole {
         place: 12,
         title: "Shapes to measure the distance to",
@@ -142,6 +151,14 @@ pub static ROLES: [DataRole; 7] = [
         sentence: "Files get the depth at each node; a layer asks for triangles by wavelength, slope or time step.",
         kind: &OPEN_DEPTH,
         is_for: |contents| matches!(contents, DataContents::Grid(_)),
+        refusal: |file, _| refused_values(file, |_, _| true, ""),
+    },
+    DataRole {
+        place: 25,
+        title: "Surface",
+        sentence: "The mesh is the smallest whose values, linear over triangles, are within an error of the grid's.",
+        kind: &OPEN_SURFACE,
+        is_for: is_raster,
         refusal: |file, _| refused_values(file, |_, _| true, ""),
     },
     DataRole {

@@ -44,6 +44,11 @@ pub fn load_depth(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Any, kind_of);
 }
 
+/// Reads a picture or a grid, and adds it as a surface that the mesh is to be close to.
+pub fn load_surface(session: &Session, background: &mut Background, path: &Path) {
+    load_raster(session, background, path, RasterValues::Any, LayerKind::surface_of);
+}
+
 /// Reads a picture or a grid, and adds it as a layer with a curve from its values to diameters.
 pub fn load_values(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Any, LayerKind::curve_of);
@@ -67,7 +72,7 @@ fn load_raster(
             let transfer = over.as_ref().map_or(frame.transfer, |settings| settings.transfer);
             let kind = kind_of(source, &transfer).ok_or_else(|| no_values(&file))?;
             match over {
-                Some(settings) => show_with_layer(settings, kind, &file),
+                Some(settings) => show_with_layer(settings.with_nodes_on_samples(&kind), kind, &file),
                 None => check_place(&bounds, &frame.domain, &file).map(|()| commands_to_add(kind)),
             }
         };

@@ -13,18 +13,20 @@ mod marks;
 mod panel;
 mod pictures;
 mod selected;
+mod surface_fit;
 #[cfg(test)]
 pub mod tests;
 mod transfer;
 
 pub use command::LayerCommand;
-use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, REPLACE_SHAPES, ROLES};
+use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, OPEN_SURFACE, REPLACE_SHAPES, ROLES};
 pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use gradation::GRADATION;
 use kinds::KINDS;
 use panel::LAYERS;
 use pictures::LayerPictures;
 pub use pictures::layer_color32;
+use surface_fit::MeasuredFit;
 use transfer::TRANSFER;
 
 /// The small pictures of layers; the layers are in the document.
@@ -32,4 +34,6 @@ use transfer::TRANSFER;
 pub struct LayerEditor {
     /// Small pictures of the target diameters of each layer.
     pictures: LayerPictures,
+    /// How far the mesh is from surfaces.
+    surface_fit: MeasuredFit,
 }

@@ -154,9 +154,10 @@ impl Plots {
         let (mesh, domain, field) =
             (follower.shared_mesh(), follower.domain().clone(), follower.shared_field());
         let (rule, limits) = (follower.settings().rule, follower.settings().limits());
-        let paint = session.document().paint().clone();
+        let (paint, surface) = (session.document().paint().clone(), follower.surface().cloned());
         let compute = move |wanted: &Wanted| {
-            let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+            let criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
+                .with_surface(surface.as_deref());
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
             wanted.goes_on().then(|| LevelFigures::of(&mesh, &extract, &criterion, &limits))
         };

@@ -70,8 +70,10 @@ impl Statistics {
             (follower.shared_mesh(), follower.domain().clone(), follower.field().clone());
         let ground_of = session.document().settings().domain.clone();
         let (rule, paint) = (follower.settings().rule, session.document().paint().clone());
+        let surface = follower.surface().cloned();
         let measure = move |wanted: &Wanted| {
-            let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+            let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint))
+                .with_surface(surface.as_deref());
             let extract = extract.unwrap_or_else(|| Arc::new(mesh.extract().into_owned()));
             let go_on = || wanted.goes_on().then_some(());
             go_on()?;

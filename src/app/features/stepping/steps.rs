@@ -232,6 +232,7 @@ fn record(
     let follower = session.follower();
     let spec = follower.settings().mesh_spec().map_err(|error| error.to_string())?;
     let (domain, field) = (follower.domain().clone(), follower.shared_field());
+    let surface = follower.surface().cloned();
     let (rule, cleaning, paint) = (spec.rule, spec.cleaning, session.document().paint().clone());
     let coarse = Mesh::coarse_grid(&spec.lattice, |node| domain.admits(node), &spec.limits)
         .map_err(|error| error.to_string())?;
@@ -243,7 +244,8 @@ fn record(
     }
     Ok(move || {
         let mut recorder = StepRecorder::new(coarse, spec.limits, MOST_TRIANGLES);
-        let mut criterion = RefinementCriterion::new(&domain, &field, rule, Some(&paint));
+        let mut criterion =
+            RefinementCriterion::new(&domain, &field, rule, Some(&paint)).with_surface(surface.as_deref());
         while recorder
             .advance(|element| criterion.exceeds(element), SLICE)
             .map_err(|error| error.to_string())?

@@ -83,6 +83,8 @@ impl Icon {
     pub const STRAITS: Self = Self(material::ICON_WIDTH.codepoint);
     /// A layer of the width of the water.
     pub const FEATURE_SIZE: Self = Self(material::ICON_ARROW_RANGE.codepoint);
+    /// A layer of a surface.
+    pub const SURFACE: Self = Self(material::ICON_LANDSCAPE.codepoint);
     /// A layer of a band of values.
     pub const BAND: Self = Self(material::ICON_LINE_WEIGHT.codepoint);
     /// The first of many.

@@ -9,13 +9,14 @@ mod formula;
 mod paint;
 mod raster;
 mod straits;
+mod surface;
 mod water;
 
 use crate::app::kit::{LayerKindRow, Row, kinds_of_layers};
 use meshbrush_core::layers::{LayerKind, Quantity};
 
 /// The kinds of layers of this feature.
-pub static KINDS: [&LayerKindRow; 8] = [
+pub static KINDS: [&LayerKindRow; 9] = [
     &paint::PAINT,
     &formula::FORMULA,
     &raster::RASTER,
@@ -24,6 +25,7 @@ pub static KINDS: [&LayerKindRow; 8] = [
     &depth::DEPTH,
     &straits::STRAITS,
     &feature_size::FEATURE_SIZE,
+    &surface::SURFACE,
 ];
 
 /// Returns the kind of a layer.

@@ -1,0 +1,161 @@
+//! Layers of a surface that the mesh is to be close to.
+
+use eframe::egui::Ui;
+
+use super::raster::source_rows;
+use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use crate::app::features::layers::OPEN_SURFACE;
+use crate::app::kit::{
+    Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
+    set_kind_once,
+};
+use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
+use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceSource};
+
+/// A raster or a formula as a surface.
+pub static SURFACE: LayerKindRow = LayerKindRow {
+    place: 10,
+    is_of: |kind| matches!(kind, LayerKind::Surface(_)),
+    icon: Icon::SURFACE,
+    tool: None,
+    additions: &[
+        Addition {
+            title: "surface of a file, within an error…",
+            command: |_| Command::File(FileCommand::Ask(&OPEN_SURFACE)),
+        },
+        Addition {
+            title: "surface of a formula, within an error",
+            command: |state| {
+                let bounds = state.session.document().settings().domain.bounds;
+                add_layer(LayerKind::usual_surface(&bounds))
+            },
+        },
+    ],
+    parameters,
+};
+
+/// Most triangles that can be asked for.
+const MOST: f64 = 1e9;
+
+/// What is given, and what follows from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Given {
+    Error,
+    Triangles,
+}
+
+impl Given {
+    const CHOICES: [(Self, &str); 2] = [(Self::Error, "Error"), (Self::Triangles, "Triangles")];
+
+    fn of(goal: SurfaceGoal) -> Self {
+        match goal {
+            SurfaceGoal::Within(_) => Self::Error,
+            SurfaceGoal::AtMost(_) => Self::Triangles,
+        }
+    }
+}
+
+fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let LayerKind::Surface(surface) = &layer.kind else { return };
+    let Surface { source, goal } = surface;
+    goal_rows(ui, state, layer, surface, commands);
+    fit_rows(ui, state, layer, commands);
+    match source {
+        SurfaceSource::Raster(source) => source_rows(ui, state, source),
+        SurfaceSource::Formula(formula) => {
+            let row = FormulaRow {
+                label: "Surface at (x, y)",
+                hint: "sin(3*x) * exp(-y*y)",
+                help: "The height at x and y, as a formula. It is compared with the mesh at 1024 places or more along the \
+                       longer side of the domain.",
+            };
+            if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
+                let source = SurfaceSource::Formula(formula);
+                set_kind_once(layer, LayerKind::Surface(Surface { source, goal: *goal }), commands);
+            }
+        }
+    }
+}
+
+/// Shows the goal.
+fn goal_rows(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    layer: &Layer,
+    surface: &Surface,
+    commands: &mut Vec<Command>,
+) {
+    let with = |goal| LayerKind::Surface(Surface { source: surface.source.clone(), goal });
+    let mut given = Given::of(surface.goal);
+    if segmented(ui, "What is given", &mut given, &Given::CHOICES).changed() {
+        return set_kind_once(layer, with(other_goal(state, layer, given)), commands);
+    }
+    let (response, goal) = match surface.goal {
+        SurfaceGoal::Within(mut error) => {
+            let help = "The largest difference of the surface from the mesh. The mesh is the smallest one within it.";
+            let row =
+                NumberRow::new("Largest error", &mut error).range(f64::MIN_POSITIVE..=f64::MAX).help(help);
+            (row.show(ui), SurfaceGoal::Within(error))
+        }
+        SurfaceGoal::AtMost(count) => {
+            let mut count = count as f64;
+            let help = "The mesh has the least error that is possible with so many triangles. Nodes that move onto an \
+                        outline afterwards do not count.";
+            let row = NumberRow::new("Most triangles", &mut count).range(1.0..=MOST).integer().help(help);
+            (row.show(ui), SurfaceGoal::AtMost(count as usize))
+        }
+    };
+    if response.changed() {
+        set_kind(layer, with(goal), commands);
+    }
+    end_gesture_when_released(&response, commands);
+}
+
+/// Returns the goal of the other sort that the mesh as it is meets.
+fn other_goal(state: &FrameState<'_>, layer: &Layer, given: Given) -> SurfaceGoal {
+    let follower = state.session.follower();
+    match given {
+        Given::Triangles => SurfaceGoal::AtMost(follower.mesh().triangles().count().max(1)),
+        Given::Error => {
+            let mut errors = follower.surface().into_iter().flat_map(|rule| rule.errors());
+            let error = errors.find(|(id, _)| *id == layer.id).map(|(_, error)| error);
+            let error = error.filter(|error| *error > 0.0 && error.is_finite());
+            SurfaceGoal::Within(error.or(usual_error(layer)).unwrap_or(1.0))
+        }
+    }
+}
+
+fn usual_error(layer: &Layer) -> Option<f64> {
+    let LayerKind::Surface(Surface { source, .. }) = &layer.kind else { return None };
+    LayerKind::usual_error(source.raster()?)
+}
+
+/// Shows how far the mesh is from the surfaces.
+fn fit_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let measured = &state.features.layers.surface_fit;
+    if measured.is_due(state.session) {
+        commands.push(Command::Layer(LayerCommand::MeasureSurface));
+    }
+    let rule = state.session.follower().surface();
+    if layer.visible && rule.is_some_and(|rule| rule.has_too_few_triangles()) {
+        remark(
+            ui,
+            "The mesh has more triangles already without this layer: ask for more, or take a larger spacing.",
+        );
+    }
+    let Some((fit, is_current)) = measured.figures(state.session) else {
+        ValueRow::new("Error", "being measured").show(ui);
+        return;
+    };
+    ui.scope(|ui| {
+        if !is_current {
+            ui.disable();
+        }
+        let help = "The largest difference of a sample of the surfaces from the mesh. A click goes there.";
+        if ValueRow::new("Error", &format::digits(fit.largest, 5)).help(help).link().show(ui).clicked() {
+            commands.push(Command::View(ViewCommand::LookAt(fit.at)));
+        }
+        let help = "The square root of the mean of the squares of all differences.";
+        ValueRow::new("Root mean square", &format::digits(fit.rms, 5)).help(help).show(ui);
+    });
+}
