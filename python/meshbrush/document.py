@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import MeshError
 from .domain import Domain
-from .layers import Layers
+from .layers import Layers, Length
 from .mesh import Mesh, Why
 from .paths import Path
 from .progress import Progress, watching
@@ -53,7 +53,8 @@ class Document:
     """What to mesh, and how fine: a domain, layers and limits. Everything can be changed and undone.
 
     `domain` is a `Domain`, or what `Domain` takes. Lengths are in world units, which are those of the domain's
-    coordinates, or metres with a `projection` ("auto", "EPSG:32635", …).
+    coordinates, or metres with a `projection` ("auto", "EPSG:32635", …). They may be texts with a unit, as in
+    `h_min="300 m"`: a region on the Earth is then meshed in metres.
 
     `spacing` is the longest side of a coarse cell; `h_min`, `h_max` and `h_risk` limit the target diameter, and
     `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
@@ -67,14 +68,14 @@ class Document:
         domain: Domain | ShapesLike,
         *,
         name: str = "Untitled",
-        spacing: float | None = None,
-        h_min: float | None = None,
-        h_max: float | None = None,
-        h_risk: float | None = None,
+        spacing: Length | None = None,
+        h_min: Length | None = None,
+        h_max: Length | None = None,
+        h_risk: Length | None = None,
         shape: float | None = None,
         gradation: float | None = None,
         boundary: str | None = None,
-        boundary_diameter: float | None = None,
+        boundary_diameter: Length | None = None,
         parts: str | float | None = None,
         keep_pinches: bool = False,
         unit: str | None = None,
@@ -179,7 +180,7 @@ class Document:
         risk_weight: float | None = None,
         cost: str | None = None,
         keep_out: Sequence[ShapesLike] = (),
-        clearance: float | None = None,
+        clearance: Length | None = None,
         within: float | None = None,
         progress: Progress = None,
         threads: int | None = None,

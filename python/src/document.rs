@@ -209,8 +209,8 @@ impl Document {
     /// Changes the settings that tables with the keys of a recipe state.
     fn set(&self, py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<()> {
         let tables = text_value(tables)?;
-        let saved =
-            SavedSettings::of_value(&tables, &Given::default()).map_err(|fault| fault_in(&tables, &fault))?;
+        let unit = self.with(py, |state| state.document.settings().unit);
+        let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
         self.with(py, |state| {
             state.has_smallest |= saved.limits.h_min.is_some();
             state.max_level = saved.mesh.max_level.or(state.max_level);

@@ -133,7 +133,7 @@ impl Document {
 fn beside_layer(state: &State) -> BesideLayer {
     let layers = &state.document.settings().layers;
     let depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
-    BesideLayer { smallest: state.has_smallest, depths }
+    BesideLayer { smallest: state.has_smallest, depths, unit: state.document.settings().unit }
 }
 
 /// Adds a layer on top of a document.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import re
 import types
 from pathlib import Path
 from typing import Any
@@ -279,6 +280,31 @@ def test_documents_on_the_earth() -> None:
     finer = len(mesh)
     document.layers.raster(np.full((4, 4), 700.0), (23.9, 37.9, 24.1, 38.1), reads="diameter")
     assert len(document.mesh()) > finer
+
+
+def test_lengths_may_have_a_unit() -> None:
+    region = feature(bay(0.4, (24.0, 38.0)))
+    numbers = mb.Document(region, projection="auto", spacing=9260, h_min=500, h_max=9000)
+    units = mb.Document(region, spacing="5 nmi", h_min="500 m", h_max="9 km")
+    for document, lengths in ((numbers, [800, 20_000, 6000]), (units, ["800 m", "20 km", "6000m"])):
+        at_zero, farthest, h_max = lengths
+        document.layers.distance("outline", at_zero=at_zero, slope=0.2, range=farthest)
+        document.set(h_max=h_max)
+    assert units.mesh().fingerprint == numbers.mesh().fingerprint
+    ends = [[*units.mesh().nodes[5]], [*units.mesh().nodes[500]]]
+    assert units.path(*ends, clearance="10 m").cost == numbers.path(*ends, clearance=10).cost
+    for fault, part in (
+        (lambda: mb.Document(region, projection="none", h_min="500 m"), "h_min: \"500 m\" cannot be used: lengths of this"),
+        (lambda: square(h_min="500 m"), "lengths of this domain are plain numbers"),
+        (lambda: units.set(h_min="1 apple"), "“apple” cannot be converted to m"),
+        (lambda: units.set(h_min=""), "this text is empty"),
+        (lambda: units.set(h_min="-1 km"), "\"-1 km\" cannot be used: a length must be positive"),
+        (lambda: square().set(h_min="1 km"), "lengths of this domain are plain numbers"),
+        (lambda: square().layers.distance("outline", at_zero="1 km", slope=0.1), "at_zero: \"1 km\" cannot be used"),
+        (lambda: units.path(*ends, clearance="0.1°"), "are in metres"),
+    ):
+        with pytest.raises(mb.MeshError, match=re.escape(part)):
+            fault()
 
 
 def test_data_of_other_libraries(tmp_path: Path) -> None:

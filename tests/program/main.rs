@@ -7,6 +7,7 @@ mod depth;
 mod earth;
 mod folder;
 mod layer_files;
+mod lengths;
 mod located;
 mod memory;
 mod one_program;
