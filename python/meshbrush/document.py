@@ -245,12 +245,15 @@ class Document:
 class Brush:
     """A round brush, in world units: it paints a target `diameter`, a `risk` from 0 to 1, or erases.
 
+    With a projection, the radius is metres on the Earth at the first point of the stroke. Lengths may be texts with a
+    unit, as in "500 m".
+
     `hardness` is the share of the radius with the full effect, and `strength` the share of the way to it. `change` says
     which diameters it changes: to "finer" ones only, to "coarser", or "any".
     """
 
-    radius: float
-    diameter: float | None = None
+    radius: Length
+    diameter: Length | None = None
     risk: float | None = None
     erase: bool = False
     hardness: float = 0.5
@@ -259,17 +262,15 @@ class Brush:
     mirror_x: float | None = None
     mirror_y: float | None = None
 
-    def _medium(self) -> tuple[str, float]:
+    def _medium(self) -> tuple[str, Length]:
         given = (self.diameter is not None) + (self.risk is not None) + self.erase
         if given != 1:
             raise MeshError("A brush has one of diameter, risk and erase=True.")
-        for key, value in (("radius", self.radius), ("hardness", self.hardness), ("strength", self.strength)):
-            most = float("inf") if key == "radius" else 1.0
-            if not 0 <= value <= most or (key == "radius" and not 0 < value < most):
-                rule = "a radius is positive and finite" if key == "radius" else "it lies from 0 to 1"
-                raise MeshError(f"{key}: {value} cannot be used: {rule}.")
+        for key, value in (("hardness", self.hardness), ("strength", self.strength)):
+            if not 0 <= value <= 1:
+                raise MeshError(f"{key}: {value} cannot be used: it lies from 0 to 1.")
         if self.diameter is not None:
-            return "diameter", float(self.diameter)
+            return "diameter", self.diameter
         return ("risk", float(self.risk)) if self.risk is not None else ("eraser", 0.0)
 
 

@@ -307,6 +307,32 @@ def test_lengths_may_have_a_unit() -> None:
             fault()
 
 
+def test_a_brush_has_its_radius_on_the_earth() -> None:
+    # In this plane, lengths at 60° N are twice those on the Earth.
+    domain = mb.Domain(feature(bay(2.0, (10.0, 60.0))))
+    options = dict(crs="lonlat", projection="+proj=merc +lon_0=10", h_min="100 m", h_max="50 km")
+    hashes = []
+    for radius in ("10 km", 10_000, "10000"):
+        document = mb.Document(domain, **options)
+        at = document.to_world([[10.0, 60.0]])[0]
+        with document.stroke(mb.Brush(radius=radius, diameter="1 km", hardness=1)) as stroke:
+            stroke.dot(at)
+        mesh = document.mesh()
+        fine = mesh.nodes[mesh.h <= 1000]
+        farthest = np.hypot(*(fine - at).T).max()
+        assert 19_000 < farthest < 22_000, farthest
+        hashes.append(mesh.fingerprint)
+    assert len(set(hashes)) == 1
+    for brush, part in (
+        (dict(radius="10°", diameter=1), "radius: \"10°\" cannot be used: lengths of this domain are in metres"),
+        (dict(radius="far", diameter=1), "radius: “far” is not a number"),
+        (dict(radius="-1 km", diameter=1), "a radius is positive and finite"),
+        (dict(radius=1, diameter="0 m"), "a length must be positive and finite"),
+    ):
+        with pytest.raises(mb.MeshError, match=re.escape(part)), document.stroke(mb.Brush(**brush)) as stroke:
+            stroke.dot(at)
+
+
 def test_data_of_other_libraries(tmp_path: Path) -> None:
     geometry = pytest.importorskip("shapely.geometry")
     xarray = pytest.importorskip("xarray")
