@@ -86,7 +86,7 @@ pub fn run(
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
     let export = export.at_speed(speed, unit);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
-    let look = look.for_mesh(finished.mesh());
+    let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
     let answer = Answer::new(&export, extract.triangles().len(), seconds);
