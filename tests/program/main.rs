@@ -4,6 +4,7 @@ mod causes;
 mod cli;
 mod data_formats;
 mod depth;
+mod distance_pieces;
 mod earth;
 mod folder;
 mod layer_files;
