@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._errors import MeshError
 from .domain import Domain
-from .layers import Layers
+from .layers import Layers, Length
 from .mesh import Mesh, Why
 from .paths import Path
 from .progress import Progress, watching
@@ -53,7 +53,8 @@ class Document:
     """What to mesh, and how fine: a domain, layers and limits. Everything can be changed and undone.
 
     `domain` is a `Domain`, or what `Domain` takes. Lengths are in world units, which are those of the domain's
-    coordinates, or metres with a `projection` ("auto", "EPSG:32635", …).
+    coordinates, or metres with a `projection` ("auto", "EPSG:32635", …). They may be texts with a unit, as in
+    `h_min="300 m"`: a region on the Earth is then meshed in metres.
 
     `spacing` is the longest side of a coarse cell; `h_min`, `h_max` and `h_risk` limit the target diameter, and
     `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
@@ -67,14 +68,14 @@ class Document:
         domain: Domain | ShapesLike,
         *,
         name: str = "Untitled",
-        spacing: float | None = None,
-        h_min: float | None = None,
-        h_max: float | None = None,
-        h_risk: float | None = None,
+        spacing: Length | None = None,
+        h_min: Length | None = None,
+        h_max: Length | None = None,
+        h_risk: Length | None = None,
         shape: float | None = None,
         gradation: float | None = None,
         boundary: str | None = None,
-        boundary_diameter: float | None = None,
+        boundary_diameter: Length | None = None,
         parts: str | float | None = None,
         keep_pinches: bool = False,
         unit: str | None = None,
@@ -179,7 +180,7 @@ class Document:
         risk_weight: float | None = None,
         cost: str | None = None,
         keep_out: Sequence[ShapesLike] = (),
-        clearance: float | None = None,
+        clearance: Length | None = None,
         within: float | None = None,
         progress: Progress = None,
         threads: int | None = None,
@@ -244,12 +245,15 @@ class Document:
 class Brush:
     """A round brush, in world units: it paints a target `diameter`, a `risk` from 0 to 1, or erases.
 
+    With a projection, the radius is metres on the Earth at the first point of the stroke. Lengths may be texts with a
+    unit, as in "500 m".
+
     `hardness` is the share of the radius with the full effect, and `strength` the share of the way to it. `change` says
     which diameters it changes: to "finer" ones only, to "coarser", or "any".
     """
 
-    radius: float
-    diameter: float | None = None
+    radius: Length
+    diameter: Length | None = None
     risk: float | None = None
     erase: bool = False
     hardness: float = 0.5
@@ -258,17 +262,15 @@ class Brush:
     mirror_x: float | None = None
     mirror_y: float | None = None
 
-    def _medium(self) -> tuple[str, float]:
+    def _medium(self) -> tuple[str, Length]:
         given = (self.diameter is not None) + (self.risk is not None) + self.erase
         if given != 1:
             raise MeshError("A brush has one of diameter, risk and erase=True.")
-        for key, value in (("radius", self.radius), ("hardness", self.hardness), ("strength", self.strength)):
-            most = float("inf") if key == "radius" else 1.0
-            if not 0 <= value <= most or (key == "radius" and not 0 < value < most):
-                rule = "a radius is positive and finite" if key == "radius" else "it lies from 0 to 1"
-                raise MeshError(f"{key}: {value} cannot be used: {rule}.")
+        for key, value in (("hardness", self.hardness), ("strength", self.strength)):
+            if not 0 <= value <= 1:
+                raise MeshError(f"{key}: {value} cannot be used: it lies from 0 to 1.")
         if self.diameter is not None:
-            return "diameter", float(self.diameter)
+            return "diameter", self.diameter
         return ("risk", float(self.risk)) if self.risk is not None else ("eraser", 0.0)
 
 

@@ -6,7 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._core import Document as CoreDocument
+
+
+#: A length: a number in world units, or a text with a unit, as in "40 km", "300 m" or "0.5 nmi".
+Length: TypeAlias = "float | str"
 
 
 def _depth() -> int:
@@ -153,7 +157,7 @@ class Layers(Sequence[Layer]):
         bounds: Bounds | None = None,
         *,
         reads: str | None = None,
-        curve: Sequence[Sequence[float]] | None = None,
+        curve: Sequence[Sequence[Length]] | None = None,
         origin: str = "upper",
         crs: str | None = None,
         **common: Unpack[Common],
@@ -178,7 +182,7 @@ class Layers(Sequence[Layer]):
         self,
         values: Any,
         between: Sequence[float],
-        diameter: float,
+        diameter: Length,
         bounds: Bounds | None = None,
         *,
         origin: str = "upper",
@@ -201,7 +205,7 @@ class Layers(Sequence[Layer]):
         depth_to: float | None = None,
         period: float | None = None,
         triangles: float | None = None,
-        smoothing: float | None = None,
+        smoothing: Length | None = None,
         time_step: float | None = None,
         courant: float | None = None,
         origin: str = "upper",
@@ -314,9 +318,9 @@ class Layers(Sequence[Layer]):
         self,
         to: ShapesLike = None,
         *,
-        at_zero: float,
+        at_zero: Length,
         slope: float,
-        range: float | None = None,  # noqa: A002
+        range: Length | None = None,  # noqa: A002
         pieces: Sequence[str] | None = None,
         types: Sequence[str] | None = None,
         **common: Unpack[Common],
@@ -334,10 +338,10 @@ class Layers(Sequence[Layer]):
         self,
         along: ShapesLike,
         *,
-        width: float,
-        at_zero: float,
+        width: Length,
+        at_zero: Length,
         slope: float,
-        range: float | None = None,  # noqa: A002
+        range: Length | None = None,  # noqa: A002
         **common: Unpack[Common],
     ) -> Layer:
         """Adds a target diameter that grows with the distance to a strip along lines: a file, or shapes. An array is a
@@ -352,12 +356,12 @@ class Layers(Sequence[Layer]):
         file = f"{keys.get('name') or 'shapes'}.geojson".replace("/", "-")
         return self._add(kind, {"file": file, **keys}, {file: geojson(shapes, arrays)})
 
-    def straits(self, *, across: float, width_from: float, width_to: float, **common: Unpack[Common]) -> Layer:
+    def straits(self, *, across: float, width_from: Length, width_to: Length, **common: Unpack[Common]) -> Layer:
         """Adds a number of triangles across straits of these widths."""
         keys = {"across": across, "width_from": width_from, "width_to": width_to, **common}
         return self._add("straits", keys, {})
 
-    def feature_size(self, *, across: float, width_from: float, width_to: float, **common: Unpack[Common]) -> Layer:
+    def feature_size(self, *, across: float, width_from: Length, width_to: Length, **common: Unpack[Common]) -> Layer:
         """Adds a number of triangles across the water between its shores and its middle."""
         keys = {"across": across, "width_from": width_from, "width_to": width_to, **common}
         return self._add("feature-size", keys, {})

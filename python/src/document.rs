@@ -12,7 +12,7 @@ use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::recipe::{self, LoadedDocument, Loading};
 use meshbrush_io::io::settings::SavedSettings;
-use meshbrush_io::io::{Given, TextValue, project, write_file_metered};
+use meshbrush_io::io::{TextValue, project, write_file_metered};
 use meshbrush_mesh::mesh::{Limits, MemoryLimit, Progress, RefineError};
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -209,8 +209,8 @@ impl Document {
     /// Changes the settings that tables with the keys of a recipe state.
     fn set(&self, py: Python<'_>, tables: &Bound<'_, PyDict>) -> PyResult<()> {
         let tables = text_value(tables)?;
-        let saved =
-            SavedSettings::of_value(&tables, &Given::default()).map_err(|fault| fault_in(&tables, &fault))?;
+        let unit = self.with(py, |state| state.document.settings().unit);
+        let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
         self.with(py, |state| {
             state.has_smallest |= saved.limits.h_min.is_some();
             state.max_level = saved.mesh.max_level.or(state.max_level);

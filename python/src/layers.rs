@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::arrays::points_of;
 use crate::document::{Document, State, frame_of, lock};
 use crate::errors::{fault_in, load_error, mesh_error};
-use crate::values::{GivenData, given_of, text_value};
+use crate::values::{GivenData, GivenLength, given_of, text_value};
 use crate::work::{Watching, run};
 
 /// Paint of another project is not part of a layer.
@@ -85,16 +85,17 @@ impl Document {
         self.with(py, |state| change_layer(state, id, |layers, place| change.apply(&mut layers[place])))
     }
 
-    /// Paints a line through points as one edit. `quantity` is "diameter", "risk" or "eraser".
+    /// Paints a line through points as one edit. `quantity` is "diameter", "risk" or "eraser". The radius of
+    /// a stroke is a length on the Earth at its first point.
     #[expect(clippy::too_many_arguments, reason = "a brush, and where it goes")]
     fn paint(
         &self,
         py: Python<'_>,
         points: PyReadonlyArray2<'_, f64>,
         quantity: &str,
-        value: f64,
+        value: GivenLength,
         change: &str,
-        radius: f64,
+        radius: GivenLength,
         hardness: f64,
         strength: f64,
         mirror: (Option<f64>, Option<f64>),
@@ -104,6 +105,18 @@ impl Document {
         if let Some(point) = points.iter().find(|point| !point.is_finite()) {
             return Err(mesh_error(format!("A stroke through {}, {} is impossible.", point.x, point.y)));
         }
+        let domain_and_unit = |state: &mut State| {
+            let settings = state.document.settings();
+            (settings.domain.clone(), settings.unit)
+        };
+        let (domain, unit) = self.with(py, domain_and_unit);
+        let value = value.in_unit("diameter", unit)?;
+        let radius = radius.in_unit("radius", unit)?;
+        if !(radius > 0.0 && radius.is_finite()) {
+            let rule = "a radius is positive and finite";
+            return Err(mesh_error(format!("radius: {radius} cannot be used: {rule}.")));
+        }
+        let radius = points.first().map_or(radius, |&first| domain.in_plane(radius, first));
         let brush = Brush { medium: medium(quantity, value, change)?, radius, hardness, strength };
         let state = self.state.clone();
         let painted = run(py, &Watching::QUIET, move |watch| {
@@ -133,7 +146,7 @@ impl Document {
 fn beside_layer(state: &State) -> BesideLayer {
     let layers = &state.document.settings().layers;
     let depths = layers.iter().any(|layer| matches!(layer.kind, LayerKind::Depth(_)));
-    BesideLayer { smallest: state.has_smallest, depths }
+    BesideLayer { smallest: state.has_smallest, depths, unit: state.document.settings().unit }
 }
 
 /// Adds a layer on top of a document.

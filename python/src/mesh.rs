@@ -321,7 +321,7 @@ impl Mesh {
         let look = look_of(output)?;
         let picture = run(slf.py(), &Watching::QUIET, move |_| {
             let mesh = shared.finished.mesh();
-            shared.with_extract(|extract| look.look_for(mesh).draw(mesh, extract))
+            shared.with_extract(|extract| look.look_for(&shared.finished).draw(mesh, extract))
         })?;
         let [width, height] = picture.size.map(|side| side as usize);
         let pixels = picture.rgba.into_pyarray(slf.py());
@@ -334,7 +334,7 @@ impl Mesh {
         let look = look_of(output)?;
         let bytes = run(slf.py(), &Watching::QUIET, move |_| {
             let mesh = shared.finished.mesh();
-            let picture = shared.with_extract(|extract| look.look_for(mesh).draw(mesh, extract));
+            let picture = shared.with_extract(|extract| look.look_for(&shared.finished).draw(mesh, extract));
             let mut bytes = Vec::new();
             meshbrush_io::io::png::write(&mut bytes, picture.size, &picture.rgba).map(|()| bytes)
         })?;

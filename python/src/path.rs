@@ -11,10 +11,11 @@ use meshbrush_core::path::{
     CertificateTask, CostDensity, PathArea, PathCertificate, PathMesh, PathRequest, Planner, Solution,
     Weights,
 };
+use meshbrush_io::io::DocumentPlane;
 use meshbrush_io::io::geojson::{read_outline_from, without_names};
 use meshbrush_io::io::settings::SavedSettings;
 use meshbrush_io::io::shape_format::placed_polygons;
-use meshbrush_io::io::{DocumentPlane, Given};
+use meshbrush_mesh::text::LengthUnit;
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -52,7 +53,7 @@ impl Mesh {
         watching: Watching,
     ) -> PyResult<PathArrays<'py>> {
         let places = points_of(&places)?;
-        let (cost, clearance) = cost_of(table)?;
+        let (cost, clearance) = cost_of(table, slf.get().0.finished.unit())?;
         if let Some(width) = within.filter(|width| !(1e-7..1.0).contains(width)) {
             return Err(mesh_error(format!(
                 "within = {width}: give a share from 0.0000001 up to 1, as 0.01."
@@ -69,12 +70,11 @@ impl Mesh {
 }
 
 /// Checks the keys of the table `paths`, and returns what paths cost and their clearance.
-fn cost_of(table: &Bound<'_, PyDict>) -> PyResult<(PathCost, f64)> {
+fn cost_of(table: &Bound<'_, PyDict>, unit: LengthUnit) -> PyResult<(PathCost, f64)> {
     let tables = PyDict::new(table.py());
     tables.set_item("paths", table)?;
     let tables = text_value(&tables)?;
-    let saved =
-        SavedSettings::of_value(&tables, &Given::default()).map_err(|fault| fault_in(&tables, &fault))?;
+    let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
     let paths = saved.paths;
     let usual = Weights::default();
     let cost = match &paths.cost {

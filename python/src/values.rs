@@ -3,6 +3,7 @@
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_io::io::{FileCoordinates, Given, GivenGrid, TextValue};
+use meshbrush_mesh::text::{Length, LengthUnit};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -138,5 +139,33 @@ impl GridData<'_> {
         let can_be_degrees = y0 >= -91.0 && y1 <= 91.0 && x0 >= -181.0 && x1 <= 361.0;
         let coordinates = stated.map_or(FileCoordinates::Unstated { can_be_degrees }, FileCoordinates::Known);
         Ok(GivenGrid { raster: RasterPyramid::new(raster).into(), coordinates })
+    }
+}
+
+/// A length as Python gives it: a number, or a text with a unit.
+#[derive(FromPyObject)]
+pub enum GivenLength {
+    /// In the unit of the document.
+    #[pyo3(transparent)]
+    Number(f64),
+    /// With a unit or without one.
+    #[pyo3(transparent)]
+    Text(String),
+}
+
+impl GivenLength {
+    /// Returns the number in the unit of a document; `key` names it in the sentence of an error.
+    pub fn in_unit(&self, key: &str, unit: LengthUnit) -> PyResult<f64> {
+        let text = match self {
+            Self::Number(number) => return Ok(*number),
+            Self::Text(text) => text,
+        };
+        let length: Length =
+            text.parse().map_err(|problem: String| mesh_error(format!("{key}: {problem}")))?;
+        let length = length.in_document(unit);
+        length
+            .check(unit)
+            .map_err(|problem| mesh_error(format!("{key}: \"{length}\" cannot be used: {problem}")))?;
+        Ok(length.value)
     }
 }

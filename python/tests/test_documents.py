@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+import re
 import types
 from pathlib import Path
 from typing import Any
@@ -284,6 +285,57 @@ def test_documents_on_the_earth() -> None:
     finer = len(mesh)
     document.layers.raster(np.full((4, 4), 700.0), (23.9, 37.9, 24.1, 38.1), reads="diameter")
     assert len(document.mesh()) > finer
+
+
+def test_lengths_may_have_a_unit() -> None:
+    region = feature(bay(0.4, (24.0, 38.0)))
+    numbers = mb.Document(region, projection="auto", spacing=9260, h_min=500, h_max=9000)
+    units = mb.Document(region, spacing="5 nmi", h_min="500 m", h_max="9 km")
+    for document, lengths in ((numbers, [800, 20_000, 6000]), (units, ["800 m", "20 km", "6000m"])):
+        at_zero, farthest, h_max = lengths
+        document.layers.distance("outline", at_zero=at_zero, slope=0.2, range=farthest)
+        document.set(h_max=h_max)
+    assert units.mesh().fingerprint == numbers.mesh().fingerprint
+    ends = [[*units.mesh().nodes[5]], [*units.mesh().nodes[500]]]
+    assert units.path(*ends, clearance="10 m").cost == numbers.path(*ends, clearance=10).cost
+    for fault, part in (
+        (lambda: mb.Document(region, projection="none", h_min="500 m"), "h_min: \"500 m\" cannot be used: lengths of this"),
+        (lambda: square(h_min="500 m"), "lengths of this domain are plain numbers"),
+        (lambda: units.set(h_min="1 apple"), "“apple” cannot be converted to m"),
+        (lambda: units.set(h_min=""), "this text is empty"),
+        (lambda: units.set(h_min="-1 km"), "\"-1 km\" cannot be used: a length must be positive"),
+        (lambda: square().set(h_min="1 km"), "lengths of this domain are plain numbers"),
+        (lambda: square().layers.distance("outline", at_zero="1 km", slope=0.1), "at_zero: \"1 km\" cannot be used"),
+        (lambda: units.path(*ends, clearance="0.1°"), "are in metres"),
+    ):
+        with pytest.raises(mb.MeshError, match=re.escape(part)):
+            fault()
+
+
+def test_a_brush_has_its_radius_on_the_earth() -> None:
+    # In this plane, lengths at 60° N are twice those on the Earth.
+    domain = mb.Domain(feature(bay(2.0, (10.0, 60.0))))
+    options = dict(crs="lonlat", projection="+proj=merc +lon_0=10", h_min="100 m", h_max="50 km")
+    hashes = []
+    for radius in ("10 km", 10_000, "10000"):
+        document = mb.Document(domain, **options)
+        at = document.to_world([[10.0, 60.0]])[0]
+        with document.stroke(mb.Brush(radius=radius, diameter="1 km", hardness=1)) as stroke:
+            stroke.dot(at)
+        mesh = document.mesh()
+        fine = mesh.nodes[mesh.h <= 1000]
+        farthest = np.hypot(*(fine - at).T).max()
+        assert 19_000 < farthest < 22_000, farthest
+        hashes.append(mesh.fingerprint)
+    assert len(set(hashes)) == 1
+    for brush, part in (
+        (dict(radius="10°", diameter=1), "radius: \"10°\" cannot be used: lengths of this domain are in metres"),
+        (dict(radius="far", diameter=1), "radius: “far” is not a number"),
+        (dict(radius="-1 km", diameter=1), "a radius is positive and finite"),
+        (dict(radius=1, diameter="0 m"), "a length must be positive and finite"),
+    ):
+        with pytest.raises(mb.MeshError, match=re.escape(part)), document.stroke(mb.Brush(**brush)) as stroke:
+            stroke.dot(at)
 
 
 def test_data_of_other_libraries(tmp_path: Path) -> None:

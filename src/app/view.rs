@@ -251,6 +251,10 @@ impl View {
             edges: self.edges,
             ground: self.ground,
             level_colors: self.level_colors(settings),
+            north: settings
+                .lattice()
+                .ok()
+                .and_then(|lattice| Look::north_of(settings.domain.projection.as_ref(), &lattice)),
         }
     }
 

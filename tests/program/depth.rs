@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::earth::on_the_ellipsoid;
 use crate::folder::Folder;
 
 const COLUMNS: usize = 160;
@@ -448,4 +449,52 @@ fn sizes_in_degrees_are_refused() {
     assert_eq!(folder.run(projected).status, 0);
     let (nodes, _) = fort14(&folder.read("m.14"));
     assert!(nodes.iter().all(|node| (node[2] - 40.0).abs() < 1e-9 && node[0] < 2.000_001));
+}
+
+/// On a chart in Mercator, lengths at 60° N are twice those on the ground, and slopes look half as steep.
+#[test]
+fn slopes_are_those_on_the_ground_in_every_projection() {
+    let folder = Folder::new("depth-slopes");
+    folder
+        .file("sea.geojson", r#"{"type":"Polygon","coordinates":[[[9,59],[12,59],[12,61],[9,61],[9,59]]]}"#);
+    let depth = |latitude: f64| 150.0 + 900.0 * (latitude - 59.0);
+    let header = "ncols 160\nnrows 110\nxllcorner 8.9\nyllcorner 58.9\ncellsize 0.02\n".to_owned();
+    let rows = (0..110).map(|row| format!("{} ", -depth(61.09 - 0.02 * f64::from(row))).repeat(160) + "\n");
+    folder.file("depth.asc", header + &rows.collect::<String>());
+    let per_metre = 900.0 / on_the_ellipsoid([9.0, 59.5], [9.0, 60.5]);
+    for projection in ["+proj=merc +lon_0=10", "+proj=tmerc +lon_0=10"] {
+        let options = [
+            "--region",
+            "sea.geojson",
+            "--crs",
+            "lonlat",
+            "--projection",
+            projection,
+            "--depth",
+            "depth.asc",
+        ];
+        let sizes = ["--per-slope", "60", "--spacing", "80000", "-o", "m.14"];
+        let ran = folder.run([&["mesh"], &options[..], &sizes].concat());
+        assert_eq!(ran.status, 0, "{projection}: {}", ran.err);
+        let (nodes, triangles) = fort14(&folder.read("m.14"));
+        // At the sides of the domain, pixels lack neighbours.
+        let is_inside = |at: &[f64; 3]| (9.05..11.95).contains(&at[0]) && (59.05..60.95).contains(&at[1]);
+        let inside = triangles.iter().filter(|triangle| triangle.iter().all(|&node| is_inside(&nodes[node])));
+        let ratios = inside.map(|triangle| {
+            let corners = triangle.map(|node| [nodes[node][0], nodes[node][1]]);
+            let side = |a: usize, b: usize| on_the_ellipsoid(corners[a], corners[b]);
+            let southern = corners.iter().map(|at| at[1]).fold(90.0, f64::min);
+            // The pixel there has the depth of a place up to one pixel farther north.
+            let target = TAU * depth(southern + 0.02) / per_metre / 60.0;
+            side(0, 1).max(side(1, 2)).max(side(2, 0)) / target
+        });
+        let ratios: Vec<f64> = ratios.collect();
+        let (greatest, mean) =
+            (ratios.iter().copied().fold(0.0, f64::max), ratios.iter().sum::<f64>() / ratios.len() as f64);
+        assert!(
+            ratios.len() > 1000 && greatest <= 1.0 && mean > 0.4,
+            "{projection}: {greatest}, {mean}, {}",
+            ratios.len()
+        );
+    }
 }

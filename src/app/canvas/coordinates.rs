@@ -1,12 +1,14 @@
 //! The coordinate frame along two sides of the canvas, and the scale bar.
 
-use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{Align2, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use glam::{DVec2, dvec2};
 
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::widgets::degrees::KM_PER_DEGREE;
 use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_render::render::north_arrow::north_arrow;
 use meshbrush_render::scene::Camera;
 
 /// Width that the scale bar and its distance from other things take, in points.
@@ -134,18 +136,22 @@ pub fn paint_label(ui: &Ui, rect: Rect, anchor: Pos2, align: Align2, text: &str)
     ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), t.label);
 }
 
-/// A bar of a round length in the lower right corner of `inner`. It takes no clicks.
-pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, unit: LengthUnit) {
+/// A bar of a round length in the lower right corner of `inner`, and above it in the plane of a projection an
+/// arrow to the north. Both are those in the middle of the view. They take no clicks.
+pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, state: &FrameState<'_>) {
     let px_per_point = f64::from(ui.pixels_per_point());
-    let points_per_world = camera.px_per_world() / px_per_point;
-    let length = round_length(f64::from(LONGEST_BAR) / points_per_world);
-    let latitude = camera.visible_world().center().y;
-    let text = bar_text(length, unit, latitude);
+    let (center, domain) = (camera.visible_world().center(), &state.session.document().settings().domain);
+    let points_per_length = domain.in_plane(camera.px_per_world() / px_per_point, center);
+    let length = round_length(f64::from(LONGEST_BAR) / points_per_length);
+    let text = bar_text(length, state.unit(), center.y);
     let t = tokens(ui);
     let text_size = ui.painter().layout_no_wrap(text.clone(), font::small_value(), t.label).size();
-    let bar = (length * points_per_world) as f32;
+    let bar = (length * points_per_length) as f32;
     let size = vec2(bar.max(text_size.x), text_size.y + 8.0) + 2.0 * BAR_MARGIN;
     let place = Rect::from_min_size(inner.right_bottom() - size, size);
+    if let Some(north) = domain.projection.and_then(|projection| projection.north_at(center)) {
+        show_north(ui, place.right_top() - vec2(0.0, 8.0), north);
+    }
     let response = ui.interact(place, ui.scope_id().with("scale bar"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("Scale: {text}")));
     paint_floating(ui, place);
@@ -156,6 +162,27 @@ pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, unit: LengthUnit) {
     ui.painter().hline(left..=right, y, stroke);
     for x in [left, right] {
         ui.painter().vline(x, y - 4.0..=y, stroke);
+    }
+}
+
+/// Length of the arrow to the north, in points.
+const NORTH_ARROW: f32 = 26.0;
+
+/// An arrow to the north, given as a direction in the plane, above and to the left of a corner.
+fn show_north(ui: &Ui, corner: Pos2, north: DVec2) {
+    let t = tokens(ui);
+    let place = Rect::from_min_max(corner - Vec2::splat(1.9 * NORTH_ARROW), corner);
+    let response = ui.interact(place, ui.scope_id().with("north"), Sense::hover());
+    let clockwise = north.x.atan2(north.y).to_degrees().round();
+    response.widget_info(|| {
+        WidgetInfo::labeled(Role::Label, true, format!("North: {clockwise}° clockwise from up"))
+    });
+    paint_floating(ui, place);
+    let center = place.center();
+    let lines = north_arrow(dvec2(center.x.into(), center.y.into()), NORTH_ARROW.into(), north);
+    for line in lines {
+        let points = line.iter().map(|at| pos2(at.x as f32, at.y as f32)).collect();
+        ui.painter().add(Shape::line(points, Stroke::new(1.5, t.value)));
     }
 }
 

@@ -42,7 +42,7 @@ impl Canvas {
         if let Some(camera) = state.view.camera {
             // Where work is shown there is no room for it.
             if state.view.aids.scale_bar && places.is_empty() {
-                coordinates::show_scale_bar(ui, inner, &camera, state.unit());
+                coordinates::show_scale_bar(ui, inner, &camera, state);
             }
             legend::show(ui, inner, state);
             places.extend(show_corners(ui, response.rect, state, &camera, commands));

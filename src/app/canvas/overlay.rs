@@ -265,8 +265,10 @@ fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {
 }
 
 fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -> Vec<[u8; 4]> {
-    let level = |target: f32| field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63) as u8;
-    target.values().iter().map(|&target| palette.level(level(target))).collect()
+    let center = target.pixel_centers();
+    let level =
+        |x, y| field.level_of_diameter(f64::from(target.get(x, y)), center(x, y)).unwrap_or(63).min(63);
+    target.all().pixels().map(|(x, y)| palette.level(level(x, y) as u8)).collect()
 }
 
 #[cfg(test)]

@@ -39,7 +39,7 @@ fn picked_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
         PaintKind::Risk => format!("risk {}", format::digits(value(Quantity::Risk), 3)),
         PaintKind::Diameter => {
             let diameter = value(Quantity::TargetDiameter);
-            let level = session.follower().field().level_of_diameter(diameter);
+            let level = session.follower().field().level_of_diameter(diameter, point);
             let level = level.map_or(String::new(), |level| format!(" · level {level}"));
             format!("h̄ {}{level}", format::length(diameter, state.unit()))
         }

@@ -42,4 +42,12 @@ impl FrameState<'_> {
     pub fn unit(&self) -> LengthUnit {
         self.session.document().settings().unit
     }
+
+    /// Returns the place that is worked at, in world units: that of the pointer, or else the middle of the
+    /// view.
+    pub fn place(&self) -> DVec2 {
+        let center = || self.view.camera.map(|camera| camera.visible_world().center());
+        let domain = || self.session.document().settings().domain.bounds.center();
+        self.pointer.or_else(center).unwrap_or_else(domain)
+    }
 }

@@ -8,6 +8,7 @@
 //!     └── panels, marks, entries     read a FrameState and send commands
 //! ```
 
+mod area;
 mod ctx;
 mod data_file;
 mod drawing;
@@ -35,6 +36,7 @@ mod tab;
 mod shortcut;
 mod tool;
 
+pub use area::area_text;
 pub use ctx::{Ctx, NO_LIMIT};
 pub use data_file::{DataContents, DataFile, DataRole, RasterFacts, look_at};
 pub use drawing::{DrawingCommands, press_brush, press_corner};

@@ -9,16 +9,20 @@ use crate::app::widgets::SliderRow;
 
 /// The radius of the brush, which the domain tool shares.
 pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let extent = state.session.document().settings().domain.bounds.size().max_element();
-    let mut radius = state.tools.radius;
+    let domain = &state.session.document().settings().domain;
+    let in_plane = domain.bounds.size().max_element();
+    // The brush has its radius in the plane; a person reads and types it on the Earth.
+    let on_earth = domain.on_earth(1.0, state.place());
+    let extent = in_plane * on_earth;
+    let mut radius = state.tools.radius * on_earth;
     let slider = SliderRow::new("Radius", &mut radius, 1e-4 * extent..=0.5 * extent)
         .logarithmic()
         .typed_range(1e-4 * extent..=extent)
-        .default(Tools::for_domain(extent, 0.0).radius)
+        .default(Tools::for_domain(in_plane, 0.0).radius * on_earth)
         .unit(state.unit().symbol());
-    let help = "Radius of the brush, in the unit of the document. Shift+drag changes it[, as do {smaller-brush} and \
-                {larger-brush}].";
+    let help = "Radius of the brush, in the unit of the document; with a projection on the Earth, where the pointer or the \
+                middle of the view is. Shift+drag changes it[, as do {smaller-brush} and {larger-brush}].";
     if slider.help(help).show(ui).changed() {
-        commands.push(Command::Brush(BrushCommand::Radius(radius)));
+        commands.push(Command::Brush(BrushCommand::Radius(radius / on_earth)));
     }
 }

@@ -7,10 +7,15 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{
     TALL, Window, button_event, entries, find, fingerprint, key, notice, open_section, press_at, release_at,
-    set, settings, type_into, value_of, wheel, wheel_with, window_with,
+    send, set, settings, type_into, value_of, wheel, wheel_with, window_with,
 };
+use crate::app::command::{Command, ViewCommand};
 use meshbrush_core::document::{Setting, Settings};
-use meshbrush_core::layers::LayerKind;
+use meshbrush_core::domain::Domain;
+use meshbrush_core::earth::Projection;
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{LengthUnit, typed};
 
 /// Returns a tall window whose frames are as short as those on a screen, so that there is time within a
 /// double click.
@@ -408,4 +413,37 @@ fn query_by_menu(mut window: Window) {
     let middle = settings(&window).domain.bounds.center();
     // The view fits the domain a little below the middle of the canvas: the hint has its room.
     assert!(queried.distance(middle) < 0.03, "{queried}");
+}
+
+/// On a chart in Mercator the brush is drawn in the plane, and its radius is read and typed on the Earth.
+#[test]
+fn the_radius_of_the_brush_is_a_length_on_the_earth_at_the_place() {
+    let mut window = quick_window();
+    let projection: Projection = "+proj=merc +lon_0=0".parse().unwrap();
+    let [low, high] = [[-15.0, 50.0], [15.0, 68.0]].map(|at| projection.plane_from_geographic(at.into()));
+    let domain = Domain { projection: Some(projection), ..Domain::rectangle(Rect::new(low, high)) };
+    set(&mut window, Setting::LargestDiameter(1e6));
+    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(1e6))));
+    set(&mut window, Setting::Spacing(5e5));
+    set(&mut window, Setting::Domain(domain.clone()));
+    set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
+    send(&mut window, Command::View(ViewCommand::Fit));
+    type_into(&mut window, "Radius value", "50 km");
+    let center = window.state().view().camera.unwrap().visible_world().center();
+    let radius = window.state().tools().radius;
+    let scale = projection.scale_in_plane(center);
+    assert!((1.8..2.2).contains(&scale), "{scale} at {center}");
+    assert!((radius / (50e3 * scale) - 1.0).abs() < 1e-12, "{radius} at {center}");
+    // It ends where the ellipsoid says.
+    let metres = domain.ground().length([center, center + glam::dvec2(radius, 0.0)]);
+    assert!((metres / 50e3 - 1.0).abs() < 1e-6, "{metres}");
+    let typed = value_of(&window, Role::TextInput, "Radius value");
+    assert!(typed.starts_with("50"), "{typed}");
+    // Farther north the same ring is smaller on the Earth.
+    let canvas = super::canvas(&window);
+    window.event(Event::PointerMoved(canvas.center_top() + vec2(0.0, 0.1 * canvas.height())));
+    window.run_steps(3);
+    let shown = typed::number(&value_of(&window, Role::TextInput, "Radius value"), "m").unwrap();
+    assert!((30e3..46e3).contains(&shown), "{shown}");
+    assert_eq!(window.state().tools().radius, radius);
 }

@@ -17,6 +17,9 @@ use crate::app::kit::Tab;
 use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::domain::Domain;
+use meshbrush_core::earth::Projection;
+use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// Returns the text of the scale bar.
@@ -44,6 +47,45 @@ fn the_scale_bar_has_a_round_length_with_the_unit() {
     assert_eq!(scale(&window).as_deref(), Some("0.02 km"));
     choose(&mut window, "View", "Scale bar");
     assert_eq!(scale(&window), None);
+}
+
+/// In the plane of a projection the bar is a length on the Earth, and an arrow shows the north.
+#[test]
+fn the_scale_bar_of_a_document_on_the_earth_is_a_length_on_the_earth_with_an_arrow_to_the_north() {
+    let mut window = window();
+    let north = |window: &Window| {
+        let mut labels =
+            window.query_all_by_role(Role::Label).filter_map(|node| node.accesskit_node().value());
+        labels.find_map(|label| label.strip_prefix("North: ").map(str::to_owned))
+    };
+    assert_eq!(north(&window), None);
+    set(&mut window, Setting::LargestDiameter(1e6));
+    set(&mut window, Setting::Layers(Layer::usual(LayerKind::constant(1e6))));
+    set(&mut window, Setting::Spacing(2e5));
+    set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
+    for (text, place, turned) in [
+        ("+proj=merc +lon_0=0", [10.0, 60.0], 0.0),
+        ("+proj=stere +lat_0=90 +lat_ts=70 +lon_0=0", [90.0, 75.0], -90.0),
+    ] {
+        let projection: Projection = text.parse().unwrap();
+        let middle = projection.plane_from_geographic(place.into());
+        let bounds = Rect::new(middle - 4e5, middle + 4e5);
+        set(
+            &mut window,
+            Setting::Domain(Domain { projection: Some(projection), ..Domain::rectangle(bounds) }),
+        );
+        send(&mut window, Command::View(ViewCommand::Fit));
+        let shown = north(&window).unwrap();
+        let angle: f64 = shown.strip_suffix("° clockwise from up").unwrap().parse().unwrap();
+        // The middle of the view is about that of the domain.
+        assert!((angle - turned).abs() <= 2.0, "{text}: {angle}");
+        let shown = scale(&window).unwrap();
+        let metres = 1000.0 * shown.strip_suffix(" km").unwrap().parse::<f64>().unwrap();
+        // The largest of 1, 2 and 5 times a power of ten that fits in 132 points.
+        let px_per_metre =
+            window.state().view().camera.unwrap().px_per_world() * projection.scale_at(place.into());
+        assert!((132.0 / 2.5..=132.0).contains(&(px_per_metre * metres)), "{text}: {shown}");
+    }
 }
 
 #[test]

@@ -74,8 +74,8 @@ fn the_legends_of_fields_have_the_colours_of_the_canvas() {
         let deepest = crate::app::view::deepest_level(window.state().session().document().settings());
         let height = rows.height() / (f32::from(deepest) + 1.0);
         let session = window.state().session();
-        let level =
-            session.follower().field().level_of_diameter(session.decision_at(PAINTED).target).unwrap();
+        let target = session.decision_at(PAINTED).target;
+        let level = session.follower().field().level_of_diameter(target, PAINTED).unwrap();
         let row =
             |level: u32| pixel(&image, pos2(rows.left() + 9.0, rows.top() + height * (level as f32 + 0.5)));
         assert_same(usual_color(&image, painted), row(level), 1, "h̄");

@@ -12,7 +12,6 @@ use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
 };
-use super::lengths::Length;
 #[cfg(feature = "man")]
 use super::more_args::ManArguments;
 use super::more_args::{
@@ -22,6 +21,7 @@ use super::path_args::PathArguments;
 use super::surface_args::SurfaceArguments;
 use super::water::WaterArguments;
 use meshbrush_core::field::RefinementRule;
+use meshbrush_mesh::text::Length;
 
 /// Paint where detail matters; the mesh follows the brush.
 ///

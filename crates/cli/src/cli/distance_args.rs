@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::failure::Failure;
-use super::lengths::Length;
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_io::io::layers::{SavedKind, SavedLayer};
+use meshbrush_mesh::text::Length;
 
 /// Growth of the target diameter by unit of distance, unless an option says otherwise.
 const USUAL_SLOPE: f64 = 0.2;

@@ -6,18 +6,15 @@ use glam::DVec2;
 
 use super::args::{BoundaryArgument, InputArguments};
 use super::failure::Failure;
-use super::lengths::{Length, LengthWithUnit, length_with_unit};
+use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedQuantity};
 use meshbrush_io::io::settings::{
-    SavedDomain, SavedLimits, SavedMesh, SavedParts, SavedSettings, SavedTreatment,
+    METRES, SavedDomain, SavedLimits, SavedMesh, SavedParts, SavedSettings, SavedTreatment,
 };
 use meshbrush_io::io::{KeyFault, Step};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::LengthUnit;
-
-/// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
-const METRES: &str = "metres";
+use meshbrush_mesh::text::{Length, LengthUnit};
 
 /// Returns the settings that the options state; every value is checked on its own.
 ///
@@ -96,7 +93,7 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
     for (option, texts, quantity) in [("--target", &typed.target, diameter), ("--risk", &typed.risk, risk)] {
         layers.extend(texts.iter().map(|text| {
             let formula =
-                length_with_unit(text).map_or_else(|| text.clone(), |length| length.value.to_string());
+                Length::with_unit(text).map_or_else(|| text.clone(), |length| length.value.to_string());
             let (quantity, formula) = (Some(quantity), Some(formula));
             let layer = SavedLayer { quantity, formula, ..SavedLayer::of_kind(SavedKind::Formula) };
             (option.to_owned(), layer)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
+use super::build::FinishedMesh;
 use super::failure::Failure;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, obstacle};
@@ -210,11 +211,21 @@ impl RequestedLook {
         Self { width, height, edges, colormap, ground }
     }
 
-    /// Returns the look, with the colours spread over the levels of a mesh.
-    pub fn for_mesh(&self, mesh: &Mesh) -> Look {
+    /// Returns the look, with the colours spread over the levels of a mesh, and an arrow to the north in the
+    /// plane of a projection.
+    pub fn for_mesh(&self, finished: &FinishedMesh) -> Look {
         let Self { width, height, edges, colormap, ground } = *self;
+        let mesh = finished.mesh();
         let deepest = mesh.level_counts().len() as u8 - 1;
-        Look { width, height, edges, ground, level_colors: LevelColors::new(colormap, ground, deepest) }
+        let north = Look::north_of(finished.domain().projection.as_ref(), mesh.lattice());
+        Look {
+            width,
+            height,
+            edges,
+            ground,
+            level_colors: LevelColors::new(colormap, ground, deepest),
+            north,
+        }
     }
 }
 

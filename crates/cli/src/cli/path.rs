@@ -14,6 +14,7 @@ use super::details::provenance;
 use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
+use super::lengths;
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
@@ -61,9 +62,7 @@ pub fn run(
         asked.places =
             places.iter().map(|place| place.in_domain(projection, unit)).collect::<Result<_, _>>()?;
     }
-    if let Some(clearance) = &typed.clearance {
-        clearance.check("--clearance", unit)?;
-    }
+    check_lengths(typed, unit)?;
     let plane = EarthPlane::new(projection, unit);
     check_times(typed, plane, unit)?;
     outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
@@ -83,10 +82,11 @@ pub fn run(
         note_end(end, &solution, width, terminal);
     }
     let seconds = start.elapsed().as_secs_f64();
-    let export = PathExport::new(&solution, &*density, typed.simplify)?.named(asked.name.clone(), plane);
+    let simplify = typed.simplify.as_ref().map(|length| length.value);
+    let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
     let export = export.at_speed(speed, unit);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
-    let look = look.for_mesh(finished.mesh());
+    let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
     let answer = Answer::new(&export, extract.triangles().len(), seconds);
@@ -97,6 +97,14 @@ pub fn run(
         }
         false => writeln!(out, "{}", answer.for_people(export.solution().gap())).map_err(Failure::Print),
     }
+}
+
+/// Checks that lengths with a unit have a meaning in the document.
+fn check_lengths(typed: &PathArguments, unit: LengthUnit) -> Result<(), Failure> {
+    [("--clearance", &typed.clearance), ("--simplify", &typed.simplify)]
+        .into_iter()
+        .filter_map(|(option, length)| Some((option, length.as_ref()?)))
+        .try_for_each(|(option, length)| lengths::check(option, length, unit))
 }
 
 /// The requested path: from the options, and from the project or recipe where an option is missing.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::args::{InputArguments, PictureArguments};
-use super::lengths::Length;
+use meshbrush_mesh::text::Length;
 
 /// `meshbrush path`.
 #[derive(Debug, Args)]
@@ -82,11 +82,12 @@ pub struct PathArguments {
 
     /// Leave out points that are no farther than this from the path
     ///
+    /// In the plane of a projection, this is a length on the Earth.
     /// Points without which the path would leave the domain or enter a keep-out region stay, and so do those
     /// without which a part of it would cost more than 1 % more. Cost and bounds are those of the path that
     /// is written.
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Output")]
-    pub simplify: Option<f64>,
+    pub simplify: Option<Length>,
 
     /// File to write, may be repeated: .geojson .csv .gpx .kml .svg .png
     ///

@@ -14,7 +14,7 @@ use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE};
-use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::render::export::{ExportFormat, Look};
 
 /// Files with one look and the same values at the nodes.
@@ -158,7 +158,7 @@ pub fn write_files(
     let placed = exported.in_coordinates()?;
     let placed = placed.as_ref().unwrap_or(extract);
     for files in requested {
-        let look = files.look.for_mesh(mesh);
+        let look = files.look.for_mesh(finished);
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
         let data = exported.data(&quantities);
         for output in &files.outputs {
@@ -176,8 +176,8 @@ pub fn write_files(
 
 impl RequestedFiles {
     /// Returns the look of pictures of a mesh.
-    pub fn look_for(&self, mesh: &Mesh) -> Look {
-        self.look.for_mesh(mesh)
+    pub fn look_for(&self, finished: &FinishedMesh) -> Look {
+        self.look.for_mesh(finished)
     }
 
     /// Returns the one file that the keys of a recipe's output request, in the format of this name where one
@@ -205,7 +205,7 @@ impl RequestedFiles {
         let placed = exported.in_coordinates()?;
         let placed = placed.as_ref().unwrap_or(exported.extract);
         let quantities = self.values_at_nodes(exported, values)?;
-        let (data, look) = (exported.data(&quantities), self.look.for_mesh(mesh));
+        let (data, look) = (exported.data(&quantities), self.look.for_mesh(exported.finished));
         let write = |output: &Output| output.write(mesh, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }

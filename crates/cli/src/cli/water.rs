@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 
-use super::lengths::Length;
 use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
+use meshbrush_mesh::text::Length;
 
 /// The period of the semidiurnal lunar tide (M2), in seconds.
 const TIDE: f64 = 44_712.0;

@@ -319,7 +319,8 @@ impl Settings {
         layer
     }
 
-    /// Finds the straits and the middle of the water of the domain for the layers that ask for them.
+    /// Finds the straits and the middle of the water of the domain for the layers that ask for them, and the
+    /// slopes of the ground for those that ask for slopes.
     pub(super) fn find_straits(&mut self) {
         let mut layers = std::mem::take(&mut self.layers);
         layers.iter_mut().for_each(|layer| self.find_straits_of(layer));
@@ -330,6 +331,7 @@ impl Settings {
         match &mut layer.kind {
             LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain),
             LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain),
+            LayerKind::Depth(depths) => *depths = depths.in_plane(self.domain.projection),
             _ => {}
         }
     }

@@ -210,6 +210,12 @@ impl Domain {
         self.projection.map_or(length, |projection| length / projection.scale_in_plane(point))
     }
 
+    /// Returns what a short length on the Earth is in the plane around a point; the same length without a
+    /// projection.
+    pub fn in_plane(&self, length: f64, point: DVec2) -> f64 {
+        self.projection.map_or(length, |projection| length * projection.scale_in_plane(point))
+    }
+
     /// Returns how lengths and areas in the bounds are measured: on the Earth with a projection. Takes up to
     /// 20 ms, for a table.
     pub fn ground(&self) -> Ground {

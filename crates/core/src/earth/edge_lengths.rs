@@ -82,6 +82,13 @@ impl EdgeLengths {
         self.scale.as_ref().map_or([0; 2], |scale| scale.bands_in(bits, place))
     }
 
+    /// Returns the first level whose triangles around a place within the lattice are no longer than a target
+    /// diameter.
+    pub fn first_level_at(&self, place: LatticePoint, diameter: f64) -> u32 {
+        let [band, _] = self.bands_in(0, [place.x, place.y]);
+        self.first_level_within(band, diameter)
+    }
+
     /// Returns the first level in a band whose triangles are no longer than a target diameter.
     pub fn first_level_within(&self, band: usize, diameter: f64) -> u32 {
         // An array of a known length is searched faster than a slice.

@@ -15,6 +15,7 @@ mod graticule;
 mod ground;
 mod inverse_scale;
 mod length;
+mod north;
 mod outline;
 mod plane;
 mod register;

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::RasterSource;
+use crate::earth::{Ground, Projection};
 use crate::raster::{Raster, RasterPyramid};
 
 /// The acceleration of gravity, in m/s².
@@ -39,7 +40,8 @@ pub enum DepthRule {
         /// Triangles in the length of a wave.
         triangles: f64,
     },
-    /// A number of triangles in the topographic length 2π H / |∇z|.
+    /// A number of triangles in the topographic length 2π H / |∇z|. In the plane of a projection, slopes are
+    /// those on the ground.
     Slope {
         /// Triangles in that length.
         triangles: f64,
@@ -75,6 +77,8 @@ pub struct DepthSizes {
 pub struct Depths {
     source: RasterSource,
     sizes: DepthSizes,
+    /// The projection in whose plane the pixels lie, if they do. In a document it is that of its domain.
+    projection: Option<Box<Projection>>,
     /// The topographic length by 2π, for [`DepthRule::Slope`].
     lengths: Option<Arc<RasterPyramid>>,
 }
@@ -214,14 +218,30 @@ const SLACK: f64 = 1e-12;
 impl Depths {
     /// Returns what is asked of the depths in a raster.
     pub fn new(source: RasterSource, sizes: DepthSizes) -> Self {
-        let lengths = match sizes.rule {
+        Self { source, sizes, projection: None, lengths: None }.computed_again()
+    }
+
+    /// Returns the same for pixels in the plane of another projection, or of none.
+    pub fn in_plane(&self, projection: Option<Projection>) -> Self {
+        let same = self.clone();
+        match projection.as_ref() == self.projection.as_deref() {
+            true => same,
+            false => Self { projection: projection.map(Box::new), ..same }.computed_again(),
+        }
+    }
+
+    /// Computes what does not follow from the depth of a pixel alone.
+    fn computed_again(self) -> Self {
+        let lengths = match self.sizes.rule {
             DepthRule::Slope { smoothing, .. } => {
-                let lengths = lengths_of_change(source.raster.raster(), &sizes, smoothing);
+                let heights = self.source.raster.raster();
+                let ground = Ground::new(self.projection.as_deref(), &heights.bounds());
+                let lengths = lengths_of_change(heights, &self.sizes, smoothing, &ground);
                 Some(Arc::new(RasterPyramid::new(lengths)))
             }
             DepthRule::Nothing | DepthRule::Wavelength { .. } | DepthRule::Courant { .. } => None,
         };
-        Self { source, sizes, lengths }
+        Self { lengths, ..self }
     }
 
     /// Returns these depths with something else asked of them.
@@ -231,10 +251,9 @@ impl Depths {
             _ => None,
         };
         let key = |sizes: &DepthSizes| (sizes.positive, sizes.offset, sizes.between, smoothing(sizes));
-        match key(&self.sizes) == key(&sizes) {
-            true => Self { sizes, ..self.clone() },
-            false => Self::new(self.source.clone(), sizes),
-        }
+        let is_alike = key(&self.sizes) == key(&sizes);
+        let depths = Self { sizes, ..self.clone() };
+        if is_alike { depths } else { depths.computed_again() }
     }
 
     /// Returns the raster of heights or depths.
@@ -282,10 +301,10 @@ impl Depths {
     }
 }
 
-/// Returns the topographic length by 2π: max(H, 1) / |∇z|. It has no value where
+/// Returns the topographic length by 2π: max(H, 1) / |∇z|, on the ground. It has no value where
 /// nothing is asked for, or heights are unknown.
-fn lengths_of_change(heights: &Raster, sizes: &DepthSizes, smoothing: f64) -> Raster {
-    let smoothed = smoothed(heights, smoothing);
+fn lengths_of_change(heights: &Raster, sizes: &DepthSizes, smoothing: f64, ground: &Ground) -> Raster {
+    let smoothed = smoothed(heights, smoothing, ground);
     let [columns, rows] = heights.size();
     let pixel = heights.pixel_size();
     let at = |x: u32, y: u32| f64::from(smoothed[(y * columns) as usize + x as usize]);
@@ -312,7 +331,8 @@ fn lengths_of_change(heights: &Raster, sizes: &DepthSizes, smoothing: f64) -> Ra
         );
         let along_y =
             slope(here, neighbour(y > 0, x, y.wrapping_sub(1)), neighbour(y + 1 < rows, x, y + 1), pixel.y);
-        let length = depth.max(LEAST_DEPTH) / DVec2::new(along_x, along_y).length();
+        let in_plane = depth.max(LEAST_DEPTH) / DVec2::new(along_x, along_y).length();
+        let length = in_plane * ground.inverse_scale_at(heights.pixel_center(x, y));
         // Flat ground asks for nothing.
         if length < f64::from(f32::MAX) {
             lengths.set(x, y, length as f32);
@@ -321,29 +341,37 @@ fn lengths_of_change(heights: &Raster, sizes: &DepthSizes, smoothing: f64) -> Ra
     lengths
 }
 
-/// Returns the values, each averaged over the square of this side around it, of pixels that have a value.
-fn smoothed(heights: &Raster, side: f64) -> Vec<f32> {
-    let reach = (0.5 * side / heights.pixel_size()).to_array().map(|reach| reach.floor() as usize);
-    if reach == [0, 0] {
+/// Returns the values, each averaged over the square of this side around it, of pixels that have a value. The
+/// side is a length on the ground.
+fn smoothed(heights: &Raster, side: f64, ground: &Ground) -> Vec<f32> {
+    if side == 0.0 {
         return heights.values().to_vec();
     }
     let [columns, rows] = heights.size().map(|side| side as usize);
+    let pixel = heights.pixel_size().to_array();
+    let reach = |axis: usize| {
+        move |entry: usize| {
+            let center = heights.pixel_center((entry % columns) as u32, (entry / columns) as u32);
+            (0.5 * side / (pixel[axis] * ground.inverse_scale_at(center))).floor() as usize
+        }
+    };
     let known = |&value: &f32| if value.is_nan() { [0.0; 2] } else { [f64::from(value), 1.0] };
     let sums: Vec<[f64; 2]> = heights.values().iter().map(known).collect();
-    let sums = window_sums(&sums, [columns, rows], reach[0], [1, columns]);
-    let sums = window_sums(&sums, [rows, columns], reach[1], [columns, 1]);
+    let sums = window_sums(&sums, [columns, rows], reach(0), [1, columns]);
+    let sums = window_sums(&sums, [rows, columns], reach(1), [columns, 1]);
     let mean = |(value, [sum, count]): (&f32, &[f64; 2])| {
         if value.is_nan() { f32::NAN } else { (sum / count) as f32 }
     };
     heights.values().iter().zip(&sums).map(mean).collect()
 }
 
-/// Returns the sums over windows of `2 reach + 1` entries along lines of values. There are `[length, lines]`
-/// entries; `steps` lead from one entry of a line to the next, and from one line to the next.
+/// Returns the sums over windows of `2 reach + 1` entries along lines of values, with a reach of each entry.
+/// There are `[length, lines]` entries; `steps` lead from one entry of a line to the next, and from one line
+/// to the next.
 fn window_sums(
     values: &[[f64; 2]],
     [length, lines]: [usize; 2],
-    reach: usize,
+    reach: impl Fn(usize) -> usize,
     [step, line_step]: [usize; 2],
 ) -> Vec<[f64; 2]> {
     let mut sums = vec![[0.0; 2]; values.len()];
@@ -354,9 +382,10 @@ fn window_sums(
             before[n + 1] = [before[n][0] + value, before[n][1] + count];
         }
         for n in 0..length {
+            let entry = line * line_step + n * step;
+            let reach = reach(entry).min(length);
             let (from, to) = (n.saturating_sub(reach), (n + reach + 1).min(length));
-            sums[line * line_step + n * step] =
-                [before[to][0] - before[from][0], before[to][1] - before[from][1]];
+            sums[entry] = [before[to][0] - before[from][0], before[to][1] - before[from][1]];
         }
     }
     sums
@@ -445,6 +474,35 @@ mod tests {
         }
     }
 
+    /// On a chart in Mercator lengths at 60° N are twice those on the ground, so slopes look half as steep.
+    #[test]
+    fn slopes_in_the_plane_of_a_projection_are_those_on_the_ground() {
+        let projection: Projection = "+proj=merc +lon_0=0".parse().unwrap();
+        let corner = projection.plane_from_geographic(DVec2::new(0.0, 60.0));
+        let bounds = Rect::new(corner, corner + DVec2::splat(40_000.0));
+        let heights: Vec<f32> = (0..40 * 40).map(|n| -30.0 - 2.0 * (n % 40) as f32).collect();
+        let raster = Arc::new(RasterPyramid::new(Raster::from_values(bounds, [40, 40], heights)));
+        for (smoothing, rows) in [(0.0, 0..40), (9000.0, 12..28)] {
+            let sizes = sizes(PositiveDepth::Up, DepthRule::Slope { triangles: 10.0, smoothing });
+            let plane = Depths::new(RasterSource { name: "chart".into(), raster: raster.clone() }, sizes);
+            let ground = plane.in_plane(Some(projection));
+            assert_eq!(
+                ground.in_plane(None).deciding().raster().values()[90],
+                plane.deciding().raster().values()[90]
+            );
+            for row in rows {
+                let at = projection.geographic_from_plane(raster.raster().pixel_center(20, row));
+                // The radius of a parallel of the ellipsoid is that of the equator by the scale.
+                let (sine, cosine) = at.y.to_radians().sin_cos();
+                let scale = (1.0 - 6.694_379_990_141_317e-3 * sine * sine).sqrt() / cosine;
+                let expected = (30.0 + 2.0 * 20.0) / (2.0 / (1000.0 / scale));
+                let found = f64::from(ground.deciding().raster().get(20, row));
+                assert!((1.99..2.1).contains(&scale), "{scale}");
+                assert!((found / expected - 1.0).abs() < 1e-4, "{found} of {expected} in row {row}");
+            }
+        }
+    }
+
     #[test]
     fn averages_are_those_of_all_pixels_in_the_square() {
         let mut random = fastrand::Rng::with_seed(9);
@@ -453,7 +511,7 @@ mod tests {
             (0..23 * 17).map(|_| if random.u8(..8) == 0 { f32::NAN } else { random.f32() * 100.0 }).collect();
         let bounds = Rect::new(DVec2::ZERO, DVec2::new(2300.0, 850.0));
         let raster = Raster::from_values(bounds, size, values);
-        let found = smoothed(&raster, 500.0);
+        let found = smoothed(&raster, 500.0, &Ground::default());
         for (x, y) in raster.all().pixels() {
             let near = |(u, v): &(u32, u32)| u.abs_diff(x) <= 2 && v.abs_diff(y) <= 5;
             let known = raster.all().pixels().filter(near).map(|(u, v)| raster.get(u, v));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, Ring};
+use crate::earth::Ground;
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
 /// The part of the plane that polygons cover.
@@ -125,6 +126,11 @@ impl Mask {
     /// Returns the area covered, in square world units.
     pub fn area(&self) -> f64 {
         self.0.region.area()
+    }
+
+    /// Returns the area covered, as measured on the ground.
+    pub fn area_on(&self, ground: &Ground) -> f64 {
+        self.polygons().iter().flatten().map(|ring| ground.signed_area(ring)).sum()
     }
 
     /// Returns the smallest rectangle that holds the mask.

@@ -9,8 +9,9 @@ use super::engine::gradation::Accuracy;
 use super::engine::reading::Diameters;
 use super::engine::{CompiledLayer, KnownParts, gradation};
 use super::{Combine, LayerId, PaintLayers, SettledSquares, SizeField};
+use crate::earth::LEVELS;
 use crate::field::{RefinementRule, Transfer};
-use crate::mesh::level_for_diameter;
+use crate::geometry::LatticePoint;
 
 /// h̄ at a point, with the layer that decides it.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,9 +112,14 @@ impl SizeField {
         }
     }
 
-    /// Returns the level that a triangle of the given diameter in world units has.
-    pub fn level_of_diameter(&self, diameter: f64) -> Option<u32> {
-        level_for_diameter(self.lattice().spacing(), diameter)
+    /// Returns the level at which triangles around a point are no longer than a diameter; `None` where no
+    /// level is fine enough. In the plane of a projection the diameter is one on the Earth.
+    pub fn level_of_diameter(&self, diameter: f64, point: DVec2) -> Option<u32> {
+        let (place, extent) = (self.lattice().nearest(point), self.lattice().extent());
+        // A place on the upper or right side belongs to the last square.
+        let within = LatticePoint::new(place.x.min(extent.x - 1), place.y.min(extent.y - 1));
+        let level = self.edge_lengths().first_level_at(within, diameter);
+        Some(level).filter(|&level| diameter > 0.0 && (level as usize) < LEVELS)
     }
 
     /// Returns h̄ at a point in world units, with the layer that decides it.

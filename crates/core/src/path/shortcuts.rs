@@ -14,7 +14,8 @@ const MOST_COST: f64 = 1.01;
 
 /// Which shortcuts may be taken.
 pub(super) struct Shortcuts<'a> {
-    /// No point that is left out is farther from its shortcut, in world units.
+    /// No point that is left out is farther from its shortcut, in world units; with a projection, in metres
+    /// on the Earth.
     pub tolerance: f64,
     /// The walls, which no shortcut crosses.
     pub walls: Option<&'a Walls>,
@@ -32,8 +33,7 @@ impl Shortcuts<'_> {
         let mut parts = vec![[0, points.len() - 1]];
         while let Some([first, last]) = parts.pop() {
             let ends = [points[first], points[last]];
-            let distances =
-                (first + 1..last).map(|n| (n, points[n].distance(nearest_on_segment(points[n], ends))));
+            let distances = (first + 1..last).map(|n| (n, self.distance(points[n], ends)));
             let Some((farthest, distance)) = distances.max_by(|p, q| p.1.total_cmp(&q.1)) else { continue };
             if distance > self.tolerance || !self.may_be_taken(ends, &costs[first..last]) {
                 keeps[farthest] = true;
@@ -41,6 +41,11 @@ impl Shortcuts<'_> {
             }
         }
         points.iter().zip(keeps).filter_map(|(&point, keeps)| keeps.then_some(point)).collect()
+    }
+
+    /// Returns how far a point is from a segment, on the Earth where the costs are those on the Earth.
+    fn distance(&self, point: DVec2, ends: [DVec2; 2]) -> f64 {
+        point.distance(nearest_on_segment(point, ends)) * self.density.inverse_scale_at(point)
     }
 
     /// Returns whether a shortcut stays where paths may go, and neither its cost nor the upper bound of that

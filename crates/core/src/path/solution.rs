@@ -208,7 +208,7 @@ impl Solution {
     }
 
     /// Returns a path with fewer points: none of those left out is farther than `tolerance` from it, in world
-    /// units (Douglas and Peucker's method).
+    /// units, with a projection in metres on the Earth (Douglas and Peucker's method).
     ///
     /// A shortcut stands for a part of the path only where it stays in the domain and out of keep-out
     /// regions, and costs at most 1 % more than that part; neither may its upper bound be larger by more.

@@ -5,7 +5,7 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, Setting, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
-use meshbrush_core::earth::Projection;
+use meshbrush_core::earth::{Projection, ProjectionKind};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{Combine, DistanceTo, Layer, LayerId, LayerKind, ShapeList, Shapes};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -168,4 +168,44 @@ fn an_edited_mesh_on_the_earth_meets_targets_in_metres() {
         }
     }
     assert!(longer > 60, "{longer}");
+}
+
+/// The level that the window shows beside a target diameter is that of the triangles there.
+#[test]
+fn the_level_of_a_diameter_is_that_of_the_triangles_at_the_place() {
+    let mut random = Rng::with_seed(5);
+    for (projection, bounds) in planes() {
+        let target = 0.02 * bounds.size().max_element();
+        let document = Document::new(
+            Settings {
+                spacing: 0.2 * bounds.size().max_element(),
+                transfer: Transfer { h_min: target, h_risk: target, h_max: 1e9, shape: 1.0 },
+                layers: Layer::usual(LayerKind::constant(target)),
+                ..Settings::for_domain(
+                    "levels".into(),
+                    Domain { projection: Some(projection), ..Domain::rectangle(bounds) },
+                )
+            },
+            None,
+        );
+        let mut document = document.unwrap();
+        let mut follower = Follower::new(&mut document).unwrap();
+        settle(&mut follower, &mut document, &mut random);
+        for corner in [bounds.min, bounds.max, bounds.max + bounds.size()] {
+            assert!(follower.field().level_of_diameter(target, corner).is_some());
+        }
+        let mut levels = Vec::new();
+        for _ in 0..200 {
+            let at = point(&bounds, &mut random);
+            let Some(triangle) = follower.mesh().locate(at).triangle() else { continue };
+            let level = follower.field().level_of_diameter(target, at).unwrap();
+            let found = follower.mesh().triangle(triangle).level();
+            // Neighbours bisect some triangles once more; the scale of a larger square counts for the rule.
+            assert!((level..=level + 2).contains(&found), "{} at {at}: {level}, {found}", projection);
+            levels.push(level);
+        }
+        let range = levels.iter().max().unwrap() - levels.iter().min().unwrap();
+        let is_mercator = projection.kind() == ProjectionKind::Mercator;
+        assert!(range >= if is_mercator { 2 } else { 0 }, "{projection}: {range}");
+    }
 }

@@ -29,6 +29,10 @@ pub struct SvgStyle<'a> {
     pub path: &'a [DVec2],
     /// Red, green and blue of that line, and of the wider line below it.
     pub path_colors: [[u8; 3]; 2],
+    /// Lines over everything, in pixels from the upper left corner.
+    pub marks: &'a [Vec<DVec2>],
+    /// Red, green and blue of these lines, and of the wider lines below them.
+    pub mark_colors: [[u8; 3]; 2],
 }
 
 /// Writes the drawing. The colours come from the caller: `io` does not depend on the colour tables.
@@ -65,6 +69,7 @@ pub fn write(
         write_edges(out, mesh, &page, style)?;
     }
     write_path(out, mesh, &page, style)?;
+    write_marks(out, &page, style)?;
     writeln!(out, "</svg>")
 }
 
@@ -77,21 +82,41 @@ fn write_path(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyl
     }
     let units_per_px = f64::from(page.width) / f64::from(style.size[0]);
     let unit = f64::from(1u32 << page.shift);
+    let place = |&point: &DVec2| {
+        let at = mesh.lattice().lattice_from_world(point) / unit;
+        DVec2::new(at.x, f64::from(page.height) - at.y)
+    };
+    let points: Vec<DVec2> = style.path.iter().map(place).collect();
     for n in [1, 0] {
-        let [r, g, b] = style.path_colors[n];
-        let width = PATH_WIDTHS[n] * units_per_px;
-        write!(
-            out,
-            "<polyline fill=\"none\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{width:.4}\" \
-             stroke-linecap=\"round\" stroke-linejoin=\"round\" points=\""
-        )?;
-        for &point in style.path {
-            let at = mesh.lattice().lattice_from_world(point) / unit;
-            write!(out, "{:.3},{:.3} ", at.x, f64::from(page.height) - at.y)?;
-        }
-        writeln!(out, "\"/>")?;
+        write_line(out, &points, style.path_colors[n], PATH_WIDTHS[n] * units_per_px)?;
     }
     Ok(())
+}
+
+/// Widths of marks and of the lines below them, in pixels.
+const MARK_WIDTHS: [f64; 2] = [2.0, 5.0];
+
+fn write_marks(out: &mut impl Write, page: &Page, style: &SvgStyle) -> io::Result<()> {
+    let [width, height] = style.size.map(f64::from);
+    let units_per_px = DVec2::new(f64::from(page.width) / width, f64::from(page.height) / height);
+    for n in [1, 0] {
+        for mark in style.marks {
+            let points: Vec<DVec2> = mark.iter().map(|&at| at * units_per_px).collect();
+            write_line(out, &points, style.mark_colors[n], MARK_WIDTHS[n] * units_per_px.x)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a line through points, with a width, all in units of the page.
+fn write_line(out: &mut impl Write, points: &[DVec2], [r, g, b]: [u8; 3], width: f64) -> io::Result<()> {
+    write!(
+        out,
+        "<polyline fill=\"none\" stroke=\"#{r:02x}{g:02x}{b:02x}\" stroke-width=\"{width:.4}\" \
+         stroke-linecap=\"round\" stroke-linejoin=\"round\" points=\""
+    )?;
+    points.iter().try_for_each(|at| write!(out, "{:.3},{:.3} ", at.x, at.y))?;
+    writeln!(out, "\"/>")
 }
 
 fn write_levels(out: &mut impl Write, mesh: &Extract, page: &Page, style: &SvgStyle) -> io::Result<()> {

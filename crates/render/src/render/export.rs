@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
+use super::north_arrow::{ArrowLines, north_arrow_in};
 use super::{Image, software};
 use crate::colormap::{Ground, LevelColors};
 use crate::scene::{Camera, Style};
+use meshbrush_core::earth::Projection;
 use meshbrush_io::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_file_metered};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Extract, Mesh};
@@ -185,7 +187,9 @@ impl ExportFormat {
                 format.write_to(out, extract, data, meter).ok_or_else(several)?
             }
             Self::Svg => {
-                svg::write(&mut meter.count(out), extract, &look.for_svg(mesh.lattice()), data.provenance)
+                let arrow = look.arrow(mesh.lattice());
+                let style = svg::SvgStyle { marks: &arrow, ..look.for_svg(mesh.lattice()) };
+                svg::write(&mut meter.count(out), extract, &style, data.provenance)
             }
             Self::Png => {
                 let picture = look.draw(mesh, extract);
@@ -218,8 +222,8 @@ impl ExportFormat {
         match self {
             Self::Mesh(_) => Err(io::Error::other("the format is no picture")),
             Self::Svg => {
-                let style = look.for_svg(mesh.lattice());
-                let style = svg::SvgStyle { path, path_colors: PATH_COLORS, ..style };
+                let (arrow, style) = (look.arrow(mesh.lattice()), look.for_svg(mesh.lattice()));
+                let style = svg::SvgStyle { path, path_colors: PATH_COLORS, marks: &arrow, ..style };
                 svg::write(&mut meter.count(out), extract, &style, provenance)
             }
             Self::Png => {
@@ -254,11 +258,35 @@ pub struct Look {
     pub ground: Ground,
     /// Colour of each level.
     pub level_colors: LevelColors,
+    /// The direction to the north in the middle of the picture, for an arrow; y points up.
+    pub north: Option<DVec2>,
 }
+
+/// Widths of the lines of an arrow to the north and of those below them, in pixels.
+const ARROW_WIDTHS: [f32; 2] = [2.0, 5.0];
 
 impl Look {
     /// Default width in pixels.
     pub const WIDTH: u32 = 1600;
+
+    /// Returns the direction to the north in the middle of a picture of a mesh in the plane of a projection.
+    pub fn north_of(projection: Option<&Projection>, lattice: &Lattice) -> Option<DVec2> {
+        projection?.north_at(lattice.bounds().center())
+    }
+
+    /// Returns the lines of the arrow to the north, if there is one.
+    fn arrow(&self, lattice: &Lattice) -> ArrowLines {
+        self.north.map_or_else(Vec::new, |north| north_arrow_in(self.size(lattice), north))
+    }
+
+    /// Returns the colours of the arrow and of the lines below it.
+    fn arrow_colors(&self) -> [[u8; 3]; 2] {
+        let own = match self.ground {
+            Ground::Dark => [0xff; 3],
+            Ground::Light => [0x10; 3],
+        };
+        [own, self.ground.canvas()]
+    }
 
     fn size(&self, lattice: &Lattice) -> [u32; 2] {
         let extent = lattice.bounds().size();
@@ -282,11 +310,19 @@ impl Look {
             Ground::Light => Style::light(colors),
         };
         let style = Style { edges: self.edges, ..style };
-        if extract.is_patched() {
+        let mut picture = if extract.is_patched() {
             software::draw_extract(extract, &camera, &style)
         } else {
             software::draw(mesh, &camera, &style, None, &[])
+        };
+        let arrow = self.arrow(lattice);
+        for n in [1, 0] {
+            for line in &arrow {
+                let points: Vec<_> = line.iter().map(|at| at.as_vec2()).collect();
+                software::draw_line(&mut picture, &points, self.arrow_colors()[n], ARROW_WIDTHS[n]);
+            }
         }
+        picture
     }
 
     fn for_svg(&self, lattice: &Lattice) -> svg::SvgStyle<'_> {
@@ -297,6 +333,8 @@ impl Look {
             edges: self.edges,
             path: &[],
             path_colors: [[0; 3]; 2],
+            marks: &[],
+            mark_colors: self.arrow_colors(),
         }
     }
 }

@@ -10,6 +10,7 @@ mod draw_flags;
 pub mod export;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod north_arrow;
 pub mod path_export;
 pub mod software;
 

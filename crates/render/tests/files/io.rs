@@ -739,6 +739,8 @@ fn files_say_where_they_come_from() {
         edges,
         path: &[],
         path_colors: [[0; 3]; 2],
+        marks: &[],
+        mark_colors: [[0; 3]; 2],
     };
     let svg = text(sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)));
     let description = svg.split("<desc>").nth(1).unwrap().split("</desc>").next().unwrap();
@@ -835,6 +837,8 @@ fn svg_shows_every_triangle_and_every_edge_once() {
             edges: true,
             path: &[],
             path_colors: [[0; 3]; 2],
+            marks: &[],
+            mark_colors: [[0; 3]; 2],
         };
         let file = String::from_utf8(
             sample.written(|out, mesh, data| svg::write(out, mesh, &style, data.provenance)),

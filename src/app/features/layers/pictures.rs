@@ -165,7 +165,6 @@ fn picture_of(
         layers: [depths_for(layer, settings), vec![alone]].concat(),
         unasked: f64::INFINITY,
         gradation: None,
-        projection: None,
         ..settings.field_spec()
     };
     let (bounds, paint) = (settings.domain.bounds, document.paint().clone());
@@ -174,17 +173,18 @@ fn picture_of(
         let [columns, rows] = [size.x, size.y].map(|side| (side.round() as u32).max(1));
         let field = SizeField::new(spec, &lattice);
         let target = field.sampled(&paint, bounds, [columns, rows]);
-        let color = |target: f32| match target.is_finite() {
-            true => {
-                let level = field.level_of_diameter(f64::from(target)).unwrap_or(63).min(63);
+        let center = target.pixel_centers();
+        let color = |x: u32, y: u32| match target.get(x, y) {
+            target if target.is_finite() => {
+                let level = field.level_of_diameter(f64::from(target), center(x, y)).unwrap_or(63).min(63);
                 let [r, g, b, _] = colors.of(level as u8);
                 Color32::from_rgb(r, g, b)
             }
-            false => Color32::TRANSPARENT,
+            _ => Color32::TRANSPARENT,
         };
         // Pictures begin at the top.
-        let from_top = target.values().chunks(columns as usize).rev().flatten();
-        let pixels = from_top.map(|&target| color(target)).collect();
+        let from_top = (0..rows).rev().flat_map(|y| (0..columns).map(move |x| (x, y)));
+        let pixels = from_top.map(|(x, y)| color(x, y)).collect();
         ColorImage::new([columns as usize, rows as usize], pixels)
     })
 }

@@ -5,8 +5,8 @@ use eframe::egui::Ui;
 use super::kinds::kind_of;
 use super::{LayerCommand, OPEN_MASK};
 use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
-use crate::app::kit::{FrameState, remark};
-use crate::app::widgets::{ActionButton, Section, ValueRow, format, segmented};
+use crate::app::kit::{FrameState, area_text, remark};
+use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};
 use meshbrush_core::layers::{Combine, Layer};
 
 /// The name of the group of choices.
@@ -51,12 +51,7 @@ fn combine_rows(ui: &mut Ui, layer: &Layer, commands: &mut Vec<Command>) {
 /// Shows the mask in which the layer counts.
 fn mask_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
-    let symbol = state.unit().symbol();
-    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
-    let area = layer.mask.as_ref().map_or_else(
-        || "none".to_owned(),
-        |mask| format::with_unit(&format::digits(mask.area(), 6), &square),
-    );
+    let area = layer.mask.as_ref().map_or_else(|| "none".to_owned(), |mask| area_text(ui, state, mask, 6));
     let help = "Area of the polygons in which the layer counts; without a mask it counts everywhere.";
     ValueRow::new("Mask", &area).help(help).show(ui);
     ui.horizontal(|ui| {

@@ -146,7 +146,7 @@ fn painted(state: &FrameState<'_>) -> String {
         (PaintKind::Risk, BrushMode::Set) => transfer.diameter(tools.risk),
         (PaintKind::Risk, BrushMode::Lower) => transfer.diameter(1.0 - tools.paint_strength),
     };
-    let level = state.session.follower().field().level_of_diameter(diameter);
+    let level = state.session.follower().field().level_of_diameter(diameter, state.place());
     let level = level.map_or("–".into(), |level| level.to_string());
     format!("{} · {level}", format::length(diameter, state.unit()))
 }

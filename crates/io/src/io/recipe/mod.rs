@@ -67,7 +67,8 @@ pub fn parse(file: &Path, text: String, find: &FindFile) -> Result<Recipe, ReadE
     let text = RecipeText::new(file, text);
     let mut settings = text.parse()?;
     let checked = settings.place_files(find).and_then(|()| settings.check());
-    checked.and_then(|()| settings.check_recipe()).map_err(|fault| text.error(&fault))?;
+    let checked = checked.and_then(|()| settings.check_recipe());
+    checked.map_err(|fault| text.error(&settings.lengths.as_written(fault)))?;
     settings.place_outputs(file.parent().unwrap_or(Path::new("")));
     Ok(Recipe { text, settings })
 }

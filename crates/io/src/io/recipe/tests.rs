@@ -192,7 +192,7 @@ fn values_of_another_type_are_named_with_line_and_column() {
         (
             "[mesh]\nspacing = \"wide\"",
             [2, 11],
-            "this must be a number, not the text \"wide\".\n    spacing = \"wide\"\n              ^^^^^^",
+            "“wide” is not a number. Numbers can be typed as 0.25, 1e-4, 100k or 2M.\n    spacing = \"wide\"\n              ^^^^^^",
         ),
         ("[mesh]\nmax_triangles = 1.5", [2, 17], "this must be a whole number from 0, not 1.5."),
         ("[mesh]\nmax_triangles = -1", [2, 17], "this must be a whole number from 0, not -1."),

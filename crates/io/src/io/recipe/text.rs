@@ -3,7 +3,6 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -42,8 +41,8 @@ impl RecipeText {
             let sentence = format!("this is not valid TOML: {}.", excerpt(300, error.message().trim()));
             self.pointing(error.span().unwrap_or(0..0), &sentence, None)
         })?;
-        let recipe = SavedSettings::deserialize(&TextValue::of_toml(tables.get_ref()));
-        recipe.map_err(|fault| self.error(&fault))
+        SavedSettings::of_tables(TextValue::of_toml(tables.get_ref()), None)
+            .map_err(|fault| self.error(&fault))
     }
 
     /// Returns the error for a value that cannot be used.

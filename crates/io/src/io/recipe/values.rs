@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::super::layers::{SavedKind, SavedLayer};
-use super::super::settings::{SavedOutput, SavedSettings};
+use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
 use super::notes::notes;
@@ -16,7 +16,7 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{Layer, LayerId};
 use meshbrush_core::raster::TiledRaster;
-use meshbrush_mesh::text::abridged;
+use meshbrush_mesh::text::{LengthUnit, abridged};
 
 /// A document that was made from settings.
 #[derive(Debug)]
@@ -47,6 +47,8 @@ pub struct BesideLayer {
     pub smallest: bool,
     /// A layer of depths.
     pub depths: bool,
+    /// The unit of lengths.
+    pub unit: LengthUnit,
 }
 
 impl SavedSettings {
@@ -56,11 +58,29 @@ impl SavedSettings {
     /// # Errors
     /// Fails for the first key or value that no recipe has, and for files that are not there.
     pub fn of_value(tables: &TextValue, given: &Given) -> Result<Self, KeyFault> {
-        let mut settings = Self::deserialize(tables)?;
-        settings.place_files(&|name| found(given, name))?;
-        settings.check()?;
-        settings.check_recipe()?;
-        Ok(settings)
+        Self::of_tables(tables.clone(), None)?.checked(given)
+    }
+
+    /// Returns the settings that tables state for a document that is there, whose lengths are in `unit`.
+    ///
+    /// # Errors
+    /// Fails as [`Self::of_value`] does, and for lengths in another unit.
+    pub fn of_value_for(tables: &TextValue, unit: LengthUnit) -> Result<Self, KeyFault> {
+        let settings = Self::of_tables(tables.clone(), Some(unit))?;
+        settings.lengths.check(unit)?;
+        settings.checked(&Given::default())
+    }
+
+    /// Returns the settings that tables state, with numbers in the place of lengths with units.
+    pub(super) fn of_tables(mut tables: TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
+        let lengths = WrittenLengths::take(&mut tables, unit)?;
+        Ok(Self::deserialize(&tables)?.with_lengths(lengths))
+    }
+
+    fn checked(mut self, given: &Given) -> Result<Self, KeyFault> {
+        let checked = self.place_files(&|name| found(given, name)).and_then(|()| self.check());
+        checked.and_then(|()| self.check_recipe()).map_err(|fault| self.lengths.as_written(fault))?;
+        Ok(self)
     }
 
     /// Reads the files, and returns a document with the mesh that they make.
@@ -82,7 +102,10 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
     pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
-        let layer = Self::deserialize(table)?;
+        let mut table = table.clone();
+        let lengths = WrittenLengths::take(&mut table, Some(others.unit))?;
+        lengths.check(others.unit)?;
+        let layer = Self::deserialize(&table)?;
         let mut alone = SavedSettings { layer: vec![layer], ..SavedSettings::default() };
         alone.limits.h_min = others.smallest.then_some(1.0);
         let checked = alone.place_files(&|name| found(given, name)).and_then(|()| {
@@ -99,8 +122,9 @@ impl SavedLayer {
             as_recipe.check()?;
             as_recipe.check_recipe()
         });
-        checked
-            .map_err(|fault| KeyFault { path: fault.path[2.min(fault.path.len())..].to_vec(), ..fault })?;
+        let in_layer =
+            |fault: KeyFault| KeyFault { path: fault.path[2.min(fault.path.len())..].to_vec(), ..fault };
+        checked.map_err(|fault| lengths.as_written(in_layer(fault)))?;
         Ok(alone.layer.remove(0))
     }
 

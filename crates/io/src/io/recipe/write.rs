@@ -58,7 +58,7 @@ const ORDER: [&str; 39] = [
 
 /// Returns the text of a recipe.
 pub fn to_text(recipe: &SavedSettings) -> String {
-    let SavedSettings { domain, mesh, limits, layer, paths, keep_out, pins, output } = recipe;
+    let SavedSettings { domain, mesh, limits, layer, paths, keep_out, pins, output, lengths: _ } = recipe;
     let mut text = HEADER.to_owned();
     write_table(&mut text, "[domain]", domain);
     write_table(&mut text, "[mesh]", mesh);

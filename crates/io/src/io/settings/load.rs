@@ -127,6 +127,8 @@ impl<L> SavedSettings<L> {
     ) -> Result<Settings, S::Error> {
         self.check_tables()?;
         let ReadRegion { domain, marks, unit } = self.read_domain(storage)?;
+        let unit = self.domain.unit.map_or(unit, Into::into);
+        self.lengths.check(unit)?;
         let bounds = domain.bounds;
         let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
         let lattice = Lattice::covering(bounds, spacing, usual.most_coarse).map_err(CoarseError::from)?;
@@ -151,7 +153,7 @@ impl<L> SavedSettings<L> {
         // The values of the text take the place of these.
         let settings = Settings {
             name: name.to_owned(),
-            unit: self.domain.unit.map_or(unit, Into::into),
+            unit,
             boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
             domain,
             boundary_marks: Arc::new(self.domain.marks(marks)),

@@ -6,6 +6,7 @@
 //! back. A [`Storage`] reads what tables and layers name: files beside a recipe, or parts of a project.
 
 mod check;
+mod lengths;
 mod load;
 mod of_settings;
 mod overrides;
@@ -13,6 +14,7 @@ mod paths;
 mod tables;
 mod words;
 
+pub use lengths::{METRES, WrittenLengths};
 pub use load::{ReadRegion, RegionCoordinates, Storage, Usual};
 pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,

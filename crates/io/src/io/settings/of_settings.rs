@@ -2,7 +2,7 @@ use glam::DVec2;
 
 use super::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedPaths, SavedPins, SavedSettings, SavedTreatment,
-    SavedUnit, saved_marks,
+    SavedUnit, WrittenLengths, saved_marks,
 };
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryTreatment, DomainShape};
@@ -42,6 +42,7 @@ impl<L> SavedSettings<L> {
             keep_out,
             pins: SavedPins { at: settings.pins.iter().map(DVec2::to_array).collect() },
             output: Vec::new(),
+            lengths: WrittenLengths::default(),
         }
     }
 }

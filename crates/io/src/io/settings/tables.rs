@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedPieceType, SavedRule, SavedUnit};
+use super::{SavedName, SavedPieceType, SavedRule, SavedUnit, WrittenLengths};
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use meshbrush_mesh::mesh::KeptParts;
 
@@ -33,6 +33,9 @@ pub struct SavedSettings<L = SavedLayer> {
     /// Files to write.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub output: Vec<SavedOutput>,
+    /// Which of the lengths were written with a unit.
+    #[serde(skip)]
+    pub lengths: WrittenLengths,
 }
 
 impl<L> Default for SavedSettings<L> {
@@ -46,6 +49,7 @@ impl<L> Default for SavedSettings<L> {
             keep_out: Vec::new(),
             pins: SavedPins::default(),
             output: Vec::new(),
+            lengths: WrittenLengths::default(),
         }
     }
 }

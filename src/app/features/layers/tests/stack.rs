@@ -9,13 +9,15 @@ use glam::dvec2;
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, InspectCommand, LayerCommand};
 use crate::app::tests::{
     CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, click_button, document, entries, key,
-    level_at, move_to, notice, press_at, release_at, send, settings, stroke, triangles, type_into, value_of,
-    wait_until, window, window_of, window_with,
+    level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles, type_into,
+    value_of, wait_until, window, window_of, window_with,
 };
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
-use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Quantity, RasterReading};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::{Combine, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading};
+use meshbrush_mesh::text::LengthUnit;
 
 /// A place in the first example where risk is painted.
 const PAINTED: glam::DVec2 = dvec2(0.245, 0.765);
@@ -443,4 +445,20 @@ fn every_row_gets_a_picture_of_what_its_layer_asks_for() {
     wait_until(&mut window, |window| (0..3).all(|id| has(window, id)));
     add(&mut window, LayerKind::constant(0.1));
     wait_until(&mut window, |window| has(window, 3));
+}
+
+#[test]
+fn the_area_of_a_mask_is_that_on_the_earth() {
+    let mut window = window_of(TALL);
+    let ring = [[0.5, 0.0], [1.0, 0.0], [1.0, 1.0], [0.5, 1.0]].map(glam::DVec2::from).to_vec();
+    let (id, mask) = (active(&window).id, Mask::new(&[vec![ring]]).unwrap());
+    send(&mut window, Command::Layer(LayerCommand::Mask(id, Some(mask))));
+    assert!(value_of(&window, Role::Definition, "Mask").starts_with("0.5"));
+    // In this plane, lengths are half of those on the Earth.
+    let projection = "+proj=tmerc +lon_0=15 +k_0=0.5".parse().ok();
+    let domain = Domain { projection, ..settings(&window).domain.clone() };
+    set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
+    set(&mut window, Setting::Domain(domain));
+    let area = value_of(&window, Role::Definition, "Mask");
+    assert!(area.starts_with('2') && area.ends_with(" m²"), "{area}");
 }

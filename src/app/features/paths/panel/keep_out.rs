@@ -6,9 +6,9 @@ use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::features::paths::KeepOutCommand;
 use crate::app::features::paths::OPEN_KEEP_OUT;
 use crate::app::features::paths::PathCommand;
-use crate::app::kit::{FrameState, button_rows, end_gesture_when_released};
+use crate::app::kit::{FrameState, area_text, button_rows, end_gesture_when_released};
 use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, NumberRow, ToolButton, ValueRow, format};
+use crate::app::widgets::{Icon, NumberRow, ToolButton, ValueRow};
 
 /// How far paths stay from the outline and from the regions.
 pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -28,10 +28,8 @@ pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Com
 /// The regions with their areas, and what adds and removes them.
 pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let command = |command| Command::Path(PathCommand::KeepOut(command));
-    let symbol = state.unit().symbol();
-    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
     for (number, region) in state.session.document().settings().paths.keep_out.iter().enumerate() {
-        let area = format::with_unit(&format::digits(region.mask.area(), 4), &square);
+        let area = area_text(ui, state, &region.mask, 4);
         ui.push_id(number, |ui| {
             ui.horizontal(|ui| {
                 let width = ui.available_width() - metrics::ROW - ui.spacing().item_spacing.x;
