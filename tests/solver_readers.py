@@ -15,7 +15,6 @@ import tempfile
 import meshio
 import netCDF4
 import numpy as np
-from serafin import SerafinReader
 
 SEA = {
     "type": "Polygon",
@@ -53,26 +52,41 @@ def pyschism_reader():
     return module
 
 
-def check_mesh(expected, x, y, triangles, depths):
-    assert np.array_equal(np.column_stack([x, y]), expected.points[:, :2]), "nodes"
+def check_mesh(expected, x, y, triangles, depths, parser_error=0):
+    """`parser_error`: the relative error of the reader's own parser of numbers."""
+    places, wanted = np.column_stack([x, y]), expected.points[:, :2]
+    assert places.shape == wanted.shape and np.allclose(places, wanted, rtol=parser_error, atol=0), "nodes"
     assert np.array_equal(triangles, expected.cells_dict["triangle"]), "triangles"
-    assert np.allclose(depths, 20 + expected.points[:, 0] / 3 - expected.points[:, 1], rtol=1e-12), "depths"
+    assert np.allclose(depths, expected.point_data["depth"], rtol=1e-12), "depths"
 
 
-def check_strings(path, expected, pieces, number_of):
-    """Names come from the text: pyschism drops them."""
+def plane_length(places, edges):
+    ends = places[np.array(edges)]
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+
+
+def check_pyschism(path, expected, pieces, number_of, length_of=plane_length):
     with path.open() as file:
         found = pyschism_reader().buffer_to_dict(file)
     nodes = found["nodes"].values()
     places, depths = np.array([place for place, _ in nodes]), [depth for _, depth in nodes]
     triangles = np.array(list(found["elements"].values()), dtype=int) - 1
     check_mesh(expected, places[:, 0], places[:, 1], triangles, depths)
+    strings = {
+        number: [[int(node) - 1 for node in string["indexes"]] for string in strings.values()]
+        for number, strings in found["boundaries"].items()
+    }
+    check_strings(path, strings, pieces, number_of, lambda edges: length_of(places, edges))
+
+
+def check_strings(path, strings, pieces, number_of, length_of):
+    """`strings` are those of each number as a reader has them, in the order of the file. Names come from the text, as
+    readers drop them."""
     heads = [line for line in path.read_text().splitlines() if " = Number of nodes for " in line]
-    strings = {number: list(found["boundaries"].get(number, {}).values()) for number in [None, *range(30)]}
     seen, edges_of = set(), {}
     for head in heads:
         number = None if " for open " in head else int(head.split()[1])
-        nodes = [int(node) - 1 for node in strings[number].pop(0)["indexes"]]
+        nodes = strings[number].pop(0)
         if number is not None and number % 10 == 1:
             nodes.append(nodes[0])
         name = head.split(": ", 1)[1]
@@ -83,9 +97,8 @@ def check_strings(path, expected, pieces, number_of):
     assert edges_of.keys() == {piece["name"] for piece in pieces}, edges_of.keys()
     for piece in pieces:
         number, *edges = edges_of[piece["name"]]
-        ends = places[np.array(edges)]
-        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
-        assert len(edges) == piece["edges"] and abs(length / piece["length"] - 1) < 1e-9, piece["name"]
+        assert len(edges) == piece["edges"], piece["name"]
+        assert abs(length_of(edges) / piece["length"] - 1) < 1e-9, piece["name"]
         assert number == number_of(piece), f"{piece['name']}: {number}"
 
 
@@ -100,6 +113,8 @@ def schism_number(piece):
 
 
 def check_selafin(path, expected, pieces):
+    from serafin import SerafinReader  # tests/public_readers.py does without
+
     with SerafinReader(str(path), "en") as file:
         file.read_header()
         file.get_time()
@@ -133,20 +148,27 @@ def check_ugrid(path, expected, pieces):
     assert counts.sum() - counts[0] == sum(piece["edges"] for piece in pieces), "edges of the boundary"
 
 
+def write_sea(program, folder, endings):
+    """Writes a small sea with every type of boundary; returns the mesh that the files have, and the pieces of its boundary."""
+    (folder / "sea.geojson").write_text(json.dumps(SEA))
+    (folder / "sea.toml").write_text(RECIPE)
+    outputs = [word for ending in ["vtu", *endings] for word in ("-o", f"sea.{ending}")]
+    command = [program, "mesh", "sea.toml", "--json", "--quantity", "depth=20 + x/3 - y", *outputs]
+    ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder)
+    pieces = json.loads(ran.stdout)["boundary"]
+    assert {piece["type"] for piece in pieces} == {"open", "land", "no-slip land", "natural land", "inflow", "natural inflow"}
+    expected = meshio.read(folder / "sea.vtu")
+    depths = 20 + expected.points[:, 0] / 3 - expected.points[:, 1]
+    assert np.allclose(expected.point_data["depth"], depths, rtol=1e-12), "depths"
+    return expected, pieces
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "sea.geojson").write_text(json.dumps(SEA))
-        (folder / "sea.toml").write_text(RECIPE)
-        outputs = [word for ending in ["vtu", "14", "gr3", "slf", "nc"] for word in ("-o", f"sea.{ending}")]
-        program = str(pathlib.Path(sys.argv[1]).resolve())
-        command = [program, "mesh", "sea.toml", "--json", "--quantity", "depth=20 + x/3 - y", *outputs]
-        ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=folder)
-        pieces = json.loads(ran.stdout)["boundary"]
-        assert {piece["type"] for piece in pieces} == {"open", "land", "no-slip land", "natural land", "inflow", "natural inflow"}
-        expected = meshio.read(folder / "sea.vtu")
-        check_strings(folder / "sea.14", expected, pieces, adcirc_number)
-        check_strings(folder / "sea.gr3", expected, pieces, schism_number)
+        expected, pieces = write_sea(str(pathlib.Path(sys.argv[1]).resolve()), folder, ["14", "gr3", "slf", "nc"])
+        check_pyschism(folder / "sea.14", expected, pieces, adcirc_number)
+        check_pyschism(folder / "sea.gr3", expected, pieces, schism_number)
         check_selafin(folder / "sea.slf", expected, pieces)
         check_ugrid(folder / "sea.nc", expected, pieces)
     print(f"a sea with {len(pieces)} typed pieces: .14, .gr3, .slf with .cli, .nc: read back")

@@ -38,6 +38,7 @@ fn check_mesh(domain: &Domain, boundary: BoundaryTreatment, spacing: f64) {
             unasked: 2.0 * spacing,
             outline: None,
             gradation: None,
+            projection: None,
         },
         rule: RefinementRule::Vertex,
         cleaning: Cleaning::NONE,

@@ -13,9 +13,9 @@ _MEMORY = "domain.geojson"
 class Domain:
     """The domain of a mesh: a rectangle, or a part of it given by polygons or a formula.
 
-    `shape` is a file of polygons (GeoJSON or shapefile), GeoJSON as a dictionary, an object with `__geo_interface__`
-    such as a geometry of shapely or a table of geopandas, one ring of points with shape (n, 2), or a list of rings, the
-    outer one first. Names of polygons come from the property `name` of their features.
+    `shape` is a file of polygons (GeoJSON, shapefile or GeoPackage), GeoJSON as a dictionary, an object with
+    `__geo_interface__` such as a geometry of shapely or a table of geopandas, one ring of points with shape (n, 2), or a
+    list of rings, the outer one first. Names of polygons come from the property `name` of their features.
     """
 
     def __init__(self, shape: ShapesLike) -> None:

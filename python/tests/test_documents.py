@@ -50,6 +50,17 @@ def test_layers_are_a_sequence_that_can_be_changed() -> None:
     assert "none" in repr(document.layers)
 
 
+def test_files_of_every_program_for_maps_are_read() -> None:
+    files = Path(__file__).parents[2] / "crates/io/src/io/gpkg"
+    document = mb.Document(mb.Domain(files / "land.gpkg"), boundary="outline", boundary_diameter=0.2, h_max=0.5)
+    before = document.mesh()
+    assert {"Big", "Big island 1"} <= before.boundary.keys()
+    document.layers.distance(files / "land.gpkg", at_zero=0.1, slope=0.3)
+    assert len(document.mesh()) > 2 * len(before)
+    with pytest.raises(mb.FileError, match="a domain needs a Polygon"):
+        mb.Document(mb.Domain(files / "two.gpkg"))
+
+
 def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
     document = mb.Document(bay(1000.0), h_min=20, h_max=300, unit="m")
     grid = np.linspace(-50, 0, 200).reshape(10, 20)

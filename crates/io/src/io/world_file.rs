@@ -32,8 +32,9 @@ pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, Rea
         if fs::metadata(&file)?.len() > MOST_BYTES {
             return Err(Flaw::Syntax("a world file has six lines, and this one is far longer.".into()).into());
         }
-        let text = fs::read_to_string(&file)?;
-        Ok(bounds(&text, size).map_err(Flaw::Syntax)?)
+        // Bytes that are no text are in no number.
+        let text = fs::read(&file)?;
+        Ok(bounds(&String::from_utf8_lossy(&text), size).map_err(Flaw::Syntax)?)
     };
     read().map(Some).map_err(|flaw| flaw.in_file(&file))
 }
@@ -73,6 +74,16 @@ mod tests {
     fn the_ending_is_that_of_the_picture() {
         assert_eq!(endings(Path::new("a/b.png")), ["pgw", "pngw", "wld", "PGW"]);
         assert_eq!(endings(Path::new("b.TIFF"))[..2], ["tfw", "tiffw"]);
+    }
+
+    #[test]
+    fn a_file_that_is_no_text_is_refused_with_a_sentence() {
+        let folder = std::env::temp_dir().join(format!("meshbrush-world-file-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("a.pgw"), b"0.5\n0\n0\n-0.2\xc58\n1\n2\n").unwrap();
+        let problem = bounds_beside(&folder.join("a.png"), [2, 2]).unwrap_err().to_string();
+        fs::remove_dir_all(&folder).unwrap();
+        assert!(problem.ends_with("a world file has six lines with a number each."), "{problem}");
     }
 
     #[test]
