@@ -88,10 +88,11 @@ impl Settings {
         match rule {
             _ if !outline && !field => Change::Nothing,
             _ if self.surfaces_need_another_mesh(old, paint) => Change::NewMesh { is_similar: !outline },
-            RefinementRule::Area => Change::Update { outline, field },
             // Coarsening would leave triangles behind. What does not matter to the mesh is taken over.
-            RefinementRule::Vertex if self.has_same_field(old, paint) => Change::Update { outline, field },
-            RefinementRule::Vertex => Change::NewMesh { is_similar: true },
+            RefinementRule::Vertex if !self.has_same_field(old, paint) => {
+                Change::NewMesh { is_similar: true }
+            }
+            RefinementRule::Area | RefinementRule::Vertex => Change::Update { outline, field },
         }
     }
 
