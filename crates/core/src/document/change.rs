@@ -85,7 +85,12 @@ impl Settings {
             || (outline && self.shows(Layer::follows_outline))
             // Names and types of pieces matter to distances alone.
             || (boundary_marks != old_boundary_marks && self.shows(|layer| layer.kind.follows_pieces()));
-        match rule {
+        self.change_on_grid(old, [outline, field], paint)
+    }
+
+    /// Returns the work on a mesh of the same grid where the outline of the domain or the size field may differ.
+    fn change_on_grid(&self, old: &Self, [outline, field]: [bool; 2], paint: &PaintLayers) -> Change {
+        match self.rule {
             _ if !outline && !field => Change::Nothing,
             _ if self.surfaces_need_another_mesh(old, paint) => Change::NewMesh { is_similar: !outline },
             // Coarsening would leave triangles behind. What does not matter to the mesh is taken over.
