@@ -88,7 +88,8 @@ impl Settings {
         self.change_on_grid(old, [outline, field], paint)
     }
 
-    /// Returns the work on a mesh of the same grid where the outline of the domain or the size field may differ.
+    /// Returns the work on a mesh of the same grid where the outline of the domain or the size field may
+    /// differ.
     fn change_on_grid(&self, old: &Self, [outline, field]: [bool; 2], paint: &PaintLayers) -> Change {
         match self.rule {
             _ if !outline && !field => Change::Nothing,
