@@ -17,7 +17,6 @@ const POINTS: usize = 1 << 12;
 
 /// Where points lie: the number of the triangle or −1, the code of the place, and the weights of the corners
 /// one after the other, NaN where there is no triangle.
-#[derive(Default)]
 struct Found {
     triangles: Vec<i64>,
     places: Vec<u8>,
@@ -48,34 +47,49 @@ impl Shared {
         let locator = many.then(|| Locator::new(mesh));
         let patched = self.patched_locator();
         self.with_extract(|extract| {
-            let find = |&point: &DVec2| {
+            let find = |point: DVec2| {
                 let in_mesh = locator.as_ref().map_or_else(|| mesh.locate(point), |l| l.locate(point));
-                let (location, triangle) = match patched {
+                match patched {
                     Some(patched) => {
                         let location = patched.locate(extract, point, in_mesh);
                         (location, location.triangle())
                     }
                     None => (in_mesh, in_mesh.triangle().and_then(|id| extract.place_of(id))),
-                };
-                (triangle, code(&location), triangle.map_or([f64::NAN; 3], |id| weights(extract, id, point)))
+                }
             };
-            let parts: Vec<Vec<_>> = points
-                .par_chunks(POINTS)
-                .map(|points| if is_cancelled() { Vec::new() } else { points.iter().map(find).collect() })
-                .collect();
-            let mut found = Found::default();
-            for (triangle, place, weights) in parts.into_iter().flatten() {
-                found.triangles.push(triangle.map_or(-1, |id| id.index() as i64));
-                found.places.push(place);
-                found.weights.extend(weights);
-            }
+            let mut found = Found::of(points.len());
+            let Found { triangles, places, weights } = &mut found;
+            let arrays = triangles
+                .par_chunks_mut(POINTS)
+                .zip(places.par_chunks_mut(POINTS))
+                .zip(weights.par_chunks_mut(3 * POINTS));
+            points.par_chunks(POINTS).zip(arrays).for_each(|(points, ((triangles, places), weights))| {
+                if is_cancelled() {
+                    return;
+                }
+                for (n, &point) in points.iter().enumerate() {
+                    let (location, triangle) = find(point);
+                    places[n] = code(&location);
+                    if let Some(id) = triangle {
+                        triangles[n] = id.index() as i64;
+                        weights[3 * n..3 * n + 3].copy_from_slice(&weights_in(extract, id, point));
+                    }
+                }
+            });
             found
         })
     }
 }
 
+impl Found {
+    /// Returns the arrays of so many points, which lie in no triangle.
+    fn of(points: usize) -> Self {
+        Self { triangles: vec![-1; points], places: vec![0; points], weights: vec![f64::NAN; 3 * points] }
+    }
+}
+
 /// The barycentric coordinates of a point, in the order of the corners in files.
-fn weights(extract: &Extract<'_>, triangle: TriangleId, point: DVec2) -> [f64; 3] {
+fn weights_in(extract: &Extract<'_>, triangle: TriangleId, point: DVec2) -> [f64; 3] {
     let corners = extract.cell(triangle).corners.map(|node| extract.node(NodeId::from_index(node)));
     barycentric(corners, extract.lattice().lattice_from_world(point))
 }
