@@ -7,7 +7,7 @@ use super::{LayerCommand, OPEN_MASK};
 use crate::app::command::{Command, FileCommand, RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};
-use meshbrush_core::layers::{Combine, Layer};
+use meshbrush_core::layers::{Combine, Layer, LayerKind};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";
@@ -31,7 +31,10 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         }
         ui.push_id(layer.id.0, |ui| {
             ui.add_enabled_ui(!layer.locked, |ui| {
-                combine_rows(ui, layer, commands);
+                // A surface has no diameters to combine.
+                if !matches!(layer.kind, LayerKind::Surface(_)) {
+                    combine_rows(ui, layer, commands);
+                }
                 (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);
                 mask_rows(ui, state, layer, commands);
             });

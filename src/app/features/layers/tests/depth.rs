@@ -138,7 +138,7 @@ fn straits_are_found_again_when_the_outline_changes() {
     assert!(found(&window) == first);
 }
 
-fn click_on(window: &mut Window, role: Role, label: &str) {
+pub fn click_on(window: &mut Window, role: Role, label: &str) {
     window.get_by_role_and_label(role, label).click();
     window.run();
 }

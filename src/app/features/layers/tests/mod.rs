@@ -3,3 +3,4 @@
 mod data;
 mod depth;
 pub mod stack;
+mod surface;
