@@ -95,16 +95,6 @@ impl SurfaceSamples {
         let found = rasters.filter_map(|source| source.raster.raster().nearest(point, FARTHEST_PIXEL));
         found.min_by(|a, b| a.distance.total_cmp(&b.distance)).map(|nearest| nearest.value)
     }
-
-    /// Returns memory of samples that are not shared with rasters, in bytes.
-    pub fn bytes(&self) -> usize {
-        let own = |layer: &LayerSamples| match &layer.values {
-            SampleValues::Pixels(_) => 0,
-            SampleValues::Singles(values) => size_of_val(&**values),
-            SampleValues::Doubles(values) => size_of_val(&**values),
-        };
-        self.layers.iter().map(own).sum()
-    }
 }
 
 impl SurfaceSource {
