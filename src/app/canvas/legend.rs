@@ -88,7 +88,7 @@ fn age_legend(ui: &Ui, inner: Rect, palette: &OverlayPalette) -> Rect {
 /// Returns depths from the shore to the deepest place, and the metres between isobaths.
 fn depth_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
     let Some(surface) = DepthSurface::of(&state.session.document().settings().layers) else {
-        return no_depths(ui, inner);
+        return no_layer(ui, inner, "Depth", "no layer of depths");
     };
     let deepest = surface.deepest();
     let metres = |depth: f64| LengthUnit::Metre.after(&format::significant(depth, 3));
@@ -109,7 +109,7 @@ fn depth_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayP
 /// Returns how much deeper the mesh is, as a share of the depth.
 fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
     if DepthSurface::of(&state.session.document().settings().layers).is_none() {
-        return no_depths(ui, inner);
+        return no_layer(ui, inner, "Depth", "no layer of depths");
     }
     let percent = format::digits(f64::from(100.0 * MOST_ERROR), 3);
     let spoken = format!("Legend: depth error −{percent} % to {percent} %");
@@ -127,12 +127,7 @@ fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &
     let errors = state.session.follower().surface().into_iter().flat_map(|rule| rule.errors());
     let errors: Vec<f64> = errors.map(|(_, error)| error).collect();
     let ends = match errors[..] {
-        [] => {
-            let place = boxed(ui, inner, ROW, "Surface error", "Legend: no layer of a surface");
-            let text = "no layer of a surface";
-            ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
-            return place;
-        }
+        [] => return no_layer(ui, inner, "Surface error", "no layer of a surface"),
         [first, ..] if first.is_finite() && errors.iter().all(|error| *error == first) => {
             let error = format::significant(first, 3);
             [format!("−{error}"), "0".into(), error]
@@ -155,10 +150,10 @@ fn below_scale(ui: &Ui, place: Rect, text: String) {
     ui.painter().text(at, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
 }
 
-/// Says that there is no layer of depths.
-fn no_depths(ui: &Ui, inner: Rect) -> Rect {
-    let place = boxed(ui, inner, ROW, "Depth", "Legend: no layer of depths");
-    ui.painter().text(place.min, Align2::LEFT_TOP, "no layer of depths", font::axis(), tokens(ui).label);
+/// Says which layer is missing.
+fn no_layer(ui: &Ui, inner: Rect, title: &str, text: &str) -> Rect {
+    let place = boxed(ui, inner, ROW, title, &format!("Legend: {text}"));
+    ui.painter().text(place.min, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
     place
 }
 

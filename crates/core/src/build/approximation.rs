@@ -70,7 +70,7 @@ impl Approximation {
             Step::Sample(sampling) => match sampling.advance(&built.domain, budget) {
                 Progress::More => None,
                 Progress::Done => {
-                    let rule = SurfaceRule::new(Arc::new(sampling.clone().finish()));
+                    let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
                     let counts_next = rule.most_triangles().is_some();
                     Some(self.refine(rule, counts_next, built))
                 }

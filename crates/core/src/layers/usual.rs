@@ -8,12 +8,7 @@ use super::{
 };
 use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
-
-/// Returns a positive number with one digit: 1, 2 or 5 times a power of ten, no larger than it.
-fn rounded(number: f64) -> f64 {
-    let power = libm::exp10(libm::floor(libm::log10(number)));
-    [5.0, 2.0, 1.0].map(|digit| digit * power).into_iter().find(|round| *round <= number).unwrap_or(power)
-}
+use crate::text::round_below;
 
 impl LayerKind {
     /// Returns a band of the middle third of a raster's values, with the geometric mean of `h_min` and
@@ -57,12 +52,12 @@ impl LayerKind {
     pub fn usual_error(source: &RasterSource) -> Option<f64> {
         let range = source.raster.finite_range()?;
         let hundredth = 0.01 * (f64::from(range.greatest) - f64::from(range.least));
-        Some(if hundredth > 0.0 { rounded(hundredth) } else { 1.0 })
+        Some(if hundredth > 0.0 { round_below(hundredth) } else { 1.0 })
     }
 
     /// Returns a hill in the middle of a domain as a surface, within a hundredth of its height.
     pub fn usual_surface(bounds: &Rect) -> Self {
-        let (at, width) = (bounds.center(), rounded(0.25 * bounds.size().min_element()));
+        let (at, width) = (bounds.center(), round_below(0.25 * bounds.size().min_element()));
         let text = format!("exp(-((x - {})^2 + (y - {})^2) / {width}^2)", at.x, at.y);
         let formula = Formula::parse(&text).unwrap_or_else(|_| Formula::constant_of(0.0));
         Self::Surface(Surface { source: SurfaceSource::Formula(formula), goal: SurfaceGoal::Within(0.01) })

@@ -12,7 +12,7 @@ const FARTHEST_PIXEL: u32 = 64;
 
 /// The samples of the surface that the visible layers of a stack describe. At each place the topmost layer
 /// that covers it and has a value counts.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SurfaceSamples {
     /// From the top to the bottom.
     pub(super) layers: Vec<LayerSamples>,

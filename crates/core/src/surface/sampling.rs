@@ -67,9 +67,9 @@ impl SurfaceSampling {
     ///
     /// # Panics
     /// Panics when the work is not done.
-    pub fn finish(self) -> SurfaceSamples {
+    pub fn take_found(&mut self) -> SurfaceSamples {
         assert_eq!(self.layer, self.found.layers.len(), "the samples are found once `advance` says so");
-        self.found
+        std::mem::take(&mut self.found)
     }
 
     /// Returns the samples of a formula in some rows.
