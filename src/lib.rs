@@ -24,7 +24,8 @@ use meshbrush_cli::cli;
 // Build a mesh.
 #[doc(inline)]
 pub use meshbrush_core::build::{
-    BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec, Parts, RefinementCriterion,
+    BuildError, BuildStage, BuiltMesh, CurveTracing, ErrorCurves, MeshBuilder, MeshSpec, Parts,
+    RefinementCriterion,
 };
 #[doc(inline)]
 pub use meshbrush_core::domain::{
@@ -56,9 +57,9 @@ pub use meshbrush_mesh::mesh::{
 // Paint.
 #[doc(inline)]
 pub use meshbrush_core::document::{
-    Background, Document, Edit, EditError, Edits, Example, Follower, History, KeepOut, MeshChange,
-    NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit, RecordedStroke, Recording,
-    Repainted, SeaChart, Setting, SettingKind, Settings, SettingsError, Stage,
+    Background, Document, Edit, EditError, Edits, Example, ExampleData, Follower, History, KeepOut,
+    MeshChange, NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit, RecordedStroke,
+    Recording, Repainted, SeaChart, Setting, SettingKind, Settings, SettingsError, Stage,
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{
@@ -66,14 +67,14 @@ pub use meshbrush_core::layers::{
     DiameterLimit, DistanceTo, FeatureSize, FineAt, InvalidLayer, Layer, LayerId, LayerKind, LeastTarget,
     Mask, NoDepth, NodeDepths, PaintChange, PaintLayers, PositiveDepth, Quantity, RasterReading,
     RasterSource, RiskField, SettledSquares, ShapeList, Shapes, ShapesError, SizeField, SizeFieldSpec,
-    StraitCount, StraitDisc, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceGoalError, SurfaceSource,
-    Threat, ThreatError, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    StraitCount, StraitDisc, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm,
+    SurfaceSource, Threat, ThreatError, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 #[doc(inline)]
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};
 #[doc(inline)]
 pub use meshbrush_core::surface::{
-    SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
+    CurvePoint, SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::text::LengthUnit;

@@ -6,7 +6,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -240,6 +240,7 @@ class Layers(Sequence[Layer]):
         formula: str | None = None,
         within: float | None = None,
         at_most: int | None = None,
+        norm: Literal["max", "l2", "h1"] | None = None,
         origin: str = "upper",
         crs: str | None = None,
         **common: Unpack[Common],
@@ -247,10 +248,11 @@ class Layers(Sequence[Layer]):
         """Adds a surface that the mesh is to be close to, with values linear over triangles.
 
         Either `within` is the largest error, and the mesh is the smallest one, or `at_most` is the largest number of
-        triangles, and the error is the least. Values are as for `raster`; in their place a `formula` in x and y gives the
+        triangles, and the error is the least. The error is the largest difference, or by `norm` the root mean square of
+        the differences (`"l2"`) or of the differences of the gradient (`"h1"`). Values are as for `raster`; in their place a `formula` in x and y gives the
         surface. Files have the heights at the nodes, and `mesh.statistics` the errors.
         """
-        keys = {"within": within, "at_most": at_most, **common}
+        keys = {"within": within, "at_most": at_most, "norm": norm, **common}
         if values is None:
             return self._add("surface", {"formula": formula, **keys}, {})
         if formula is not None:

@@ -309,16 +309,15 @@ fn change_to(document: &mut core::Document, wanted: Settings) -> PyResult<()> {
 fn built_in_place(state: &Mutex<State>, follower: &core::Follower) -> Option<(BuiltMesh, MeshOrigin)> {
     let state = lock(state);
     let is_its_mesh = state.max_level.is_none() && follower.is_in_step(&state.document);
-    is_its_mesh.then(|| (follower.built(), origin_of(&state)))
+    is_its_mesh.then(|| (follower.built(), origin_of(&state, *follower.mesh().lattice())))
 }
 
-fn origin_of(state: &State) -> MeshOrigin {
+fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
     let settings = state.document.settings();
+    let cleaning = state.parts.cleaning(settings.derived_cleaning());
     MeshOrigin {
+        spec: MeshSpec { cleaning, ..settings.mesh_spec_on(lattice, limits_of(state)) },
         paint: state.document.paint().clone(),
-        cleaning: state.parts.cleaning(settings.derived_cleaning()),
-        limits: limits_of(state),
-        domain: settings.domain.clone(),
         marks: settings.boundary_marks.clone(),
         unit: settings.unit,
         coordinates: state.coordinates,
@@ -336,7 +335,6 @@ fn limits_of(state: &State) -> Limits {
 
 /// The mesh of a document as it was at one time, to be made from scratch.
 pub struct ToMake {
-    spec: MeshSpec,
     origin: MeshOrigin,
     settings: Settings,
     /// The number of the time when changes of the paint were taken, if they were.
@@ -353,14 +351,13 @@ impl ToMake {
         let mut state = lock(state);
         let settings = state.document.settings().clone();
         let lattice = settings.lattice().map_err(|error| error.to_string())?;
-        let spec = settings.mesh_spec_on(lattice, limits_of(&state));
         let taken = (!is_followed && state.max_level.is_none()).then(|| {
             state.base = None;
             state.document.take_repainted();
             state.taken += 1;
             state.taken
         });
-        Ok(Self { spec, origin: origin_of(&state), settings, taken })
+        Ok(Self { origin: origin_of(&state, lattice), settings, taken })
     }
 
     /// Makes the mesh. The document can change meanwhile.
@@ -368,8 +365,8 @@ impl ToMake {
     /// # Errors
     /// Fails when there is no such mesh, and when the work was cancelled.
     pub fn made(self, state: &Mutex<State>, watch: &Watch) -> Result<Arc<Shared>, String> {
-        let Self { spec, origin, settings, taken } = self;
-        let (built, refinement, capped) = built(spec, &origin.paint, watch)?;
+        let Self { origin, settings, taken } = self;
+        let (built, refinement, capped) = built(origin.spec.clone(), &origin.paint, watch)?;
         let mesh = derived(built, origin, settings.name.clone(), refinement, capped, watch)?;
         let mut state = lock(state);
         if taken == Some(state.taken) {
@@ -425,7 +422,7 @@ fn derived(
     watch: &Watch,
 ) -> Result<Arc<Shared>, String> {
     watch.tell("fitting the mesh to its domain", built.mesh.raw_triangle_count() as u64);
-    let derived = DerivedMesh::new(&built.mesh, &built.domain, &origin.cleaning);
+    let derived = DerivedMesh::new(&built.mesh, &built.domain, &origin.spec.cleaning);
     let finished = FinishedMesh::new(built, derived, origin, refinement, capped);
     Ok(Shared::new(finished.map_err(|error| error.to_string())?, name))
 }

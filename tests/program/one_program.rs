@@ -13,7 +13,7 @@ use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerId, LayerKind, Mask,
     PositiveDepth, Quantity, RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface,
-    SurfaceGoal, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
+    SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
@@ -176,7 +176,8 @@ fn surface(random: &mut fastrand::Rng) -> Surface {
         true => SurfaceGoal::Within(between(random, 0.3, 3.0)),
         false => SurfaceGoal::AtMost(random.usize(20_000..40_000)),
     };
-    Surface { source, goal }
+    let norm = SurfaceNorm::ALL[random.usize(..3)];
+    Surface { source, goal, norm }
 }
 
 fn depths(random: &mut fastrand::Rng) -> Depths {

@@ -27,8 +27,8 @@ impl Grid {
         text
     }
 
-    /// Returns the largest difference of a sample from the triangle that it is in, and how many samples are in
-    /// one.
+    /// Returns the largest difference of a sample from the triangle that it is in, and how many samples are
+    /// in one.
     fn error(&self, nodes: &[[f64; 3]], triangles: &[[usize; 3]]) -> (f64, usize) {
         let (mut largest, mut is_in) = (0.0_f64, vec![false; self.heights.len()]);
         for corners in triangles.iter().map(|triangle| triangle.map(|node| nodes[node])) {
@@ -177,4 +177,32 @@ fn what_cannot_be_met_is_said() {
     let jump =
         folder.run(["mesh", "--surface", "if(x + 0.3*y > 0.61, 1, 0)", "--max-error", "0.1", "--json"]);
     assert!(jump.json()["triangles"].as_u64().unwrap() < 200_000);
+}
+
+#[test]
+fn norms_and_curves_of_errors() {
+    let folder = Folder::new("surface-norms");
+    let run = |more: &str| {
+        folder.run(format!("mesh --surface exp(-x*x-4*y*y) --domain -2,-2,2,2 --spacing 1 {more}"))
+    };
+    for (norm, key) in [("max", "max_error"), ("l2", "rms_error"), ("h1", "gradient_error")] {
+        let within = run(&format!("--max-error 0.02 --norm {norm} --json --error-curve curve.csv"));
+        assert!(within.json()[key].as_f64().unwrap() <= 0.02, "{norm}");
+        assert!(within.err.contains("best possible"), "{}", within.err);
+        let rows = folder.read("curve.csv");
+        assert!(rows.lines().count() > 20 && rows.contains("Uniform mesh"), "{rows}");
+        let counted = run(&format!("--at-most 3000 --norm {norm} --json"));
+        let of =
+            |other: &str| run(&format!("--at-most 3000 --norm {other} --json")).json()[key].as_f64().unwrap();
+        let own = counted.json()[key].as_f64().unwrap();
+        // Each norm is the best one for its error, or near it.
+        assert!(own <= 1.15 * of("max").min(of("l2")).min(of("h1")), "{norm}");
+    }
+    let refused = |options: &str, sentence: &str| {
+        let ran = folder.run(format!("mesh {options}"));
+        assert!(ran.err.contains(sentence), "{}", ran.err);
+    };
+    refused("--target 0.3 --domain 0,0,1,1 --error-curve c.csv", "no visible layer is one");
+    refused("--surface x --max-error 1 --domain 0,0,1,1 --error-curve c.png", "use .svg or .csv");
+    refused("--surface x --max-error 1 --norm l3 --domain 0,0,1,1", "possible values: max, l2, h1");
 }

@@ -10,10 +10,35 @@ use crate::ROOT;
 use crate::source::{Function, SOURCES, SourceFile, read_src, read_texts};
 
 /// The modules, lowest first: each imports only from those before it.
-const MODULES: [&str; 27] = [
-    "text", "geometry", "mesh", "earth", "raster", "field", "domain", "layers", "surface", "outline",
-    "paint", "build", "path", "explain", "document", "plot", "steps", "levels", "pixels", "relief", "report",
-    "io", "colormap", "scene", "render", "cli", "app",
+const MODULES: [&str; 28] = [
+    "text",
+    "geometry",
+    "mesh",
+    "earth",
+    "raster",
+    "field",
+    "domain",
+    "layers",
+    "surface",
+    "outline",
+    "paint",
+    "build",
+    "path",
+    "explain",
+    "document",
+    "plot",
+    "steps",
+    "levels",
+    "pixels",
+    "relief",
+    "report",
+    "error_plot",
+    "io",
+    "colormap",
+    "scene",
+    "render",
+    "cli",
+    "app",
 ];
 
 /// What `src/lib.rs` declares besides: documentation.
@@ -302,8 +327,8 @@ fn only_jobs_start_threads_wait_and_catch_panics() {
     assert_needed(&listed, &met, "WAITS");
 }
 
-/// Files of the window that may name a tool of another module: the file, and why. All others read the table of
-/// tools.
+/// Files of the window that may name a tool of another module: the file, and why. All others read the table
+/// of tools.
 const NAMES_A_TOOL: [(&str, &str); 5] = [
     ("src/app/canvas/mod.rs", "Space and the middle button pan with every tool"),
     ("src/app/kit/tool.rs", "the tool that moves the view belongs to no feature"),
@@ -349,7 +374,8 @@ fn a_tool_is_one_file_and_one_entry_of_the_table() {
 }
 
 /// The parts of the window, lowest first: each imports only from itself and from parts before it. Whatever is
-/// in no list is of the shell: frame, menus, panels, canvas, dialogs, and what is in no folder of a feature yet.
+/// in no list is of the shell: frame, menus, panels, canvas, dialogs, and what is in no folder of a feature
+/// yet.
 const WINDOW: [(&str, &[&str]); 3] = [
     ("widgets", &["theme", "widgets"]),
     (

@@ -10,6 +10,7 @@ pub mod levels;
 pub mod pixels;
 pub mod relief;
 pub mod report;
+pub mod error_plot;
 
 #[cfg(test)]
 mod fixture;

@@ -9,7 +9,7 @@ use crate::geometry::Rect;
 use crate::layers::DepthSurface;
 use crate::mesh::MeshView;
 use crate::raster::Raster;
-use crate::surface::SurfaceRule;
+use crate::surface::{SurfaceFit, SurfaceRule};
 
 /// About how many isobaths there are from the shore to the deepest place.
 const ISOBATHS: f64 = 10.0;
@@ -130,21 +130,21 @@ pub fn depth_differences(
     differences(mesh, |node| depths[node], share, pixels, goes_on)
 }
 
-/// Returns how much higher a mesh is than surfaces at the pixels over `bounds`, as a share of the error that
-/// is allowed there; NaN beyond the mesh, and without a surface. `heights` are those at the nodes of the
-/// mesh. `None` where `goes_on` says that nobody wants it any more.
+/// Returns how much higher a mesh is than surfaces at the pixels over `bounds`, as a share of the difference
+/// that is allowed there, or of the largest one where the error of the surface is another one; NaN beyond the
+/// mesh, and without a surface. `None` where `goes_on` says that nobody wants it any more.
 pub fn surface_differences(
     mesh: MeshView,
-    heights: &[Option<f64>],
+    fit: &SurfaceFit,
     rule: &SurfaceRule,
     pixels: (Rect, [u32; 2]),
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Raster> {
     let share = |at, of_mesh: f64| {
         let (height, allowed) = rule.allowed_at(at)?;
-        Some((of_mesh - height) / allowed)
+        Some((of_mesh - height) / if allowed.is_finite() { allowed } else { fit.largest })
     };
-    differences(mesh, |node| heights[node].unwrap_or(f64::NAN), share, pixels, goes_on)
+    differences(mesh, |node| fit.heights[node].unwrap_or(f64::NAN), share, pixels, goes_on)
 }
 
 /// Returns `difference` of the place of each pixel and the value of the mesh there; NaN where there is none.

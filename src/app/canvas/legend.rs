@@ -8,7 +8,7 @@ use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::view::{FieldOverlay, deepest_level};
 use crate::app::widgets::{elided_text, format, paint_floating};
-use meshbrush_core::layers::DepthSurface;
+use meshbrush_core::layers::{DepthSurface, SurfaceNorm};
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_study::relief::isobath_interval;
 
@@ -124,10 +124,13 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
 
 /// Returns how much higher the mesh is than the surface, up to the error that is allowed.
 fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
-    let errors = state.session.follower().surface().into_iter().flat_map(|rule| rule.errors());
-    let errors: Vec<f64> = errors.map(|(_, error)| error).collect();
+    let Some(rule) = state.session.follower().surface() else {
+        return no_layer(ui, inner, "Surface error", "no layer of a surface");
+    };
+    let errors: Vec<f64> = rule.errors().map(|(_, error)| error).collect();
+    let is_summed = SurfaceNorm::ALL[1..].iter().any(|norm| rule.error_of(*norm).is_some());
     let ends = match errors[..] {
-        [] => return no_layer(ui, inner, "Surface error", "no layer of a surface"),
+        _ if is_summed => ["−largest", "0", "largest"].map(str::to_owned),
         [first, ..] if first.is_finite() && errors.iter().all(|error| *error == first) => {
             let error = format::significant(first, 3);
             [format!("−{error}"), "0".into(), error]

@@ -255,8 +255,8 @@ fn surface_error_colors(
     goes_on: &dyn Fn() -> bool,
 ) -> Option<Vec<[u8; 4]>> {
     let Some(rule) = rule else { return Some(neutral(*size, palette)) };
-    let heights = rule.samples().heights_at_nodes(mesh.view());
-    let differences = surface_differences(mesh.view(), &heights, rule, (*bounds, *size), goes_on)?;
+    let fit = rule.samples().fit(mesh.view());
+    let differences = surface_differences(mesh.view(), &fit, rule, (*bounds, *size), goes_on)?;
     Some(differences.values().iter().map(|&share| palette.surface_error(share)).collect())
 }
 

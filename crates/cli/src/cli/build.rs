@@ -8,18 +8,18 @@ use glam::DVec2;
 use super::failure::Failure;
 use super::input::{Input, ToMesh};
 use super::terminal::Terminal;
-use meshbrush_core::build::{BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
+use meshbrush_core::build::{
+    BuildError, BuildStage, BuiltMesh, CurveTracing, ErrorCurves, MeshBuilder, MeshSpec, Parts,
+};
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use meshbrush_core::earth::{Coordinates, EdgeLengths, Ground};
 use meshbrush_core::explain::Explanation;
 use meshbrush_core::field::RefinementRule;
-use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField};
+use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField, SurfaceNorm};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::surface::SurfaceFit;
 use meshbrush_io::io::{Cancelled, Meter};
-use meshbrush_mesh::mesh::{
-    Cleaning, CoarseError, Extract, InvalidTarget, Limits, Mesh, Progress, TreeTriangle, TriangleId,
-};
+use meshbrush_mesh::mesh::{CoarseError, Extract, InvalidTarget, Mesh, Progress, TreeTriangle, TriangleId};
 use meshbrush_mesh::text::{Grouped, LengthUnit};
 
 /// Triangles visited between two updates of the progress line.
@@ -39,16 +39,12 @@ pub struct FinishedMesh {
     ground: OnceLock<Ground>,
 }
 
-/// What a mesh was made from, beside its size field.
+/// What a mesh was made from.
 pub struct MeshOrigin {
+    /// The description of the mesh.
+    pub spec: MeshSpec,
     /// The paint of the layers.
     pub paint: PaintLayers,
-    /// Which triangles stay.
-    pub cleaning: Cleaning,
-    /// The limits of the mesh.
-    pub limits: Limits,
-    /// The domain.
-    pub domain: Domain,
     /// Names and types of its boundary.
     pub marks: Arc<BoundaryMarks>,
     /// The unit of coordinates and lengths.
@@ -102,12 +98,12 @@ impl FinishedMesh {
 
     /// Returns the polygons of the domain, if it has some.
     pub fn region(&self) -> Option<&Region> {
-        self.origin.domain.region().map(|region| &**region)
+        self.origin.spec.domain.region().map(|region| &**region)
     }
 
     /// Returns the boundary of the mesh as files get it, in named pieces.
     pub fn boundary(&self, extract: &Extract) -> MeshBoundary {
-        let boundary = MeshBoundary::new(extract, &self.origin.domain, &self.origin.marks);
+        let boundary = MeshBoundary::new(extract, &self.origin.spec.domain, &self.origin.marks);
         boundary.on_ground(extract, self.ground())
     }
 
@@ -152,12 +148,40 @@ impl FinishedMesh {
 
     /// Returns the risk of the layers.
     pub fn risk(&self) -> RiskField {
-        RiskField::new(self.layers(), &self.origin.paint).within(&self.origin.domain.bounds)
+        RiskField::new(self.layers(), &self.origin.paint).within(&self.origin.spec.domain.bounds)
     }
 
     /// Returns the domain, in world units.
     pub fn domain(&self) -> &Domain {
-        &self.origin.domain
+        &self.origin.spec.domain
+    }
+
+    /// Returns the error of meshes against the number of their triangles, with no more than `most` of them,
+    /// by a norm. `goes_on` is called with the number of triangles so far. `None` once it says that nobody
+    /// wants them any more.
+    ///
+    /// # Errors
+    /// Fails when a mesh without the surfaces cannot be made.
+    pub fn error_curves(
+        &self,
+        norm: SurfaceNorm,
+        most: usize,
+        mut goes_on: impl FnMut(usize) -> bool,
+    ) -> Result<Option<ErrorCurves>, BuildError> {
+        let BuiltMesh { domain, field, .. } = &self.built;
+        let parts = Parts { domain: Some(domain.clone()), field: Some(field.clone()), spare: None };
+        let mut tracing = CurveTracing::new(self.origin.spec.clone(), parts, norm, most);
+        while tracing.advance(Some(&self.origin.paint), SLICE)? == Progress::More {
+            if !goes_on(tracing.progress()[0]) {
+                return Ok(None);
+            }
+        }
+        Ok(Some(tracing.curves().clone()))
+    }
+
+    /// Returns the description of the mesh.
+    pub fn spec(&self) -> &MeshSpec {
+        &self.origin.spec
     }
 
     /// Returns how lengths and areas are measured.
@@ -169,7 +193,7 @@ impl FinishedMesh {
     pub fn explanation(&self, id: TriangleId) -> Explanation {
         let criterion = self.built.criterion(Some(&self.origin.paint));
         let mesh = &self.built.mesh;
-        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.limits)
+        Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.spec.limits)
     }
 
     /// Returns how far the mesh as files get it is from the surfaces of its layers, if one is a surface.
@@ -209,22 +233,21 @@ pub fn build(input: &Input, terminal: &mut Terminal) -> Result<FinishedMesh, Fai
 /// # Errors
 /// Fails when the target is impossible somewhere, or a limit is reached.
 pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh, Failure> {
-    let (spec, origin) = read.parts();
-    let mut builder = MeshBuilder::new(spec);
+    let origin = read.origin();
+    let mut builder = MeshBuilder::new(origin.spec.clone());
     let refinement = run(&mut builder, &origin.paint, terminal);
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
     check_surface(&built)?;
-    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.cleaning);
+    let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.spec.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
     Ok(FinishedMesh::new(built, derived, origin, refinement, capped)?)
 }
 
 /// Checks that the mesh has no more triangles than the surfaces allow, which coarse grid and sizes may need.
 fn check_surface(built: &BuiltMesh) -> Result<(), Failure> {
-    let most = built.surface.as_ref().filter(|rule| rule.has_too_few_triangles());
-    match most.and_then(|rule| rule.most_triangles()) {
+    match built.surface.as_ref().and_then(|rule| rule.exceeded_count()) {
         None => Ok(()),
         Some(most) => Err(Failure::Work(format!(
             "A mesh of at most {} triangles cannot be made: without the surface it has {} already. Ask for more, take a \
@@ -236,11 +259,10 @@ fn check_surface(built: &BuiltMesh) -> Result<(), Failure> {
 }
 
 impl ToMesh {
-    /// Returns the description of the mesh, and what else its answers need.
-    pub fn parts(self) -> (MeshSpec, MeshOrigin) {
+    /// Returns what the mesh is made from.
+    pub fn origin(self) -> MeshOrigin {
         let Self { spec, paint, marks, unit, coordinates, paths: _ } = self;
-        let (cleaning, limits, domain) = (spec.cleaning, spec.limits, spec.domain.clone());
-        (spec, MeshOrigin { paint, cleaning, limits, domain, marks, unit, coordinates })
+        MeshOrigin { spec, paint, marks, unit, coordinates }
     }
 }
 

@@ -125,16 +125,19 @@ pub fn provenance_from(
 pub struct SurfaceSummary {
     /// The largest difference of either sign, in the unit of the surface.
     pub max_error: f64,
-    /// The square root of the mean of the squares of all differences.
+    /// The root mean square of the differences.
     pub rms_error: f64,
+    /// The root mean square of the differences of the gradient, in the unit of the surface by unit of length
+    /// of the plane.
+    pub gradient_error: f64,
     /// The place of the largest difference: x and y.
     pub worst: [f64; 2],
 }
 
 impl From<&SurfaceFit> for SurfaceSummary {
     fn from(fit: &SurfaceFit) -> Self {
-        let SurfaceFit { heights: _, largest, at, rms, samples: _ } = fit;
-        Self { max_error: *largest, rms_error: *rms, worst: (*at).into() }
+        let SurfaceFit { heights: _, largest, at, rms, gradient, samples: _ } = fit;
+        Self { max_error: *largest, rms_error: *rms, gradient_error: *gradient, worst: (*at).into() }
     }
 }
 

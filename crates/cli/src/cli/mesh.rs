@@ -5,12 +5,14 @@ use std::io::Write;
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
 use super::details::{DetailUses, MeshDetails};
+use super::error_curve::{check_curve_file, write_error_curve};
 use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
 use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
+use meshbrush_core::layers::SurfaceNorm;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
 use meshbrush_mesh::text::Grouped;
 
@@ -37,6 +39,7 @@ pub fn run(
     let inputs = input.files();
     let mut outputs = files.iter().flat_map(|files| &files.outputs);
     outputs.try_for_each(|output| output.check_places(&inputs))?;
+    typed.error_curve.iter().try_for_each(|file| check_curve_file(file, &inputs))?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -64,6 +67,9 @@ pub fn run(
     note_misplaced_marks(&input, &finished, &extract, terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
+    }
+    if let Some(file) = &typed.error_curve {
+        write_error_curve(file, &finished, finished.surface_fit(&extract).as_ref(), terminal)?;
     }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
@@ -99,6 +105,9 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
     }
 }
 
+/// Share by which sums of the same numbers may differ.
+const ROUNDING: f64 = 1e-12;
+
 /// Tells the user where the mesh is farther from a surface than asked for, and which nodes have no height.
 fn note_far_from_surface(
     finished: &FinishedMesh,
@@ -115,8 +124,8 @@ fn note_far_from_surface(
             Grouped(fit.heights.len())
         ));
     }
-    let asked = finished.built().surface.iter().flat_map(|rule| rule.errors().map(|(_, error)| error));
-    if fit.largest > asked.fold(0.0, f64::max) {
+    let asked = |norm| finished.built().surface.as_ref().and_then(|rule| rule.error_of(norm));
+    if asked(SurfaceNorm::Largest).is_some_and(|asked| fit.largest > asked) {
         let reason = match extract.is_patched() {
             true => "nodes were moved onto the outline, or the surface jumps",
             false => "the surface jumps there, and no mesh is closer",
@@ -125,6 +134,19 @@ fn note_far_from_surface(
             "The mesh is {} from the surface at x = {}, y = {}: {reason}.",
             fit.largest, fit.at.x, fit.at.y
         ));
+    }
+    for (norm, name) in [
+        (SurfaceNorm::RootMeanSquare, "difference from the surface"),
+        (SurfaceNorm::Gradient, "difference of its gradient from that of the surface"),
+    ] {
+        // Sums in another order differ by less.
+        if let Some(asked) = asked(norm).filter(|asked| fit.error(norm) > asked * (1.0 + ROUNDING)) {
+            terminal.note(&format!(
+                "The mesh has a root mean square {name} of {}, and {asked} was to be reached: nodes were moved onto the \
+                 outline, or no triangle can be bisected further.",
+                fit.error(norm)
+            ));
+        }
     }
 }
 

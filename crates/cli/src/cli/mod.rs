@@ -10,6 +10,7 @@ mod command_line;
 pub mod details;
 mod distance_args;
 pub mod earth_args;
+mod error_curve;
 pub mod failure;
 mod help;
 pub mod input;

@@ -330,12 +330,14 @@ impl Summary {
         if let Some(outline) = &self.outline {
             text.insert_str(text.len() - 1, &outline.for_people(self.area));
         }
-        if let Some(SurfaceSummary { max_error, rms_error, worst: [x, y] }) = self.surface {
-            let (max_error, rms_error) = (short(max_error), short(rms_error));
+        if let Some(SurfaceSummary { max_error, rms_error, gradient_error, worst: [x, y] }) = self.surface {
             let line = format!(
-                "at most {max_error} from the surface, at {}, {}; root mean square {rms_error}\n",
+                "at most {} from the surface, at {}, {}; root mean square {}, of the gradient {}\n",
+                short(max_error),
                 short(x),
-                short(y)
+                short(y),
+                short(rms_error),
+                short(gradient_error)
             );
             text.insert_str(text.len() - 1, &line);
         }

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use meshbrush_io::io::RasterFormat;
-use meshbrush_io::io::layers::{SavedKind, SavedLayer};
+use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedNorm};
 
 /// A surface, and how close the mesh is to be to it.
 #[derive(Debug, Args)]
@@ -20,7 +20,17 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "FILE|EXPR", allow_hyphen_values = true, requires = "goal")]
     pub surface: Vec<String>,
 
-    /// Largest error of a triangle, in the unit of the surface
+    /// Error that is meant: the largest difference, the root mean square of the differences (l2), or of the
+    /// differences of the gradient (h1)
+    ///
+    /// For max the mesh is the smallest one, or the closest, exactly. For l2 and h1, which are sums over the
+    /// whole mesh, it is near the smallest one. l2 is the norm of L² over the root of the area, in the unit
+    /// of the surface; h1 is the seminorm of H¹ over the root of the area, in the unit of the surface by unit
+    /// of length of the plane.
+    #[arg(long, value_name = "NORM", requires = "surface", default_value = "max")]
+    pub norm: NormArgument,
+
+    /// Largest error, in the unit of the surface
     #[arg(
         long,
         value_name = "E",
@@ -36,6 +46,28 @@ pub struct SurfaceArguments {
     pub at_most: Option<usize>,
 }
 
+/// See [`SavedNorm`].
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum NormArgument {
+    /// The largest difference of a sample
+    Max,
+    /// The root mean square of the differences
+    L2,
+    /// The root mean square of the differences of the gradient
+    H1,
+}
+
+impl NormArgument {
+    /// Returns the key of a layer; none for the one that counts without it.
+    fn saved(self) -> Option<SavedNorm> {
+        match self {
+            Self::Max => None,
+            Self::L2 => Some(SavedNorm::L2),
+            Self::H1 => Some(SavedNorm::H1),
+        }
+    }
+}
+
 impl SurfaceArguments {
     /// Returns the layers of the surfaces, from the bottom of the stack to its top, each with its option as
     /// typed. The last surface is the lowest.
@@ -45,6 +77,7 @@ impl SurfaceArguments {
             let layer = SavedLayer {
                 file: is_raster.then(|| PathBuf::from(text)),
                 formula: (!is_raster).then(|| text.clone()),
+                norm: self.norm.saved(),
                 within: self.max_error,
                 at_most: self.at_most,
                 ..SavedLayer::of_kind(SavedKind::Surface)

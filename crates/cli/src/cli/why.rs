@@ -14,6 +14,7 @@ use super::terminal::Terminal;
 use meshbrush_core::explain::{Demand, Explanation, Words};
 use meshbrush_core::layers::DiameterLimit;
 use meshbrush_core::surface::SurfaceDemand;
+use meshbrush_io::io::layers::SavedNorm;
 use meshbrush_mesh::mesh::{Cause, Location, Mesh, TreeTriangle, TriangleId};
 
 /// Runs the command. `out` is standard output.
@@ -120,11 +121,13 @@ enum SavedDemand<'a> {
         limit: Option<&'static str>,
     },
     Surface {
-        /// The largest difference of a sample in the triangle, and its place.
+        /// By which error.
+        norm: SavedNorm,
+        /// The error of the triangle, and the place of the largest difference.
         error: f64,
         at: [f64; 2],
         layer: Option<&'a str>,
-        /// The largest error that the layer allows.
+        /// The largest difference that the layer allows, or the error of the whole mesh.
         most: f64,
     },
 }
@@ -142,7 +145,8 @@ impl<'a> Answer<'a> {
         let name = |id| finished.layers().iter().find(|layer| Some(layer.id) == id);
         let demand = explanation.demand.map(|demand| match demand {
             Demand::Outline => SavedDemand::Outline,
-            Demand::Surface(SurfaceDemand { layer, error, at, most }) => SavedDemand::Surface {
+            Demand::Surface(SurfaceDemand { layer, norm, error, at, most }) => SavedDemand::Surface {
+                norm: norm.into(),
                 error,
                 at: at.to_array(),
                 layer: name(Some(layer)).map(|layer| layer.name.as_str()),

@@ -1,20 +1,22 @@
 //! The part of a builder's work that brings a mesh close to the surfaces of its layers.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
+use super::search::Search;
 use super::{BuiltMesh, RefinementCriterion};
 use crate::field::RefinementRule;
 use crate::layers::{Layer, PaintLayers};
 use crate::mesh::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
-use crate::surface::{ErrorQueue, SurfaceNodes, SurfaceRule, SurfaceSampling};
+use crate::surface::{QueueGoal, SurfaceNodes, SurfaceRule, SurfaceSampling};
 
 /// Refines a mesh that satisfies h̄ until it is close enough to surfaces, in slices.
 ///
 /// ```text
 ///  find the samples ──▶ refine ──▶ done
 ///                         │ ▲
-///  a layer asks for       ▼ │   refines once more, by the least error
-///  a number of triangles: find it
+///  a layer has a goal     ▼ │   refines once more, by what was found
+///  of the whole mesh:   find it
 /// ```
 #[derive(Clone, Debug)]
 pub(super) struct Approximation {
@@ -27,7 +29,8 @@ pub(super) struct Approximation {
 enum Step {
     Sample(SurfaceSampling),
     Refine(Box<Refinement>),
-    Count(SurfaceRule, Box<ErrorQueue>),
+    /// A goal, with those that come after it.
+    Find(Box<(Search, VecDeque<QueueGoal>)>),
 }
 
 #[derive(Clone, Debug)]
@@ -35,8 +38,8 @@ struct Refinement {
     rule: SurfaceRule,
     refiner: Refiner,
     nodes: SurfaceNodes,
-    /// Whether the least error of a number of triangles is found next.
-    counts_next: bool,
+    /// The goals of the whole mesh that come next.
+    goals: VecDeque<QueueGoal>,
 }
 
 impl Approximation {
@@ -49,7 +52,7 @@ impl Approximation {
     /// Returns the number of triangles that the mesh has so far.
     pub(super) fn triangles(&self, built: &BuiltMesh) -> usize {
         match &self.step {
-            Step::Count(_, queue) => queue.triangles(),
+            Step::Find(work) => work.0.queue.triangles(),
             Step::Sample(_) | Step::Refine(_) => built.mesh.raw_triangle_count(),
         }
     }
@@ -71,8 +74,8 @@ impl Approximation {
                 Progress::More => None,
                 Progress::Done => {
                     let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
-                    let counts_next = rule.most_triangles().is_some();
-                    Some(self.refine(rule, counts_next, built))
+                    let goals = rule.goals().into();
+                    Some(self.refine(rule, goals, built))
                 }
             },
             Step::Refine(work) => {
@@ -80,31 +83,25 @@ impl Approximation {
                     return Ok(Progress::More);
                 }
                 self.capped += work.refiner.capped();
-                match work.rule.most_triangles().filter(|_| work.counts_next) {
+                match work.goals.pop_front() {
                     None => {
                         built.surface = Some(Arc::new(work.rule.clone()));
                         return Ok(Progress::Done);
                     }
-                    Some(most) => {
-                        let queue = ErrorQueue::new(built.mesh.clone(), most, &self.limits);
-                        Some(Step::Count(work.rule.clone(), Box::new(queue)))
+                    Some(goal) => {
+                        let search = Search::new(built, work.rule.clone(), goal, &self.limits);
+                        Some(Step::Find(Box::new((search, std::mem::take(&mut work.goals)))))
                     }
                 }
             }
-            Step::Count(rule, queue) => {
-                let mut criterion = built.criterion(paint);
-                let vertex = built.rule == RefinementRule::Vertex;
-                let is_bound = |element: &Element| Ok(vertex && criterion.exceeds(element)?);
-                let progress = queue.advance(rule, &built.domain, is_bound, budget);
-                match progress.map_err(RefineError::Rule)? {
-                    Progress::More => None,
-                    Progress::Done => {
-                        let least = queue.least_error().unwrap_or(f64::INFINITY);
-                        let rule = rule.clone().counted(least);
-                        Some(self.refine(rule, false, built))
-                    }
+            Step::Find(work) => match work.0.advance(built, paint, budget)? {
+                Progress::More => None,
+                Progress::Done => {
+                    let rule = work.0.rule.clone().with_found(&work.0.queue);
+                    let goals = std::mem::take(&mut work.1);
+                    Some(self.refine(rule, goals, built))
                 }
-            }
+            },
         };
         if let Some(next) = next {
             self.step = next;
@@ -112,9 +109,9 @@ impl Approximation {
         Ok(Progress::More)
     }
 
-    fn refine(&self, rule: SurfaceRule, counts_next: bool, built: &BuiltMesh) -> Step {
+    fn refine(&self, rule: SurfaceRule, goals: VecDeque<QueueGoal>, built: &BuiltMesh) -> Step {
         let refiner = Refiner::new(&built.mesh, self.limits);
-        Step::Refine(Box::new(Refinement { rule, refiner, nodes: SurfaceNodes::default(), counts_next }))
+        Step::Refine(Box::new(Refinement { rule, refiner, nodes: SurfaceNodes::default(), goals }))
     }
 }
 

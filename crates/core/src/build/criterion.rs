@@ -129,8 +129,7 @@ impl<'a> RefinementCriterion<'a> {
 
     /// Returns whether a triangle, given by its corners, is bisected because of a surface.
     fn surface_asks(&self, corners: [LatticePoint; 3]) -> bool {
-        let exceeded = |(rule, _): &(&SurfaceRule, _)| rule.exceeded_at(corners, self.field.lattice());
-        self.surface.as_ref().and_then(exceeded).is_some()
+        self.surface.as_ref().is_some_and(|(rule, _)| rule.exceeds_at(corners, self.field.lattice()))
     }
 
     /// Returns why a triangle, given by its corners, is bisected because of a surface, if it is.

@@ -40,8 +40,11 @@
 mod approximation;
 mod builder;
 mod criterion;
+mod error_curve;
+mod search;
 mod spec;
 
 pub use builder::{BuildError, BuildStage, BuiltMesh, MeshBuilder, Parts};
 pub use criterion::RefinementCriterion;
+pub use error_curve::{CurveTracing, ErrorCurves};
 pub use spec::MeshSpec;

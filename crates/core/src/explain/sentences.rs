@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{Demand, Explanation};
 use crate::earth::EdgeLengths;
 use crate::geometry::LatticePoint;
-use crate::layers::{DiameterLimit, Layer, LeastTarget};
+use crate::layers::{DiameterLimit, Layer, LeastTarget, SurfaceNorm};
 use crate::mesh::{Cause, Mesh, TreeTriangle};
 use crate::surface::SurfaceDemand;
 use crate::text::{LengthUnit, short_name, significant};
@@ -76,16 +76,28 @@ impl Words<'_> {
                     .into()
             }
             Some(Demand::Target(least)) => self.least(&least),
-            Some(Demand::Surface(SurfaceDemand { layer, error, at, most })) => {
-                let layer = self.layers.iter().find(|one| one.id == layer);
-                let name = layer.map_or_else(String::new, |layer| short_name(&layer.name).to_string());
-                format!(
-                    "The surface “{name}” is {} from it at {}, and {} is allowed.",
-                    significant(error, 4),
-                    self.place(at),
-                    significant(most, 4)
-                )
-            }
+            Some(Demand::Surface(demand)) => self.surface(&demand),
+        }
+    }
+
+    fn surface(&self, demand: &SurfaceDemand) -> String {
+        let SurfaceDemand { layer, norm, error, at, most } = *demand;
+        let layer = self.layers.iter().find(|one| one.id == layer);
+        let name = layer.map_or_else(String::new, |layer| short_name(&layer.name).to_string());
+        let (error, most) = (significant(error, 4), significant(most, 4));
+        let squares = |of: &str| {
+            format!(
+                "It has one of the largest shares in the error of the surface “{name}”: the root mean square of the \
+                 {of} is {error} in it, and {most} over the mesh."
+            )
+        };
+        match norm {
+            SurfaceNorm::Largest => format!(
+                "The surface “{name}” is {error} from it at {}, and {most} is allowed.",
+                self.place(at)
+            ),
+            SurfaceNorm::RootMeanSquare => squares("differences"),
+            SurfaceNorm::Gradient => squares("differences of the gradient"),
         }
     }
 

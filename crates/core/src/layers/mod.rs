@@ -54,7 +54,7 @@ pub use settled::{SettledPool, SettledSquares};
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use strait_count::StraitCount;
 pub use straits::{StraitDisc, StraitDiscs, Straits};
-pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceSource};
+pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource};
 pub use targets::{Decision, DiameterLimit};
 pub use targets_in_order::NODES_AT_A_TIME;
 pub use threats::{Threat, ThreatError, ThreatLaw, Threats};

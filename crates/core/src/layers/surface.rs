@@ -11,6 +11,8 @@ pub struct Surface {
     pub source: SurfaceSource,
     /// How close the mesh is to be.
     pub goal: SurfaceGoal,
+    /// Which error the goal is about.
+    pub norm: SurfaceNorm,
 }
 
 /// Where the values of a surface come from.
@@ -22,15 +24,44 @@ pub enum SurfaceSource {
     Formula(Formula),
 }
 
-/// How close a mesh is to be to a surface. The error of a triangle is the largest difference, of either sign,
-/// between a sample in the closed triangle and the plane through the surface at its corners.
+/// How close a mesh is to be to a surface, by a [`SurfaceNorm`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SurfaceGoal {
-    /// The error of each triangle is at most this, in the unit of the values; the mesh is the smallest such
-    /// one.
+    /// The error is at most this.
     Within(f64),
-    /// The mesh has at most so many triangles, and the least error that is possible with them.
+    /// The mesh has at most so many triangles, and the least error that is found with them.
     AtMost(usize),
+}
+
+/// How the differences of a mesh from a surface become one number. A difference is one between a sample and
+/// the plane through the surface at the corners of the triangle that the sample is in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SurfaceNorm {
+    /// The largest difference, of either sign, in the unit of the values. The mesh within an error is the
+    /// smallest one, and that of a number of triangles has the least error: both are exact.
+    #[default]
+    Largest,
+    /// The root of the mean of the squares of the differences, in the unit of the values: the norm of L² over
+    /// the root of the area. The mesh is near the smallest one: the number of its triangles falls with the
+    /// error at the best rate that is possible.
+    RootMeanSquare,
+    /// The root of the mean of the squares of the differences of the gradients, in the unit of the values by
+    /// world unit: the seminorm of H¹ over the root of the area. The mesh is near the smallest one, too.
+    Gradient,
+}
+
+impl SurfaceNorm {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Largest, Self::RootMeanSquare, Self::Gradient];
+
+    /// Returns the power of the number of triangles by which the error falls where the surface is smooth, or
+    /// where the triangles follow what is not.
+    pub fn best_rate(self) -> f64 {
+        match self {
+            Self::Largest | Self::RootMeanSquare => -1.0,
+            Self::Gradient => -0.5,
+        }
+    }
 }
 
 /// Why a goal cannot be met by any mesh.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::{
     DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, FineAt, LayerKind, PositiveDepth, RasterReading,
-    RasterSource, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceSource, ValueCurve, WaterMiddle,
+    RasterSource, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, ValueCurve,
+    WaterMiddle,
 };
 use crate::field::{Formula, Transfer};
 use crate::geometry::Rect;
@@ -44,7 +45,11 @@ impl LayerKind {
     /// a finite value.
     pub fn surface_of(source: RasterSource, _: &Transfer) -> Option<Self> {
         let goal = SurfaceGoal::Within(Self::usual_error(&source)?);
-        Some(Self::Surface(Surface { source: SurfaceSource::Raster(source), goal }))
+        Some(Self::Surface(Surface {
+            source: SurfaceSource::Raster(source),
+            goal,
+            norm: SurfaceNorm::default(),
+        }))
     }
 
     /// Returns about a hundredth of the range of the values of a raster, as a round number. `None` if no
@@ -60,7 +65,8 @@ impl LayerKind {
         let (at, width) = (bounds.center(), round_below(0.25 * bounds.size().min_element()));
         let text = format!("exp(-((x - {})^2 + (y - {})^2) / {width}^2)", at.x, at.y);
         let formula = Formula::parse(&text).unwrap_or_else(|_| Formula::constant_of(0.0));
-        Self::Surface(Surface { source: SurfaceSource::Formula(formula), goal: SurfaceGoal::Within(0.01) })
+        let (source, goal) = (SurfaceSource::Formula(formula), SurfaceGoal::Within(0.01));
+        Self::Surface(Surface { source, goal, norm: SurfaceNorm::default() })
     }
 
     fn depths(source: RasterSource, rule: DepthRule) -> Option<Self> {

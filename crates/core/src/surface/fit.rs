@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::samples::SurfaceSamples;
+use crate::layers::SurfaceNorm;
 use crate::mesh::MeshView;
 
 /// Triangles that a thread takes at a time.
@@ -18,17 +19,23 @@ pub struct SurfaceFit {
     pub largest: f64,
     /// The place of the largest difference, in world units.
     pub at: DVec2,
-    /// The square root of the mean of the squares of the differences.
+    /// The error of the norm [`SurfaceNorm::RootMeanSquare`].
     pub rms: f64,
+    /// The error of the norm [`SurfaceNorm::Gradient`].
+    pub gradient: f64,
     /// The number of samples. One on an edge or at a corner counts for each triangle that has it.
     pub samples: usize,
 }
+
+/// The norms whose squares are summed.
+const SUMMED: [SurfaceNorm; 2] = [SurfaceNorm::RootMeanSquare, SurfaceNorm::Gradient];
 
 /// Sums over samples.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     samples: usize,
-    squares: f64,
+    /// Integrals of the squares of differences, and of those of gradients.
+    squares: [f64; 2],
     largest: f64,
     at: DVec2,
 }
@@ -36,7 +43,6 @@ struct Sums {
 impl Sums {
     fn add(&mut self, at: DVec2, difference: f64) {
         self.samples += 1;
-        self.squares += difference * difference;
         if difference.abs() > self.largest {
             (self.largest, self.at) = (difference.abs(), at);
         }
@@ -45,7 +51,19 @@ impl Sums {
     fn joined(self, other: &Self) -> Self {
         let is_larger = other.largest > self.largest;
         let (largest, at) = if is_larger { (other.largest, other.at) } else { (self.largest, self.at) };
-        Self { samples: self.samples + other.samples, squares: self.squares + other.squares, largest, at }
+        let squares = [0, 1].map(|n| self.squares[n] + other.squares[n]);
+        Self { samples: self.samples + other.samples, squares, largest, at }
+    }
+}
+
+impl SurfaceFit {
+    /// Returns the error by a norm.
+    pub fn error(&self, norm: SurfaceNorm) -> f64 {
+        match norm {
+            SurfaceNorm::Largest => self.largest,
+            SurfaceNorm::RootMeanSquare => self.rms,
+            SurfaceNorm::Gradient => self.gradient,
+        }
     }
 }
 
@@ -76,6 +94,9 @@ impl SurfaceSamples {
             {
                 for layer in &self.layers {
                     layer.each(corners, [a, b, c], |at, difference| sums.add(at, difference));
+                    for (sum, norm) in sums.squares.iter_mut().zip(SUMMED) {
+                        *sum += layer.squares(corners, [a, b, c], norm);
+                    }
                 }
             }
             sums
@@ -83,7 +104,7 @@ impl SurfaceSamples {
         // In the order of the triangles, so that the sum is the same for any number of threads.
         let sums: Vec<Sums> = sums.collect();
         let Sums { samples, squares, largest, at } = sums.iter().fold(Sums::default(), Sums::joined);
-        let rms = if samples == 0 { 0.0 } else { libm::sqrt(squares / samples as f64) };
-        SurfaceFit { heights, largest, at, rms, samples }
+        let [rms, gradient] = [0, 1].map(|n| self.root_of_mean(squares[n], SUMMED[n]));
+        SurfaceFit { heights, largest, at, rms, gradient, samples }
     }
 }

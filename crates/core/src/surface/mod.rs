@@ -22,15 +22,18 @@
 mod alignment;
 mod fit;
 mod nodes;
+mod order;
 mod queue;
 mod rule;
 mod samples;
 mod sampling;
+mod squares;
+mod two_sum;
 
 pub use alignment::domain_on_samples;
 pub use fit::SurfaceFit;
 pub use nodes::SurfaceNodes;
-pub use queue::ErrorQueue;
+pub use queue::{CurvePoint, ErrorQueue, QueueGoal};
 pub use rule::{SurfaceDemand, SurfaceRule};
 pub use samples::SurfaceSamples;
 pub use sampling::SurfaceSampling;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::SurfaceSamples;
+use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::Element;
 
 /// The heights of the surface at the nodes of a mesh that is being refined, by the numbers of the nodes.
@@ -55,6 +56,18 @@ impl SurfaceTriangle {
             _ => None,
         };
         Self { corners, heights }
+    }
+
+    /// Returns a triangle given by its corners on a lattice.
+    pub(super) fn of(corners: [LatticePoint; 3], lattice: &Lattice, samples: &SurfaceSamples) -> Self {
+        let corners = corners.map(|corner| lattice.world_from_lattice(corner));
+        Self::new(corners, corners.map(|corner| samples.height_at(corner)))
+    }
+
+    /// Returns the area, in square world units.
+    pub(super) fn area(&self) -> f64 {
+        let [a, b, c] = self.corners;
+        0.5 * (b - a).perp_dot(c - a).abs()
     }
 
     /// Returns the longest edge, in world units.

@@ -1,87 +1,91 @@
-//! The least error that is possible with a number of triangles.
+//! Where the bisections for a surface end.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
-use super::{SurfaceNodes, SurfaceRule};
+use super::SurfaceRule;
+use super::order::{BisectionOrder, Measured};
 use crate::domain::DomainOnLattice;
-use crate::mesh::{Element, Limits, Mesh, Progress, TriangleId};
+use crate::layers::SurfaceNorm;
+use crate::mesh::{Element, Limits, Mesh, Progress};
 
-/// Finds the least error that a mesh of at most so many triangles can have, in slices.
+/// What an [`ErrorQueue`] looks for, by a norm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QueueGoal {
+    /// The error that is meant.
+    pub norm: SurfaceNorm,
+    /// The error that the mesh is to have at most.
+    pub within: Option<f64>,
+    /// The number of triangles that it may have.
+    pub at_most: Option<usize>,
+}
+
+/// Bisects the triangles of a mesh in the order in which they count, and finds where a goal is met, in
+/// slices.
 ///
-/// The triangle of the largest error is bisected, again and again. Each time that all errors are below those
-/// of the triangles bisected so far, the mesh is the smallest of its largest error; the last one with no more
-/// triangles than asked for has the least.
+/// ```text
+///   bisections ───────────────────────────────▶
+///   error       9    7    5    3    2    1
+///                         ▲         ▲
+///                within 5 ┘         └ the least with at most N triangles
+/// ```
+///
+/// Each time that all triangles left count less than those bisected so far, the mesh does not depend on the
+/// order of equals: these are the meshes that can be found. For the largest difference, each is the smallest
+/// of its error.
 #[derive(Clone, Debug)]
 pub struct ErrorQueue {
-    mesh: Mesh,
-    most: usize,
-    /// Triangles at this level are not bisected.
-    deepest_level: u32,
-    nodes: SurfaceNodes,
-    queue: BinaryHeap<Entry>,
-    /// Triangles whose error is not known yet.
-    new: Vec<TriangleId>,
-    /// By triangle, whether it is counted: it is in the domain.
-    is_counted: Vec<bool>,
-    counted: usize,
-    /// The least error of the triangles that were bisected.
-    bisected: f64,
-    /// The largest error of the last mesh with few enough triangles.
-    least: Option<f64>,
-    chain: Vec<TriangleId>,
+    order: BisectionOrder,
+    goal: QueueGoal,
+    /// No mesh has more triangles.
+    limit: usize,
+    within: Option<Found>,
+    at_most: Option<Found>,
+    curve: Vec<CurvePoint>,
+    last: Option<CurvePoint>,
 }
 
-/// A triangle with its error. It counts as long as the triangle has this level: bisected, it has the next.
+/// A mesh, as a point of the curve of error against triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// The number of triangles in the domain.
+    pub triangles: usize,
+    /// The error of the mesh.
+    pub error: f64,
+}
+
+/// A mesh that meets a part of the goal.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct Found {
     error: f64,
-    id: TriangleId,
-    level: u32,
+    /// The number of bisections in order until then.
+    bisections: usize,
 }
 
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.error.total_cmp(&other.error).then(other.id.cmp(&self.id))
-    }
-}
+/// By how much the number of triangles grows from one point of a curve to the next at least.
+const CURVE_GROWTH: f64 = 1.02;
 
 impl ErrorQueue {
     /// Returns the work on a mesh that meets everything else that is asked of it.
-    pub fn new(mesh: Mesh, most: usize, limits: &Limits) -> Self {
+    pub fn new(mesh: Mesh, goal: QueueGoal, limits: &Limits) -> Self {
         let deepest = mesh.lattice().deepest_level();
+        let deepest = limits.max_level.unwrap_or(deepest).min(deepest);
         Self {
-            most: most.min(limits.most_triangles()),
-            deepest_level: limits.max_level.unwrap_or(deepest).min(deepest),
-            nodes: SurfaceNodes::default(),
-            queue: BinaryHeap::new(),
-            new: (0..mesh.raw_triangle_count()).map(TriangleId::from_index).collect(),
-            is_counted: Vec::new(),
-            counted: 0,
-            bisected: f64::INFINITY,
-            least: None,
-            chain: Vec::new(),
-            mesh,
+            order: BisectionOrder::new(mesh, goal.norm, deepest),
+            goal,
+            limit: limits.most_triangles(),
+            within: None,
+            at_most: None,
+            curve: Vec::new(),
+            last: None,
         }
     }
 
     /// Returns the number of triangles so far.
     pub fn triangles(&self) -> usize {
-        self.mesh.raw_triangle_count()
+        self.order.triangles()
+    }
+
+    /// Returns what is looked for.
+    pub fn goal(&self) -> QueueGoal {
+        self.goal
     }
 
     /// One slice of work: about `budget` triangles. `is_bound` says which triangles must be bisected by
@@ -96,74 +100,89 @@ impl ErrorQueue {
         mut is_bound: impl FnMut(&Element) -> Result<bool, E>,
         budget: usize,
     ) -> Result<Progress, E> {
+        let norm = self.goal.norm;
+        let mut measure = |element: &Element, nodes: &mut _| {
+            let measured = rule.measure(element, nodes, norm);
+            let is_bound = measured.is_bound || is_bound(element)?;
+            Ok(Measured { is_bound, is_inside: !domain.excludes(element), ..measured })
+        };
         for _ in 0..budget {
-            if let Some(id) = self.new.pop() {
-                self.add(id, rule, domain, &mut is_bound)?;
-            } else if self.is_finished() {
-                return Ok(Progress::Done);
-            } else {
-                self.bisect_largest();
+            if self.order.measure_next(&mut measure)? {
+                continue;
             }
+            if self.is_finished(rule) {
+                return Ok(Progress::Done);
+            }
+            self.order.bisect_next(&mut measure)?;
         }
         Ok(Progress::More)
     }
 
-    /// Returns the largest error of the mesh with the least; `None` where the mesh has too many triangles
-    /// from the start.
-    pub fn least_error(&self) -> Option<f64> {
-        self.least
+    /// Returns the error of the mesh that was found; `None` where every mesh has too many triangles.
+    pub fn found_error(&self) -> Option<f64> {
+        self.found().map(|found| found.error)
     }
 
-    /// Notes the error of a triangle, and counts it.
-    fn add<E>(
-        &mut self,
-        id: TriangleId,
-        rule: &SurfaceRule,
-        domain: &DomainOnLattice,
-        is_bound: &mut impl FnMut(&Element) -> Result<bool, E>,
-    ) -> Result<(), E> {
-        let element = self.mesh.element(id);
-        let level = element.triangle.level();
-        let is_inside = !domain.excludes(&element);
-        if level < self.deepest_level {
-            let error = match is_bound(&element)? {
-                true => f64::INFINITY,
-                false => rule.counted_error(&element, &mut self.nodes),
+    /// Returns the triangles that are bisected for the goal, as `triangle_key`, and all there are where no
+    /// mesh meets it.
+    pub(super) fn bisected(&self) -> &[u64] {
+        let all = self.order.bisected();
+        match (self.found(), self.within_is_missed()) {
+            (_, true) => all,
+            (found, false) => &all[..found.map_or(0, |found| found.bisections)],
+        }
+    }
+
+    /// Returns the error of the meshes by the number of their triangles, from the first mesh to the last;
+    /// some of those between.
+    pub fn curve(&self) -> impl Iterator<Item = CurvePoint> + '_ {
+        let last = self.last.filter(|last| self.curve.last() != Some(last));
+        self.curve.iter().copied().chain(last)
+    }
+
+    /// Returns the later one of the meshes that were looked for.
+    fn found(&self) -> Option<Found> {
+        let found = [self.within, self.at_most].into_iter().flatten();
+        found.max_by_key(|found| found.bisections)
+    }
+
+    fn within_is_missed(&self) -> bool {
+        self.goal.within.is_some() && self.within.is_none()
+    }
+
+    /// Returns whether nothing better can follow. Notes the mesh as it is where it can be one that is looked
+    /// for.
+    fn is_finished(&mut self, rule: &SurfaceRule) -> bool {
+        let (key, can_be_found) = self.order.next_key();
+        let triangles = self.order.counted();
+        if can_be_found && key.is_finite() {
+            let error = match self.goal.norm {
+                SurfaceNorm::Largest => key,
+                norm => rule.samples().root_of_mean(self.order.squares(), norm),
             };
-            if error > 0.0 {
-                self.queue.push(Entry { error, id, level });
-            }
+            self.note(CurvePoint { triangles, error });
         }
-        if id.index() >= self.is_counted.len() {
-            self.is_counted.resize(id.index() + 1, false);
-        }
-        let was_inside = std::mem::replace(&mut self.is_counted[id.index()], is_inside);
-        self.counted = self.counted + usize::from(is_inside) - usize::from(was_inside);
-        Ok(())
+        let may_be_better = self.goal.at_most.is_some_and(|most| triangles <= most);
+        let is_met = !self.within_is_missed() && !may_be_better;
+        is_met || key == 0.0 || self.order.triangles() > self.limit
     }
 
-    /// Returns whether no further triangle can be bisected. Notes the mesh as it is where it is the smallest
-    /// of its error.
-    fn is_finished(&mut self) -> bool {
-        while self.queue.peek().is_some_and(|top| self.mesh.triangle(top.id).level() != top.level) {
-            self.queue.pop();
+    fn note(&mut self, point: CurvePoint) {
+        let found = Found { error: point.error, bisections: self.order.bisected().len() };
+        if self.within_is_missed() && self.goal.within.is_some_and(|within| point.error <= within) {
+            self.within = Some(found);
         }
-        let largest = self.queue.peek().map_or(0.0, |top| top.error);
-        if self.counted > self.most {
-            return true;
+        let is_allowed = self.goal.at_most.is_some_and(|most| point.triangles <= most);
+        if is_allowed && self.at_most.is_none_or(|least| point.error < least.error) {
+            self.at_most = Some(found);
         }
-        if largest < self.bisected {
-            self.least = Some(largest);
+        if self.goal.at_most.is_some_and(|most| point.triangles > most) {
+            return;
         }
-        largest == 0.0
-    }
-
-    /// Bisects the triangle of the largest error, and those that must be bisected with it.
-    fn bisect_largest(&mut self) {
-        let Some(Entry { error, id, .. }) = self.queue.pop() else { return };
-        self.bisected = self.bisected.min(error);
-        let (first, new) = (self.mesh.raw_triangle_count(), &mut self.new);
-        self.mesh.refine_triangle_with(id, &mut self.chain, |_, parent| new.push(parent));
-        self.new.extend((first..self.mesh.raw_triangle_count()).map(TriangleId::from_index));
+        self.last = Some(point);
+        let grown = |last: &CurvePoint| point.triangles as f64 >= CURVE_GROWTH * last.triangles as f64;
+        if self.curve.last().is_none_or(grown) {
+            self.curve.push(point);
+        }
     }
 }

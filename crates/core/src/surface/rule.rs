@@ -1,13 +1,16 @@
 //! Which triangles must be bisected for a surface.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::nodes::{SurfaceNodes, SurfaceTriangle};
+use super::order::{Measured, triangle_key};
+use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
 use crate::geometry::{Lattice, LatticePoint};
-use crate::layers::{LayerId, SurfaceGoal};
+use crate::layers::{LayerId, SurfaceGoal, SurfaceNorm};
 use crate::mesh::Element;
 
 /// Share of the step between samples below which a triangle is not bisected. Between samples a surface is
@@ -18,8 +21,15 @@ const LEAST_SHARE: f64 = 1.0 / 32.0;
 #[derive(Clone, Debug)]
 pub struct SurfaceRule {
     samples: Arc<SurfaceSamples>,
-    /// The largest error of each layer of the samples; infinite where it is not known yet.
+    /// The largest difference that each layer of the samples allows; infinite where that is not known yet,
+    /// and for layers of other norms.
     errors: Vec<f64>,
+    /// The triangles that are bisected for sums of squares, as [`triangle_key`].
+    bisected: Arc<HashSet<u64>>,
+    /// The errors by the norms of sums of squares that the mesh was made for.
+    summed: Vec<(SurfaceNorm, f64)>,
+    /// The number of triangles that a layer allows, where the mesh has more without the surface.
+    exceeded_count: Option<usize>,
 }
 
 /// Why a triangle is too far from a surface.
@@ -27,23 +37,27 @@ pub struct SurfaceRule {
 pub struct SurfaceDemand {
     /// The layer of the surface.
     pub layer: LayerId,
-    /// The largest difference of a sample in the triangle, of either sign.
+    /// The error that the layer is about.
+    pub norm: SurfaceNorm,
+    /// The error of the triangle: the largest difference of a sample in it, of either sign, or the root of
+    /// the mean of the squares in it.
     pub error: f64,
-    /// The place of this sample, in world units.
+    /// The place of the largest difference, in world units.
     pub at: DVec2,
-    /// The largest error that the layer allows.
+    /// The largest difference that the layer allows, or the error of the whole mesh.
     pub most: f64,
 }
 
 impl SurfaceRule {
-    /// Returns the condition for samples: by the errors of their layers. Layers with a number of triangles do
-    /// not count, until [`Self::counted`].
+    /// Returns the condition for samples: by the largest differences that their layers allow. Other goals do
+    /// not count, until [`Self::with_found`].
     pub fn new(samples: Arc<SurfaceSamples>) -> Self {
-        let errors = samples.layers.iter().map(|layer| match layer.goal {
-            SurfaceGoal::Within(error) => error,
-            SurfaceGoal::AtMost(_) => f64::INFINITY,
+        let errors = samples.layers.iter().map(|layer| match (layer.norm, layer.goal) {
+            (SurfaceNorm::Largest, SurfaceGoal::Within(error)) => error,
+            _ => f64::INFINITY,
         });
-        Self { errors: errors.collect(), samples }
+        let (bisected, summed) = (Arc::default(), Vec::new());
+        Self { errors: errors.collect(), samples, bisected, summed, exceeded_count: None }
     }
 
     /// Returns the samples.
@@ -51,102 +65,172 @@ impl SurfaceRule {
         &self.samples
     }
 
-    /// Returns the least number of triangles that a layer allows, if one allows a number.
-    pub fn most_triangles(&self) -> Option<usize> {
-        let counts = self.samples.layers.iter().filter_map(|layer| match layer.goal {
-            SurfaceGoal::AtMost(count) => Some(count),
-            SurfaceGoal::Within(_) => None,
+    /// Returns what is to be looked for besides, norm by norm.
+    pub(crate) fn goals(&self) -> Vec<QueueGoal> {
+        let goals = SurfaceNorm::ALL.into_iter().map(|norm| {
+            let of_norm = || self.samples.layers.iter().filter(move |layer| layer.norm == norm);
+            let errors = of_norm().filter_map(|layer| match layer.goal {
+                // The largest difference is asked of each triangle.
+                SurfaceGoal::Within(error) if norm != SurfaceNorm::Largest => Some(error),
+                _ => None,
+            });
+            let counts = of_norm().filter_map(|layer| match layer.goal {
+                SurfaceGoal::AtMost(count) => Some(count),
+                SurfaceGoal::Within(_) => None,
+            });
+            QueueGoal { norm, within: errors.min_by(f64::total_cmp), at_most: counts.min() }
         });
-        counts.min()
+        goals.filter(|goal| goal.within.is_some() || goal.at_most.is_some()).collect()
     }
 
-    /// Returns whether the mesh has more triangles than a layer allows, also without the surface of the
-    /// layer.
-    pub fn has_too_few_triangles(&self) -> bool {
-        self.errors.iter().any(|error| error.is_infinite())
+    /// Returns the number of triangles that a layer allows, where the mesh has more of them even without the
+    /// surface of the layer.
+    pub fn exceeded_count(&self) -> Option<usize> {
+        self.exceeded_count
     }
 
-    /// Returns this condition with the least error that layers with a number of triangles can have.
-    pub fn counted(mut self, least_error: f64) -> Self {
-        for (error, layer) in self.errors.iter_mut().zip(&self.samples.layers) {
-            if matches!(layer.goal, SurfaceGoal::AtMost(_)) {
-                *error = least_error;
+    /// Returns this condition with what was found for one of its goals.
+    pub(crate) fn with_found(mut self, queue: &ErrorQueue) -> Self {
+        let QueueGoal { norm, at_most, within } = queue.goal();
+        let error = queue.found_error();
+        if error.is_none() {
+            self.exceeded_count = self.exceeded_count.or(at_most);
+        }
+        if norm == SurfaceNorm::Largest {
+            for (most, layer) in self.errors.iter_mut().zip(&self.samples.layers) {
+                if layer.is_counted(norm) {
+                    *most = error.unwrap_or(f64::INFINITY);
+                }
             }
+        } else {
+            self.summed.push((norm, error.or(within).unwrap_or(f64::INFINITY)));
+            Arc::make_mut(&mut self.bisected).extend(queue.bisected());
         }
         self
     }
 
-    /// Returns the largest error of triangles by layer, from the top to the bottom.
+    /// Returns the error of each layer by its norm, from the top to the bottom: the largest difference that
+    /// it allows, or the error that the mesh was made for. It is infinite where none was found.
     pub fn errors(&self) -> impl Iterator<Item = (LayerId, f64)> + '_ {
-        self.samples.layers.iter().zip(&self.errors).map(|(layer, &error)| (layer.id, error))
+        let layers = self.samples.layers.iter().zip(&self.errors);
+        layers.map(|(layer, &error)| (layer.id, self.summed_error(layer.norm).unwrap_or(error)))
     }
 
-    /// Returns the height of the surface at a point in world units, and the largest error that its layer
-    /// allows; `None` where no layer that covers it has a value.
+    fn summed_error(&self, norm: SurfaceNorm) -> Option<f64> {
+        self.summed.iter().find(|(one, _)| *one == norm).map(|(_, error)| *error)
+    }
+
+    /// Returns the height of the surface at a point in world units, and the largest difference that its layer
+    /// allows, which is infinite where its error is another one; `None` where no layer that covers it has a
+    /// value.
     pub fn allowed_at(&self, point: DVec2) -> Option<(f64, f64)> {
         let layers = self.samples.layers.iter().zip(&self.errors);
         let mut covering = layers.filter(|(layer, _)| layer.covers(point));
         covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))
     }
 
-    /// Returns whether the error of a triangle exceeds that of a layer. `nodes` keeps the heights at nodes.
+    /// Returns the largest error by a norm that the mesh was made for, if a layer has this norm.
+    pub fn error_of(&self, norm: SurfaceNorm) -> Option<f64> {
+        let layers = self.samples.layers.iter().zip(&self.errors).filter(|(layer, _)| layer.norm == norm);
+        let errors = layers.map(|(_, &error)| self.summed_error(norm).unwrap_or(error));
+        errors.max_by(f64::total_cmp)
+    }
+
+    /// Returns whether a triangle is bisected for a surface. `nodes` keeps the heights at nodes.
     pub fn exceeds(&self, element: &Element, nodes: &mut SurfaceNodes) -> bool {
-        self.layer_exceeded(&nodes.triangle(element, &self.samples)).is_some()
+        self.is_bisected(element.corners)
+            || self.layer_exceeded(&nodes.triangle(element, &self.samples)).is_some()
     }
 
-    /// Returns the layer whose error a triangle, given by its corners, exceeds, if there is one.
-    pub fn exceeded_at(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<LayerId> {
-        let corners = corners.map(|corner| lattice.world_from_lattice(corner));
-        let heights = corners.map(|corner| self.samples.height_at(corner));
-        self.layer_exceeded(&SurfaceTriangle::new(corners, heights))
+    /// Returns whether a triangle, given by its corners, is bisected for a surface.
+    pub fn exceeds_at(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> bool {
+        self.is_bisected(corners)
+            || self.layer_exceeded(&SurfaceTriangle::of(corners, lattice, &self.samples)).is_some()
     }
 
-    /// Returns the sample of a triangle, given by its corners, that is farthest from its plane in the layer
-    /// whose error it exceeds; `None` where it exceeds none, and where the surface has no height at a corner.
+    fn is_bisected(&self, corners: [LatticePoint; 3]) -> bool {
+        !self.bisected.is_empty() && self.bisected.contains(&triangle_key(corners))
+    }
+
+    /// Returns why a triangle, given by its corners, is bisected for a surface; `None` where it is not, and
+    /// where the surface has no height at a corner.
     pub fn demand_in(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<SurfaceDemand> {
-        let layer = self.exceeded_at(corners, lattice)?;
-        let corners = corners.map(|corner| lattice.world_from_lattice(corner));
-        let heights = corners.map(|corner| self.samples.height_at(corner));
-        let heights = SurfaceTriangle::new(corners, heights).heights?;
-        let layers = self.samples.layers.iter().zip(&self.errors);
-        let (samples, &most) = layers.into_iter().find(|(samples, _)| samples.id == layer)?;
-        let mut demand = SurfaceDemand { layer, error: 0.0, at: corners[0], most };
-        samples.each(corners, heights, |at, difference| {
+        let triangle = SurfaceTriangle::of(corners, lattice, &self.samples);
+        let heights = triangle.heights?;
+        let layers = || self.samples.layers.iter();
+        let by_difference = self.layer_exceeded(&triangle);
+        let by_sum =
+            || layers().find(|one| one.norm != SurfaceNorm::Largest && one.has_sample(triangle.corners));
+        let layer = match by_difference {
+            Some(layer) => layer,
+            None => by_sum().filter(|_| self.is_bisected(corners))?,
+        };
+        let most = self.errors().find(|(id, _)| *id == layer.id)?.1;
+        let mut demand =
+            SurfaceDemand { layer: layer.id, norm: layer.norm, error: 0.0, at: triangle.corners[0], most };
+        layer.each(triangle.corners, heights, |at, difference| {
             if difference.abs() > demand.error {
                 (demand.error, demand.at) = (difference.abs(), at);
             }
         });
+        if layer.norm != SurfaceNorm::Largest {
+            let squares = layer.squares(triangle.corners, heights, layer.norm);
+            demand.error = libm::sqrt(squares / triangle.area());
+        }
         Some(demand)
     }
 
-    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<LayerId> {
+    /// Returns a layer whose largest difference a triangle exceeds.
+    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<&LayerSamples> {
         let layers = self.samples.layers.iter().zip(&self.errors);
         let mut asking = layers.filter(|(layer, error)| error.is_finite() && layer.may_ask(triangle));
         let exceeded = asking.find(|(layer, error)| match triangle.heights {
             Some(heights) => layer.exceeds(triangle.corners, heights, **error),
             None => layer.has_sample(triangle.corners),
         });
-        exceeded.map(|(layer, _)| layer.id)
+        exceeded.map(|(layer, _)| layer)
     }
 
-    /// Returns the error of a triangle by the layers with a number of triangles. It is infinite where the
-    /// triangle must be bisected in any case.
-    pub(super) fn counted_error(&self, element: &Element, nodes: &mut SurfaceNodes) -> f64 {
+    /// Returns what a norm says about a triangle of the domain. `nodes` keeps the heights at nodes.
+    pub(super) fn measure(&self, element: &Element, nodes: &mut SurfaceNodes, norm: SurfaceNorm) -> Measured {
         let triangle = nodes.triangle(element, &self.samples);
-        if self.layer_exceeded(&triangle).is_some() {
-            return f64::INFINITY;
+        let asking = || {
+            let counted = self.samples.layers.iter().filter(|layer| layer.is_counted(norm));
+            counted.filter(|layer| layer.may_ask(&triangle))
+        };
+        let is_bound = self.is_bisected(element.corners)
+            || self.layer_exceeded(&triangle).is_some()
+            || (triangle.heights.is_none() && asking().any(|layer| layer.has_sample(triangle.corners)));
+        let error = self.error_of_triangle(&triangle, norm);
+        Measured { is_bound, error, may_be_bisected: asking().next().is_some(), is_inside: true }
+    }
+
+    /// Returns the error of a triangle, given by its corners, by a norm: the largest difference from the
+    /// layers with a number of triangles, or its part of the sum of the squares.
+    pub(crate) fn error_at(&self, corners: [LatticePoint; 3], lattice: &Lattice, norm: SurfaceNorm) -> f64 {
+        self.error_of_triangle(&SurfaceTriangle::of(corners, lattice, &self.samples), norm)
+    }
+
+    fn error_of_triangle(&self, triangle: &SurfaceTriangle, norm: SurfaceNorm) -> f64 {
+        let Some(heights) = triangle.heights else { return 0.0 };
+        let layers = self.samples.layers.iter().filter(|layer| layer.is_counted(norm));
+        match norm {
+            SurfaceNorm::Largest => {
+                let asking = layers.filter(|layer| layer.may_ask(triangle));
+                asking.map(|layer| layer.error(triangle.corners, heights)).fold(0.0, f64::max)
+            }
+            _ => layers.map(|layer| layer.squares(triangle.corners, heights, norm)).sum(),
         }
-        let counted = self.samples.layers.iter().filter(|layer| matches!(layer.goal, SurfaceGoal::AtMost(_)));
-        let errors = counted.filter(|layer| layer.may_ask(&triangle)).map(|layer| match triangle.heights {
-            Some(heights) => layer.error(triangle.corners, heights),
-            None if layer.has_sample(triangle.corners) => f64::INFINITY,
-            None => 0.0,
-        });
-        errors.fold(0.0, f64::max)
     }
 }
 
 impl LayerSamples {
+    /// Returns whether the layer has a goal by this norm that is looked for, and not asked of each triangle.
+    fn is_counted(&self, norm: SurfaceNorm) -> bool {
+        let is_counted = norm != SurfaceNorm::Largest || matches!(self.goal, SurfaceGoal::AtMost(_));
+        self.norm == norm && is_counted
+    }
+
     /// Returns whether a triangle is so large that its error can be that of a surface without jumps.
     fn may_ask(&self, triangle: &SurfaceTriangle) -> bool {
         triangle.diameter() >= LEAST_SHARE * self.grid.step.min_element()

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::layers::{LayerId, Mask, SurfaceGoal, SurfaceSource};
+use crate::layers::{LayerId, Mask, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use crate::raster::RasterPyramid;
 
 /// Farthest that a corner without a value may be from a pixel with one, in pixels.
@@ -23,6 +23,7 @@ pub struct SurfaceSamples {
 pub(super) struct LayerSamples {
     pub(super) id: LayerId,
     pub(super) goal: SurfaceGoal,
+    pub(super) norm: SurfaceNorm,
     pub(super) source: SurfaceSource,
     pub(super) mask: Option<Mask>,
     /// Whether no value of the source is infinite.
@@ -31,6 +32,8 @@ pub(super) struct LayerSamples {
     /// Row by row from the lowest; NaN where the surface has no value, the domain ends, or another layer
     /// counts.
     pub(super) values: SampleValues,
+    /// The areas that the samples stand for, in square world units: those of values, and those of gradients.
+    pub(super) areas: [f64; 2],
 }
 
 /// The places of samples: `first + step * (column, row)`.
@@ -58,9 +61,9 @@ pub(super) enum SampleValues {
 /// The plane through the surface at the corners of a triangle, in the coordinates of a grid of samples:
 /// columns and rows.
 pub(super) struct Plane {
-    corners: [DVec2; 3],
+    pub(super) corners: [DVec2; 3],
     at_first: f64,
-    gradient: DVec2,
+    pub(super) gradient: DVec2,
 }
 
 /// The samples of a row in a triangle.
@@ -75,7 +78,7 @@ pub(super) struct SampleRow {
 
 /// How far beyond an edge of a triangle a sample counts as in it, in steps of the grid: far more than the
 /// rounding of its place.
-const CLOSED: f64 = 1e-9;
+pub(super) const CLOSED: f64 = 1e-9;
 
 impl SurfaceSamples {
     /// Returns the height of the surface at a point in world units: of the topmost layer that covers it and
@@ -180,13 +183,13 @@ impl SampleGrid {
         self.first + self.step * DVec2::new(f64::from(column), f64::from(row))
     }
 
-    fn places(&self, row: &SampleRow) -> std::ops::Range<usize> {
+    pub(super) fn places(&self, row: &SampleRow) -> std::ops::Range<usize> {
         let start = row.row as usize * self.size[0] as usize;
         start + row.columns.start as usize..start + row.columns.end as usize
     }
 
     /// Returns the plane with these heights at corners in world units.
-    fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> Plane {
+    pub(super) fn plane(&self, corners: [DVec2; 3], heights: [f64; 3]) -> Plane {
         let corners = corners.map(|corner| (corner - self.first) / self.step);
         let [a, b, c] = corners;
         let (u, v) = (b - a, c - a);
@@ -198,7 +201,7 @@ impl SampleGrid {
 
 impl Plane {
     /// Returns the rows of a grid that meet the closed triangle.
-    fn rows(&self, grid: &SampleGrid) -> impl Iterator<Item = SampleRow> {
+    pub(super) fn rows(&self, grid: &SampleGrid) -> impl Iterator<Item = SampleRow> {
         let [columns, rows] = grid.size;
         let heights = self.corners.map(|corner| corner.y);
         let rows = between(heights, rows);
@@ -217,7 +220,7 @@ impl Plane {
 
     /// Returns the least and the greatest column of the triangle at a row, in any order and with repeats; NaN
     /// where it has none.
-    fn ends_in(&self, row: f64) -> [f64; 3] {
+    pub(super) fn ends_in(&self, row: f64) -> [f64; 3] {
         let [a, b, c] = self.corners;
         [[a, b], [b, c], [c, a]].map(|[from, to]| {
             let rise = to.y - from.y;
@@ -252,7 +255,7 @@ impl SampleRow {
 
     /// Returns the height of the plane at the sample with this place in the row.
     #[inline]
-    fn height(&self, place: usize) -> f64 {
+    pub(super) fn height(&self, place: usize) -> f64 {
         self.first + self.rise * place as f64
     }
 

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::samples::{LayerSamples, SampleGrid, SampleValues, SurfaceSamples};
 use crate::domain::DomainOnLattice;
-use crate::geometry::Lattice;
+use crate::geometry::{Lattice, Rect};
 use crate::layers::{Layer, LayerKind, SurfaceSource};
 use crate::mesh::Progress;
 use crate::raster::Raster;
@@ -25,6 +25,8 @@ pub struct SurfaceSampling {
     layer: usize,
     /// The row that is next.
     row: u32,
+    /// The domain is in this rectangle, in world units.
+    bounds: Rect,
 }
 
 impl SurfaceSampling {
@@ -35,7 +37,7 @@ impl SurfaceSampling {
         let layers: Vec<LayerSamples> =
             visible.filter_map(|layer| LayerSamples::of(layer, lattice)).collect();
         let found = SurfaceSamples { layers };
-        (!found.layers.is_empty()).then_some(Self { found, layer: 0, row: 0 })
+        (!found.layers.is_empty()).then_some(Self { found, layer: 0, row: 0, bounds: lattice.bounds() })
     }
 
     /// One slice of work: about `budget` samples.
@@ -58,6 +60,7 @@ impl SurfaceSampling {
             self.found.layers[self.layer].values.append(new);
         }
         if self.row >= rows {
+            self.found.layers[self.layer].measure(&self.bounds);
             (self.layer, self.row) = (self.layer + 1, 0);
         }
         if self.layer == self.found.layers.len() { Progress::Done } else { Progress::More }
@@ -128,11 +131,13 @@ impl LayerSamples {
         Some(Self {
             id: layer.id,
             goal: surface.goal,
+            norm: surface.norm,
             source: surface.source.clone(),
             mask: layer.mask.clone(),
             is_finite,
             grid,
             values,
+            areas: [0.0; 2],
         })
     }
 }

@@ -4,11 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
-use meshbrush_core::build::{BuiltMesh, MeshBuilder};
+use meshbrush_core::build::{BuiltMesh, CurveTracing, MeshBuilder, Parts};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{Layer, LayerKind, RasterSource, Surface, SurfaceGoal, SurfaceSource};
+use meshbrush_core::layers::{
+    Layer, LayerKind, RasterSource, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
+};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Limits, Mesh, Progress, TriangleId};
@@ -35,7 +37,7 @@ fn built(settings: &Settings, max_level: Option<u32>) -> BuiltMesh {
 fn of_raster(raster: Raster, goal: SurfaceGoal) -> LayerKind {
     let raster = Arc::new(RasterPyramid::new(raster));
     let source = SurfaceSource::Raster(RasterSource { name: "heights.asc".into(), raster });
-    LayerKind::Surface(Surface { source, goal })
+    LayerKind::Surface(Surface { source, goal, norm: SurfaceNorm::Largest })
 }
 
 /// Every conforming mesh down to a level, from the coarsest.
@@ -260,7 +262,11 @@ fn the_errors_of_meshes_are_those_of_the_referee_and_one_ulp_below_another_mesh_
 #[test]
 fn a_formula_that_jumps_ends_and_its_error_says_where() {
     let formula = Formula::parse("if(x + 0.3 * y > 0.61, 1, 0)").unwrap();
-    let surface = Surface { source: SurfaceSource::Formula(formula), goal: SurfaceGoal::Within(0.1) };
+    let surface = Surface {
+        source: SurfaceSource::Formula(formula),
+        goal: SurfaceGoal::Within(0.1),
+        norm: SurfaceNorm::Largest,
+    };
     let ours = built(&settings(Domain::rectangle(Rect::UNIT), 0.25, [LayerKind::Surface(surface)]), None);
     // Samples are at nodes: no triangle has another one once all of them are nodes.
     let fit = ours.surface.as_ref().unwrap().samples().fit(ours.mesh.extract().view());
@@ -280,4 +286,154 @@ fn samples_outside_the_domain_do_not_count() {
     let ours = built(&settings(domain, 0.125, [surface]), None).mesh;
     let beyond = ours.nodes().filter(|&(id, _)| ours.world(id).x > 0.51).count();
     assert_eq!(beyond, 0);
+}
+
+/// Values at places of which each stands for the same area: heights, or gradients.
+struct Places<V> {
+    values: Vec<(DVec2, V)>,
+}
+
+impl<V: Copy> Places<V> {
+    /// Returns the root mean square over a mesh of the unit square of how far the values are from those of a
+    /// triangle. What lies on an edge counts half on each side.
+    fn root_mean_square(&self, mesh: &Mesh, difference: impl Fn([DVec2; 3], DVec2, V) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
+            let corners = mesh.world_corners(id);
+            let whole = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).abs();
+            for &(place, value) in &self.values {
+                let sides = [0, 1, 2].map(|n| {
+                    let [p, q] = [corners[n], corners[(n + 1) % 3]];
+                    (q - p).perp_dot(place - p)
+                        * (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum()
+                });
+                if sides.iter().all(|side| *side >= -1e-10 * whole) {
+                    let is_on_edge = sides.iter().any(|side| *side <= 1e-10 * whole);
+                    let difference = difference(corners, place, value);
+                    sum += if is_on_edge { 0.5 } else { 1.0 } * difference * difference;
+                }
+            }
+        }
+        let is_inside = |place: DVec2| {
+            place.cmpge(DVec2::splat(-1e-9)).all() && place.cmple(DVec2::splat(1.0 + 1e-9)).all()
+        };
+        let count = self.values.iter().filter(|(place, _)| is_inside(*place)).count();
+        (sum / count as f64).sqrt()
+    }
+}
+
+/// A surface as a referee of sums of squares sees it.
+struct SquareReferee {
+    heights: Places<f64>,
+    gradients: Places<DVec2>,
+    at: Box<dyn Fn(DVec2) -> f64>,
+}
+
+impl SquareReferee {
+    fn new(raster: &Raster, at: Box<dyn Fn(DVec2) -> f64>) -> Self {
+        let (step, [columns, rows]) = (raster.pixel_size(), raster.size());
+        let value = |x, y| f64::from(raster.get(x, y));
+        let cells = (0..rows - 1).flat_map(|y| (0..columns - 1).map(move |x| (x, y)));
+        let gradient = |(x, y)| {
+            let ([a, b], [c, d]) = ([value(x, y), value(x + 1, y)], [value(x, y + 1), value(x + 1, y + 1)]);
+            (
+                raster.pixel_center(x, y) + 0.5 * step,
+                dvec2((b + d - a - c) / 2.0, (c + d - a - b) / 2.0) / step,
+            )
+        };
+        let heights = raster.all().pixels().map(|(x, y)| (raster.pixel_center(x, y), value(x, y)));
+        Self {
+            heights: Places { values: heights.collect() },
+            gradients: Places { values: cells.map(gradient).collect() },
+            at,
+        }
+    }
+
+    fn error(&self, mesh: &Mesh, norm: SurfaceNorm) -> f64 {
+        let plane = |corners: [DVec2; 3]| {
+            let [a, b, c] = corners.map(|corner| corner.extend((self.at)(corner)));
+            let normal = (b - a).cross(c - a);
+            (a, -normal.truncate() / normal.z)
+        };
+        match norm {
+            SurfaceNorm::Gradient => {
+                self.gradients.root_mean_square(mesh, |corners, _, value| value.distance(plane(corners).1))
+            }
+            _ => self.heights.root_mean_square(mesh, |corners, place, value| {
+                let (from, gradient) = plane(corners);
+                value - from.z - gradient.dot(place - from.truncate())
+            }),
+        }
+    }
+}
+
+#[test]
+fn sums_of_squares_are_met_with_few_triangles() {
+    let mut random = fastrand::Rng::with_seed(3200);
+    let square = Grid::new(Domain::rectangle(Rect::UNIT), 1.0, 4);
+    for run in 0..crate::runs::runs(24) {
+        let norm = [SurfaceNorm::RootMeanSquare, SurfaceNorm::Gradient][run as usize % 2];
+        // Bisections of noise can raise the error, and no order is near the best then.
+        let (peak, width) = (dvec2(random.f64(), random.f64()), 0.2 + 0.5 * random.f64());
+        let height = |n: u32| {
+            let place = dvec2(f64::from(n % 5), f64::from(n / 5)) / 4.0;
+            (4.0 * (-place.distance_squared(peak) / (width * width)).exp()) as f32
+        };
+        let (bounds, values) = (Rect::new(DVec2::splat(-0.125), DVec2::splat(1.125)), (0..25).map(height));
+        let raster = Raster::from_values(bounds, [5, 5], values.clone().collect());
+        let referee = SquareReferee::new(&raster, bilinear(values.collect(), [5, 5], bounds));
+        let errors: Vec<f64> = square.meshes.iter().map(|mesh| referee.error(mesh, norm)).collect();
+        let all =
+            || square.meshes.iter().zip(&errors).map(|(mesh, error)| (mesh.raw_triangle_count(), *error));
+        let ours = |goal| {
+            let LayerKind::Surface(surface) = of_raster(raster.clone(), goal) else { unreachable!() };
+            let surface = LayerKind::Surface(Surface { norm, ..surface });
+            let built = built(&settings(square.domain.clone(), 1.0, [surface]), Some(4));
+            let fit = built.surface.as_ref().unwrap().samples().fit(built.mesh.extract().view());
+            let found = (built.mesh.raw_triangle_count(), referee.error(&built.mesh, norm));
+            assert!((fit.error(norm) - found.1).abs() < 1e-9, "{norm:?}: {} {}", fit.error(norm), found.1);
+            found
+        };
+        let error = errors[random.usize(..errors.len())].max(1e-3);
+        let (count, found) = ours(SurfaceGoal::Within(error));
+        let least = all().filter(|(_, of_mesh)| *of_mesh <= error).map(|(count, _)| count).min().unwrap();
+        assert!(found <= error * (1.0 + 1e-9) && count <= 2 * least, "{error}: {found}, {count} for {least}");
+        let most = 2 + random.usize(..28);
+        let (count, found) = ours(SurfaceGoal::AtMost(most));
+        let of_half = all().filter(|(count, _)| 2 * *count <= most.max(4)).map(|(_, error)| error);
+        let of_half = of_half.fold(f64::INFINITY, f64::min);
+        assert!(count <= most && found <= of_half + 1e-9, "at most {most}: {found} {of_half}");
+    }
+}
+
+#[test]
+fn each_point_of_a_curve_is_the_mesh_of_its_error_and_its_number() {
+    let formula = |text: &str| SurfaceSource::Formula(Formula::parse(text).unwrap());
+    for norm in SurfaceNorm::ALL {
+        let of = |goal| {
+            let source = formula("exp(-20 * ((x - 0.4)^2 + (y - 0.3)^2)) + 0.2 * x");
+            let surface = LayerKind::Surface(Surface { source, goal, norm });
+            let others = LayerKind::target(Formula::parse("if(x > 0.8, 0.1, inf)").unwrap());
+            settings(Domain::rectangle(Rect::UNIT), 0.25, [others, surface])
+        };
+        // The goal of the document does not matter.
+        let spec = of(SurfaceGoal::Within(0.3))
+            .mesh_spec_on(of(SurfaceGoal::AtMost(9)).lattice().unwrap(), Limits::default());
+        let mut tracing = CurveTracing::new(spec, Parts::default(), norm, 3000);
+        while tracing.advance(None, 97).unwrap() == Progress::More {}
+        let curves = tracing.curves();
+        let others = curves.others.unwrap();
+        assert_eq!(others.triangles, curves.least[0].triangles, "the curve begins with the other layers");
+        assert!(curves.least.last().unwrap().triangles <= 3000 && curves.least.len() > 50);
+        for point in curves.least.iter().skip(1).step_by(17) {
+            let within = built(&of(SurfaceGoal::Within(point.error)), None).mesh;
+            assert!(within.raw_triangle_count() <= point.triangles);
+            let counted = built(&of(SurfaceGoal::AtMost(point.triangles)), None);
+            let fit = counted.surface.as_ref().unwrap().samples().fit(counted.mesh.extract().view());
+            assert!(fit.error(norm) <= point.error * (1.0 + 1e-9), "{norm:?}: {} {point:?}", fit.error(norm));
+        }
+        let counts: Vec<_> = curves.uniform.iter().map(|point| point.triangles).collect();
+        assert_eq!(counts, (5..=11).map(|n| 1 << n).collect::<Vec<usize>>());
+        assert!(curves.uniform.windows(2).filter(|pair| pair[1].error < pair[0].error).count() >= 5);
+    }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::PlotKind;
+use meshbrush_core::surface::CurvePoint;
 
 /// One thing to do with plots.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,8 +12,10 @@ pub enum PlotsCommand {
     Show(PlotKind),
     /// Chooses a plot.
     Choose(PlotKind),
-    /// Computes the figures of the levels.
+    /// Computes what the plot shows.
     Compute,
+    /// Makes the mesh of a point of the curve of errors that of the document.
+    TakeError(CurvePoint),
     /// Sets how the experiment is measured.
     SetUp {
         /// The deepest level.

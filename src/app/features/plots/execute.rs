@@ -1,5 +1,6 @@
 //! Runs the commands about plots.
 
+use super::error_curve::take_point;
 use super::{PLOTS, PlotKind, Plots, PlotsCommand, entries};
 use crate::app::command::{Command, StepCommand};
 use crate::app::kit::{Ctx, Feature, Row};
@@ -13,6 +14,7 @@ impl Feature for Plots {
             PlotsCommand::Show(kind) => self.show(kind, ctx),
             PlotsCommand::Choose(kind) => self.choose(kind),
             PlotsCommand::Compute => self.compute(ctx.session, ctx.jobs),
+            PlotsCommand::TakeError(point) => take_point(point, ctx),
             PlotsCommand::SetUp { last_level, runs } => (self.last_level, self.runs) = (last_level, runs),
             PlotsCommand::Measure => {
                 if !self.kind.is_of_experiment() {

@@ -2,6 +2,7 @@
 
 mod command;
 mod entries;
+mod error_curve;
 mod execute;
 mod files;
 mod panel;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 
 pub use command::PlotsCommand;
 pub use entries::entries;
+use error_curve::TracedCurves;
 pub use panel::{HEIGHT, PLOTS, measuring};
 
 use crate::app::background::{Aim, Background, exported};
@@ -26,6 +28,9 @@ use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, tri
 use meshbrush_study::plot::{self, Plot};
 use meshbrush_study::report::{Experiment, ExperimentRun};
 
+const WITHOUT_SURFACE: &str =
+    "The error is that from a surface. Add a layer of one, with the + above the layers.";
+
 /// The plots that can be shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotKind {
@@ -35,6 +40,8 @@ pub enum PlotKind {
     Bisections,
     /// The smallest and the largest h per level.
     Diameters,
+    /// The error from a surface over the number of triangles.
+    Errors,
     /// The time for one triangle over the number of triangles.
     Time,
     /// The time over the number of triangles, as in Figure 5 of the report.
@@ -43,10 +50,11 @@ pub enum PlotKind {
 
 impl PlotKind {
     /// All of them with their names.
-    pub const ALL: [(Self, &'static str); 5] = [
+    pub const ALL: [(Self, &'static str); 6] = [
         (Self::Triangles, "Triangles per level"),
         (Self::Bisections, "Closure cost"),
         (Self::Diameters, "h per level"),
+        (Self::Errors, "Error against triangles"),
         (Self::Time, "Time per triangle"),
         (Self::Figure5, "Figure 5 of the report"),
     ];
@@ -73,6 +81,7 @@ struct Key {
 pub struct Plots {
     kind: PlotKind,
     levels: Slot<Key, Vec<LevelFigures>>,
+    errors: TracedCurves,
     experiment: Experiment,
     /// The runs of an experiment in progress, each with its round.
     measuring: Option<Job<Result<(u32, ExperimentRun), String>>>,
@@ -89,6 +98,7 @@ impl Default for Plots {
         Self {
             kind: PlotKind::Triangles,
             levels: Slot::default(),
+            errors: TracedCurves::default(),
             experiment: Experiment::default(),
             measuring: None,
             runs_done: 0,
@@ -120,6 +130,9 @@ impl Plots {
             };
             return (!experiment.meshes.is_empty()).then_some((plot, true));
         }
+        if self.kind == PlotKind::Errors {
+            return self.errors.plot(session).ok().flatten();
+        }
         let (key, levels) = self.levels.last()?;
         let plot = match self.kind {
             PlotKind::Triangles => triangles_plot(levels),
@@ -131,23 +144,40 @@ impl Plots {
 
     /// Returns whether there is a plot to show.
     pub fn is_known(&self) -> bool {
-        match self.kind.is_of_experiment() {
-            true => !self.experiment.meshes.is_empty(),
-            false => self.levels.last().is_some(),
+        match self.kind {
+            PlotKind::Time | PlotKind::Figure5 => !self.experiment.meshes.is_empty(),
+            PlotKind::Errors => self.errors.is_known(),
+            _ => self.levels.last().is_some(),
         }
     }
 
-    /// Returns whether [`Self::compute`] would compute the figures of the levels.
+    /// Returns why the chosen plot cannot be shown, if that is known.
+    pub fn obstacle(&self, session: &Session) -> Option<String> {
+        let has_surface = session.document().settings().has_surface();
+        match self.kind {
+            PlotKind::Errors if !has_surface => Some(WITHOUT_SURFACE.into()),
+            PlotKind::Errors => self.errors.plot(session).err(),
+            _ => None,
+        }
+    }
+
+    /// Returns whether [`Self::compute`] would compute what the chosen plot shows.
     pub fn is_due(&self, session: &Session) -> bool {
+        if self.kind == PlotKind::Errors {
+            return self.errors.is_due(session);
+        }
         let is_settled =
             MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation());
         is_settled && !self.levels.is_running() && !self.levels.has(&Key::of(session))
     }
 
-    /// Computes the figures of the levels on another thread, where that is due.
+    /// Computes what the chosen plot shows on another thread, where that is due.
     pub fn compute(&mut self, session: &Session, jobs: &Jobs) {
         if !self.is_due(session) {
             return;
+        }
+        if self.kind == PlotKind::Errors {
+            return self.errors.trace(session, jobs);
         }
         let follower = session.follower();
         let extract = session.derived().map(|derived| derived.shared_extract());
@@ -187,7 +217,8 @@ impl Plots {
         if MeasuredMesh::is_settled(session.document(), session.follower(), session.derivation()) {
             self.levels.want(&Key::of(session), jobs);
         }
-        Ok(self.levels.take(jobs))
+        let is_tracing = self.errors.take(session, jobs);
+        Ok(self.levels.take(jobs) || is_tracing)
     }
 
     /// Returns the measurements so far.

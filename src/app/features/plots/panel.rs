@@ -6,7 +6,11 @@ use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::widgets::{ActionButton, NumberRow, Section, dropdown_row, plot_view, value_row};
+use crate::app::widgets::{
+    ActionButton, NumberRow, Section, dropdown_row, format, plot_picker, plot_view, value_row,
+};
+use meshbrush_core::surface::CurvePoint;
+use meshbrush_study::plot::Plot;
 use meshbrush_study::report::Experiment;
 
 /// A chosen plot, and what it takes to measure those of time.
@@ -40,15 +44,22 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.scope(|ui| {
             // The same room before the plot is known: nothing jumps.
             ui.set_min_height(HEIGHT + ROOM_AROUND);
+            let obstacle = plots.obstacle(state.session);
             match &known {
+                _ if obstacle.is_some() => remark(ui, &obstacle.unwrap_or_default()),
                 None if kind.is_of_experiment() => remark(ui, HOW_TO_MEASURE),
+                None if kind == PlotKind::Errors => remark(ui, "The curve is being traced."),
                 None => remark(ui, "The mesh is being measured."),
                 Some((plot, is_current)) => {
                     // The former plot stays until the next one is known.
                     if !is_current {
                         ui.set_opacity(0.5);
                     }
-                    plot_view(ui, kind.name(), plot, HEIGHT);
+                    if kind == PlotKind::Errors {
+                        error_curve(ui, plot, commands);
+                    } else {
+                        plot_view(ui, kind.name(), plot, HEIGHT);
+                    }
                 }
             }
         });
@@ -61,6 +72,24 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             commands,
         );
     });
+}
+
+/// Shows the curve of errors, whose points can be taken.
+fn error_curve(ui: &mut Ui, plot: &Plot, commands: &mut Vec<Command>) {
+    let Some(least) = plot.series.first() else { return };
+    let point_at = |number: usize| {
+        let [triangles, error] = least.points[number];
+        CurvePoint { triangles: triangles as usize, error }
+    };
+    let tip = |number| {
+        let CurvePoint { triangles, error } = point_at(number);
+        let (count, error) = (format::count(triangles as u64), format::digits(error, 4));
+        format!("{count} triangles, {} {error}\nA click makes this mesh.", plot.y.label)
+    };
+    let picked = plot_picker(ui, PlotKind::Errors.name(), plot, HEIGHT, tip);
+    if let Some(picked) = picked.filter(|picked| picked.is_clicked) {
+        commands.push(Command::Plots(PlotsCommand::TakeError(point_at(picked.point))));
+    }
 }
 
 /// How the experiment is measured, and the button that begins it; or its progress.

@@ -7,7 +7,7 @@ use meshbrush_core::domain::{BoundaryType, PieceChoice, Polygon, corners};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
     DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, LayerKind, Mask, PositiveDepth, Quantity,
-    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal,
+    RasterReading, RasterSource, ShapeList, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm,
     SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -104,7 +104,8 @@ fn surface(choices: &mut impl Choices) -> LayerKind {
         0 => SurfaceGoal::AtMost(1 + choices.below(3000)),
         _ => SurfaceGoal::Within(0.1 + choices.share()),
     };
-    LayerKind::Surface(Surface { source, goal })
+    let norm = SurfaceNorm::ALL[choices.below(3)];
+    LayerKind::Surface(Surface { source, goal, norm })
 }
 
 /// Returns a constant that is too fine for all of the domain: it needs a mask, or is refused.

@@ -9,7 +9,7 @@ use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_core::layers::{
     DepthSizes, DistanceTo, FeatureSize, LayerKind, Quantity, RasterReading, ShapeList, StraitDiscs, Straits,
-    SurfaceGoal, Threat, ThreatError, ValueCurve, WaterMiddle,
+    SurfaceGoal, SurfaceNorm, Threat, ThreatError, ValueCurve, WaterMiddle,
 };
 
 /// Finds a file by the name that a text gives it. Errors are sentences.
@@ -46,7 +46,7 @@ pub enum CheckedKind {
     /// Depths of water.
     Depth(DepthSizes),
     /// The values of a raster as a surface.
-    Surface(SurfaceGoal),
+    Surface(SurfaceGoal, SurfaceNorm),
 }
 
 /// The target of a distance.

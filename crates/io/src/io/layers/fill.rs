@@ -87,9 +87,9 @@ impl SavedLayer {
             CheckedKind::Band(between, diameter) => {
                 LayerKind::Band { source: self.source(data)?, between, diameter }
             }
-            CheckedKind::Surface(goal) => {
+            CheckedKind::Surface(goal, norm) => {
                 let source = SurfaceSource::Raster(self.source(data)?);
-                LayerKind::Surface(Surface { source, goal })
+                LayerKind::Surface(Surface { source, goal, norm })
             }
             CheckedKind::Depth(sizes) => LayerKind::Depth(Depths::new(self.source(data)?, sizes)),
         };

@@ -13,7 +13,7 @@
 //! | `"corridor"` | `file` or `shapes`; `width`, `at_zero`, `slope`, `range` |
 //! | `"straits"`, `"feature-size"` | `across`, `width_from`, `width_to` |
 //! | `"band"` | `file`, `bounds`, `between`, `diameter` |
-//! | `"surface"` | `file` and `bounds`, or `formula`; `within` or `at_most` |
+//! | `"surface"` | `file` and `bounds`, or `formula`; `within` or `at_most`; `norm` |
 
 mod check_layer;
 mod checks;
@@ -32,5 +32,6 @@ pub use fill::{LayerData, TextError};
 pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues, check_values};
 pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat, saved_polygon};
 pub use words::{
-    SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedPositive, SavedQuantity,
+    SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm, SavedPositive,
+    SavedQuantity,
 };

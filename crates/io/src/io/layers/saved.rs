@@ -4,8 +4,8 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    RasterValues, SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedPositive,
-    SavedQuantity,
+    RasterValues, SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm,
+    SavedPositive, SavedQuantity,
 };
 use crate::io::RasterFormat;
 use crate::io::settings::SavedBoundaryType;
@@ -131,7 +131,10 @@ pub struct SavedLayer {
     /// The greatest width of a strait.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width_to: Option<f64>,
-    /// The largest error of a triangle, in the unit of a surface.
+    /// Which error of a surface is meant; the largest difference where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub norm: Option<SavedNorm>,
+    /// The largest error, in the unit of a surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub within: Option<f64>,
     /// The largest number of triangles for a surface.
@@ -214,6 +217,7 @@ impl SavedLayer {
             across: None,
             width_from: None,
             width_to: None,
+            norm: None,
             within: None,
             at_most: None,
         }

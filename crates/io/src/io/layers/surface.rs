@@ -5,7 +5,7 @@ use super::checks::number_where;
 use super::{SavedKind, SavedLayer};
 use crate::io::KeyFault;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{LayerKind, Surface, SurfaceGoal, SurfaceSource};
+use meshbrush_core::layers::{LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 
 impl SavedLayer {
     /// Returns a layer of a surface, without a file.
@@ -15,6 +15,7 @@ impl SavedLayer {
                 SurfaceSource::Raster(_) => None,
                 SurfaceSource::Formula(formula) => Some(formula.source().to_owned()),
             },
+            norm: (surface.norm != SurfaceNorm::default()).then(|| surface.norm.into()),
             ..Self::of_kind(SavedKind::Surface)
         };
         match surface.goal {
@@ -25,18 +26,19 @@ impl SavedLayer {
 
     /// Returns the surface of a formula, or what is asked of that of a raster.
     pub(super) fn checked_surface(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {
-        let goal = self.surface_goal()?;
+        let (goal, norm) =
+            (self.surface_goal()?, self.norm.map_or_else(SurfaceNorm::default, SurfaceNorm::from));
         match (&self.formula, &self.file) {
             (Some(_), Some(_)) => {
                 Err(KeyFault::key("formula", "the surface is in `file` or in `formula`, not in both."))
             }
             (Some(text), None) => {
                 let source = SurfaceSource::Formula(compiled("formula", text, Formula::parse)?);
-                Ok(CheckedKind::Complete(LayerKind::Surface(Surface { source, goal })))
+                Ok(CheckedKind::Complete(LayerKind::Surface(Surface { source, goal, norm })))
             }
             (None, Some(_)) => {
                 self.check_raster_file(stored)?;
-                Ok(CheckedKind::Surface(goal))
+                Ok(CheckedKind::Surface(goal, norm))
             }
             (None, None) => Err(self.missing("needs `file`, a raster, or `formula`")),
         }

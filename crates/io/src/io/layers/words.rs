@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use meshbrush_core::layers::{Combine, DistanceTo, PositiveDepth, Quantity};
+use meshbrush_core::layers::{Combine, DistanceTo, PositiveDepth, Quantity, SurfaceNorm};
 
 /// The kinds of layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,6 +64,38 @@ pub enum SavedDistanceTo {
     Outline,
     /// The boundary of the domain without its open parts.
     Coasts,
+}
+
+/// See [`SurfaceNorm`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SavedNorm {
+    /// The largest difference.
+    Max,
+    /// The root mean square of the differences.
+    L2,
+    /// The root mean square of the differences of the gradient.
+    H1,
+}
+
+impl From<SavedNorm> for SurfaceNorm {
+    fn from(saved: SavedNorm) -> Self {
+        match saved {
+            SavedNorm::Max => Self::Largest,
+            SavedNorm::L2 => Self::RootMeanSquare,
+            SavedNorm::H1 => Self::Gradient,
+        }
+    }
+}
+
+impl From<SurfaceNorm> for SavedNorm {
+    fn from(norm: SurfaceNorm) -> Self {
+        match norm {
+            SurfaceNorm::Largest => Self::Max,
+            SurfaceNorm::RootMeanSquare => Self::L2,
+            SurfaceNorm::Gradient => Self::H1,
+        }
+    }
 }
 
 /// See [`PositiveDepth`].

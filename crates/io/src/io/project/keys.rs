@@ -6,7 +6,7 @@ use super::VERSION;
 use super::settings::Saved;
 
 /// Texts in which one key or word, `qqqq`, is unknown, beside the place that it stands in.
-const PLACES: [(&str, &str); 31] = [
+const PLACES: [(&str, &str); 32] = [
     ("", r#"{"qqqq":1}"#),
     ("unit", r#"{"unit":"qqqq"}"#),
     ("background", r#"{"background":{"qqqq":1}}"#),
@@ -31,6 +31,7 @@ const PLACES: [(&str, &str); 31] = [
     ("layers.layer.kind", r#"{"layers":[{"layer":{"kind":"qqqq"}}]}"#),
     ("layers.layer.combine", r#"{"layers":[{"layer":{"combine":"qqqq"}}]}"#),
     ("layers.layer.quantity", r#"{"layers":[{"layer":{"quantity":"qqqq"}}]}"#),
+    ("layers.layer.norm", r#"{"layers":[{"layer":{"norm":"qqqq"}}]}"#),
     ("layers.layer.to", r#"{"layers":[{"layer":{"to":"qqqq"}}]}"#),
     ("layers.layer.types", r#"{"layers":[{"layer":{"types":["qqqq"]}}]}"#),
     ("layers.layer.positive", r#"{"layers":[{"layer":{"positive":"qqqq"}}]}"#),
@@ -42,7 +43,7 @@ const PLACES: [(&str, &str); 31] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (10, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (11, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -68,10 +69,11 @@ layers: id layer raster
 layers.raster: part bounds columns rows
 layers.layer: kind name visible locked combine mask mask_file quantity formula file layer bounds as \
     curve threats to pieces types shapes width at_zero slope range between diameter positive offset size depth_from depth_to \
-    period triangles smoothing time_step courant across width_from width_to within at_most
+    period triangles smoothing time_step courant across width_from width_to norm within at_most
 layers.layer.kind: paint formula raster threats distance corridor band depth straits feature-size surface
 layers.layer.combine: finest floor replace
 layers.layer.quantity: risk diameter
+layers.layer.norm: max l2 h1
 layers.layer.to: outline coasts
 layers.layer.types: open land no-slip land natural land inflow no-slip inflow natural inflow
 layers.layer.positive: up down

@@ -10,7 +10,8 @@ use crate::app::kit::{
     set_kind_once,
 };
 use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
-use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceSource};
+use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_mesh::text::round_below;
 
 /// A raster or a formula as a surface.
 pub static SURFACE: LayerKindRow = LayerKindRow {
@@ -37,6 +38,13 @@ pub static SURFACE: LayerKindRow = LayerKindRow {
 /// Most triangles that can be asked for.
 const MOST: f64 = 1e9;
 
+/// The norms, and their names.
+const NORMS: [(SurfaceNorm, &str); 3] = [
+    (SurfaceNorm::Largest, "Largest"),
+    (SurfaceNorm::RootMeanSquare, "Mean square"),
+    (SurfaceNorm::Gradient, "Gradient"),
+];
+
 /// What is given, and what follows from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Given {
@@ -57,7 +65,8 @@ impl Given {
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     let LayerKind::Surface(surface) = &layer.kind else { return };
-    let Surface { source, goal } = surface;
+    let Surface { source, goal, norm } = surface;
+    norm_row(ui, state, layer, surface, commands);
     goal_rows(ui, state, layer, surface, commands);
     fit_rows(ui, state, layer, commands);
     match source {
@@ -71,9 +80,36 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
             };
             if let Some(Some(formula)) = row.show(ui, state, Some(formula)) {
                 let source = SurfaceSource::Formula(formula);
-                set_kind_once(layer, LayerKind::Surface(Surface { source, goal: *goal }), commands);
+                set_kind_once(
+                    layer,
+                    LayerKind::Surface(Surface { source, goal: *goal, norm: *norm }),
+                    commands,
+                );
             }
         }
+    }
+}
+
+/// Shows which error is meant.
+fn norm_row(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    layer: &Layer,
+    surface: &Surface,
+    commands: &mut Vec<Command>,
+) {
+    let mut norm = surface.norm;
+    let help = "The error that is meant: the largest difference, for which the mesh is exactly the smallest, or a root mean \
+                square over the mesh, of the differences or of those of the gradient, for which it is near it.";
+    if segmented(ui, "Norm", &mut norm, &NORMS).on_hover_text(help).changed() {
+        let fit = state.features.layers.surface_fit.figures(state.session);
+        let error = fit.map(|(fit, _)| fit.error(norm)).filter(|error| *error > 0.0 && error.is_finite());
+        // An error of one norm says nothing about another one: the mesh as it is stays about as it is.
+        let goal = match (surface.goal, error) {
+            (SurfaceGoal::Within(_), Some(error)) => SurfaceGoal::Within(round_below(error)),
+            (goal, _) => goal,
+        };
+        set_kind_once(layer, LayerKind::Surface(Surface { goal, norm, ..surface.clone() }), commands);
     }
 }
 
@@ -85,14 +121,14 @@ fn goal_rows(
     surface: &Surface,
     commands: &mut Vec<Command>,
 ) {
-    let with = |goal| LayerKind::Surface(Surface { source: surface.source.clone(), goal });
+    let with = |goal| LayerKind::Surface(Surface { goal, ..surface.clone() });
     let mut given = Given::of(surface.goal);
     if segmented(ui, "What is given", &mut given, &Given::CHOICES).changed() {
         return set_kind_once(layer, with(other_goal(state, layer, given)), commands);
     }
     let (response, goal) = match surface.goal {
         SurfaceGoal::Within(mut error) => {
-            let help = "The largest difference of the surface from the mesh. The mesh is the smallest one within it.";
+            let help = "The error that the mesh has at most, by the norm that is chosen above.";
             let row =
                 NumberRow::new("Largest error", &mut error).range(f64::MIN_POSITIVE..=f64::MAX).help(help);
             (row.show(ui), SurfaceGoal::Within(error))
@@ -137,7 +173,7 @@ fn fit_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut V
         commands.push(Command::Layer(LayerCommand::MeasureSurface));
     }
     let rule = state.session.follower().surface();
-    if layer.visible && rule.is_some_and(|rule| rule.has_too_few_triangles()) {
+    if layer.visible && rule.is_some_and(|rule| rule.exceeded_count().is_some()) {
         remark(
             ui,
             "The mesh has more triangles already without this layer: ask for more, or take a larger spacing.",
@@ -157,5 +193,7 @@ fn fit_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut V
         }
         let help = "The square root of the mean of the squares of all differences.";
         ValueRow::new("Root mean square", &format::digits(fit.rms, 5)).help(help).show(ui);
+        let help = "The same of the differences between the gradients of the surface and of the mesh.";
+        ValueRow::new("Gradient", &format::digits(fit.gradient, 5)).help(help).show(ui);
     });
 }
