@@ -12,7 +12,7 @@ use super::kit::Keymap;
 use super::session::Session;
 use super::view::View;
 use super::widgets::format;
-use meshbrush_core::document::{Document, Example, Recording, SeaChart, Settings};
+use meshbrush_core::document::{Document, Example, ExampleData, Recording, SeaChart, Settings};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::NodeDepths;
@@ -60,6 +60,30 @@ fn celtic_sea() -> SeaChart {
     }
 }
 
+/// The data that comes with the program.
+struct Assets;
+
+impl ExampleData for Assets {
+    fn slope(&self) -> Raster {
+        terrain_slope()
+    }
+
+    fn heights(&self) -> Raster {
+        let heights = include_bytes!("../../assets/jacksboro_heights.tif");
+        io::geotiff::decode(Cursor::new(heights))
+            .expect("the heights are part of the program: a test opens them")
+            .raster
+    }
+
+    fn sea(&self) -> Vec<NamedPolygon> {
+        aegean_sea()
+    }
+
+    fn chart(&self) -> SeaChart {
+        celtic_sea()
+    }
+}
+
 /// Returns an empty document.
 pub fn new_document() -> Document {
     Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
@@ -67,7 +91,7 @@ pub fn new_document() -> Document {
 
 /// Returns a document that comes with the program.
 pub fn example(example: Example) -> Document {
-    example.document(terrain_slope, aegean_sea, celtic_sea)
+    example.document(&Assets)
 }
 
 /// Reads a recipe, which is shown as a document without a file once it is read.

@@ -9,15 +9,26 @@ use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, Opened};
 use crate::app::dialogs::Dialog;
+use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
 use crate::app::home::{self, Home};
 use crate::app::journal::JournalKeeper;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, journal, project};
-use meshbrush_core::document::Document;
+use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
 
 impl App {
+    /// Opens an example, and shows what it is about.
+    fn open_example(&mut self, example: Example) {
+        self.open(files::example(example));
+        let layers = &self.session.document().settings().layers;
+        self.view.show_depths(DepthSurface::of(layers).is_some());
+        if example == Example::Heights {
+            self.send(Command::Plots(PlotsCommand::Show(PlotKind::Errors)));
+        }
+    }
+
     pub(in crate::app) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {
         match command {
             FileCommand::New => self.open(files::new_document()),
@@ -25,11 +36,7 @@ impl App {
                 self.open(files::new_document());
                 self.dialogs.open(Dialog::Start);
             }
-            FileCommand::OpenExample(example) => {
-                self.open(files::example(example));
-                let layers = &self.session.document().settings().layers;
-                self.view.show_depths(DepthSurface::of(layers).is_some());
-            }
+            FileCommand::OpenExample(example) => self.open_example(example),
             FileCommand::Ask(request) => self.ask_for_file(request),
             FileCommand::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),

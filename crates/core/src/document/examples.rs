@@ -9,7 +9,7 @@ use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
-    Shapes, Threat, ThreatLaw, Threats, ValueCurve,
+    Shapes, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve,
 };
 use crate::paint::{Brush, Medium};
 use crate::raster::{Raster, RasterPyramid};
@@ -25,6 +25,8 @@ pub enum Example {
     Diamond,
     /// The slope of a real terrain as risk.
     Terrain,
+    /// The heights of a real terrain as a surface.
+    Heights,
     /// A sea with its islands.
     Aegean,
     /// A sea with its depths, meshed in metres.
@@ -37,10 +39,11 @@ pub enum Example {
 
 impl Example {
     /// All examples. The window starts with the first.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Threats,
         Self::Diamond,
         Self::Terrain,
+        Self::Heights,
         Self::Aegean,
         Self::CelticSea,
         Self::Layers,
@@ -53,6 +56,7 @@ impl Example {
             Self::Threats => "Radar threats",
             Self::Diamond => "The report's diamond",
             Self::Terrain => "Terrain slope",
+            Self::Heights => "Terrain within an error",
             Self::Aegean => "Aegean Sea",
             Self::CelticSea => "Celtic Sea with depths",
             Self::Layers => "Layers on a terrain",
@@ -68,6 +72,9 @@ impl Example {
             }
             Self::Diamond => "Figure 1 of the report: a formula, by the report's vertex rule.",
             Self::Terrain => "Slope of the terrain at Jacksboro, from the SRTM elevation model, as risk.",
+            Self::Heights => {
+                "Heights of the same terrain: the smallest mesh within 20 m of them. Move the error, or take a point of the curve."
+            }
             Self::Aegean => {
                 "The sea between Greece and Turkey, fitted to the coast, with 65 islands as holes."
             }
@@ -86,34 +93,50 @@ impl Example {
     /// # Panics
     /// Panics for the others.
     pub fn without_data(self) -> Document {
-        let needs = |data: &str| format!("the example {} needs {data}", self.name());
-        self.document(
-            || panic!("{}", needs("a picture of slopes")),
-            || panic!("{}", needs("the outline of a sea")),
-            || panic!("{}", needs("a sea chart")),
-        )
+        self.document(&NoData)
     }
 
-    /// Returns the document. `slope` decodes the picture of the terrain, risk by pixel over its rectangle;
-    /// `sea` reads the polygons of the Aegean in degrees, and `chart` the Celtic Sea with its depths. Only
-    /// the examples that need them call these.
-    pub fn document(
-        self,
-        slope: impl FnOnce() -> Raster,
-        sea: impl FnOnce() -> Vec<NamedPolygon>,
-        chart: impl FnOnce() -> SeaChart,
-    ) -> Document {
+    /// Returns the document. Only examples that need data ask for it.
+    pub fn document(self, data: &impl ExampleData) -> Document {
         match self {
             Self::Threats => threats(),
             Self::Diamond => document(diamond()),
-            Self::Terrain => document(terrain(slope())),
-            Self::Aegean => document(aegean(&sea())),
-            Self::CelticSea => document(celtic_sea(self.name(), chart())),
-            Self::Layers => layers(slope()),
+            Self::Terrain => document(terrain(data.slope())),
+            Self::Heights => document(heights(data.heights())),
+            Self::Aegean => document(aegean(&data.sea())),
+            Self::CelticSea => document(celtic_sea(self.name(), data.chart())),
+            Self::Layers => layers(data.slope()),
             Self::Path => document(path()),
         }
     }
 }
+
+/// The data of examples. What an example needs must be there.
+pub trait ExampleData {
+    /// Returns the slope of a terrain as risk by pixel over its rectangle.
+    fn slope(&self) -> Raster {
+        panic!("the example needs a picture of slopes")
+    }
+
+    /// Returns the heights of a terrain, in metres, by pixel over its rectangle in degrees.
+    fn heights(&self) -> Raster {
+        panic!("the example needs heights")
+    }
+
+    /// Returns the polygons of the Aegean, in degrees.
+    fn sea(&self) -> Vec<NamedPolygon> {
+        panic!("the example needs the outline of a sea")
+    }
+
+    /// Returns the Celtic Sea with its depths.
+    fn chart(&self) -> SeaChart {
+        panic!("the example needs a sea chart")
+    }
+}
+
+struct NoData;
+
+impl ExampleData for NoData {}
 
 fn document(settings: Settings) -> Document {
     Document::new(settings, None).expect("the examples are valid: a test opens each")
@@ -179,6 +202,26 @@ fn terrain(slope: Raster) -> Settings {
         layers: Layer::usual(slope_as_risk),
         ..Settings::default()
     }
+}
+
+/// The largest error of the example of heights, in metres.
+const HEIGHT_ERROR: f64 = 20.0;
+
+fn heights(heights: Raster) -> Settings {
+    let bounds = heights.bounds();
+    let raster = Arc::new(RasterPyramid::new(heights));
+    let source = SurfaceSource::Raster(RasterSource { name: "jacksboro_heights.tif".into(), raster });
+    let (goal, norm) = (SurfaceGoal::Within(HEIGHT_ERROR), SurfaceNorm::Largest);
+    let surface = LayerKind::Surface(Surface { source, goal, norm });
+    let settings = Settings {
+        name: Example::Heights.name().into(),
+        unit: LengthUnit::Degree,
+        domain: Domain::rectangle(bounds),
+        transfer: Transfer::between(1e-6, f64::MAX),
+        ..Settings::default()
+    };
+    let settings = settings.with_nodes_on_samples(&surface);
+    Settings { layers: Layer::usual(surface), ..settings }
 }
 
 /// The road across the terrain, as shares of its sides, from the lower left.

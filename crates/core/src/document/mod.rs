@@ -34,7 +34,7 @@ pub use background::{Background, Picture};
 pub use celtic_sea::SeaChart;
 pub use drawing::{Drawing, DrawingError, DrawnPart, DrawnShape};
 pub use edits::Edits;
-pub use examples::Example;
+pub use examples::{Example, ExampleData};
 pub use field_price::CountEstimate;
 pub use follower::{Follower, MeshChange};
 pub use history::History;

@@ -7,8 +7,8 @@ use crate::runs::runs;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{
-    Document, Example, Follower, History, MeshChange, NoChange, Price, Pricer, SeaChart, Setting, Settings,
-    Stage,
+    Document, Example, ExampleData, Follower, History, MeshChange, NoChange, Price, Pricer, SeaChart,
+    Setting, Settings, Stage,
 };
 use meshbrush_core::domain::{
     BoundaryMarks, BoundaryPieces, BoundaryType, CutShape, Domain, DomainShape, NamedPolygon, Polygon,
@@ -42,6 +42,28 @@ fn chart() -> SeaChart {
     SeaChart { sea: vec![NamedPolygon { polygon, name: String::new() }], depths }
 }
 
+/// Data that is as large as a test needs.
+struct Data;
+
+impl ExampleData for Data {
+    fn slope(&self) -> Raster {
+        slope()
+    }
+
+    fn heights(&self) -> Raster {
+        let heights = (0..129 * 129).map(|n| 20.0 * (n % 129) as f32 * ((n / 129) as f32 / 3.0).sin());
+        Raster::from_values(Rect::new(dvec2(-84.4, 36.4), dvec2(-84.0, 36.8)), [129, 129], heights.collect())
+    }
+
+    fn sea(&self) -> Vec<NamedPolygon> {
+        sea()
+    }
+
+    fn chart(&self) -> SeaChart {
+        chart()
+    }
+}
+
 fn with_base(base: LayerKind) -> Settings {
     Settings { layers: Layer::usual(base), ..Settings::default() }
 }
@@ -66,7 +88,7 @@ const SCALE: Scale = Scale { diameter: 0.01, smallest: 0.01, triangles: 2000 };
 #[test]
 fn every_example_opens() {
     for example in Example::ALL {
-        let mut document = example.document(slope, sea, chart);
+        let mut document = example.document(&Data);
         let follower = Follower::new(&mut document).unwrap();
         assert!(
             follower.mesh().raw_triangle_count() > 5000,
@@ -80,7 +102,7 @@ fn every_example_opens() {
 
 #[test]
 fn the_diamond_is_figure_1() {
-    let mut document = Example::Diamond.document(slope, sea, chart);
+    let mut document = Example::Diamond.document(&Data);
     assert_eq!(Follower::new(&mut document).unwrap().mesh().raw_triangle_count(), 9560);
 }
 
@@ -135,7 +157,7 @@ fn a_slider_drag_is_one_entry_and_idle_frames_add_none() {
 
 #[test]
 fn what_cannot_be_met_leaves_document_and_mesh_as_they_were() {
-    let mut document = Example::Threats.document(slope, sea, chart);
+    let mut document = Example::Threats.document(&Data);
     let mut follower = Follower::new(&mut document).unwrap();
     let (settings, fingerprint) = (document.settings().clone(), follower.mesh().fingerprint());
     let bad = [
@@ -251,7 +273,7 @@ fn undo_stops_where_another_document_was_opened() {
     document.set(Setting::Spacing(0.1)).unwrap();
     document.undo();
     let (revision, version) = (document.revision(), document.version());
-    let diamond = Example::Diamond.document(slope, sea, chart);
+    let diamond = Example::Diamond.document(&Data);
     document.replace_with(diamond.clone());
     assert!(!document.undo() && !document.redo(), "nothing of the former document is kept");
     assert_eq!(document.settings(), diamond.settings());
@@ -277,7 +299,7 @@ fn a_formula_that_is_no_length_at_a_node_is_refused_by_the_vertex_rule_too() {
 
 #[test]
 fn the_area_rule_implies_the_vertex_rule() {
-    let mut document = Example::Threats.document(slope, sea, chart);
+    let mut document = Example::Threats.document(&Data);
     let follower = Follower::new(&mut document).unwrap();
     let mut by_vertex = document.clone();
     by_vertex.set(Setting::RefinementRule(RefinementRule::Vertex)).unwrap();
@@ -561,7 +583,7 @@ fn work_that_a_budget_stopped_goes_on_when_it_is_raised_and_when_paint_is_erased
 
 #[test]
 fn a_setting_changed_there_and_back_makes_no_other_mesh() {
-    let mut document = Example::Threats.document(slope, sea, chart);
+    let mut document = Example::Threats.document(&Data);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
     let shape = document.settings().transfer.shape;
@@ -582,7 +604,7 @@ fn a_setting_changed_there_and_back_makes_no_other_mesh() {
 
 #[test]
 fn names_and_types_of_the_boundary_are_undone_and_leave_the_mesh_alone() {
-    let mut document = Example::Aegean.document(slope, sea, chart);
+    let mut document = Example::Aegean.document(&Data);
     let mut follower = Follower::new(&mut document).unwrap();
     follower.take_change();
     let settings = document.settings().clone();

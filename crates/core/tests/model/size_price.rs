@@ -2,7 +2,7 @@
 
 use glam::dvec2;
 use meshbrush_core::document::{
-    CountEstimate, Document, Example, Follower, Price, Setting, Settings, SizePricer,
+    CountEstimate, Document, Example, ExampleData, Follower, Price, Setting, Settings, SizePricer,
 };
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::field::{Formula, RefinementRule};
@@ -51,6 +51,14 @@ fn threats() -> LayerKind {
     LayerKind::Threats(Threats::new(at.map(|[x, y]| threat(dvec2(x, y))).to_vec()).unwrap())
 }
 
+struct Coast(NamedPolygon);
+
+impl ExampleData for Coast {
+    fn sea(&self) -> Vec<NamedPolygon> {
+        vec![self.0.clone()]
+    }
+}
+
 /// A sea with a ragged coast, finer along it.
 fn coast() -> Document {
     let corner = |n: usize| {
@@ -58,7 +66,7 @@ fn coast() -> Document {
         (4.0 + 0.5 * (7.0 * angle).sin() + 0.2 * (31.0 * angle).cos()) * dvec2(angle.cos(), angle.sin())
     };
     let sea = NamedPolygon { polygon: vec![(0..240).map(corner).collect()], name: String::new() };
-    Example::Aegean.document(|| unreachable!("no terrain"), || vec![sea], || unreachable!("no chart"))
+    Example::Aegean.document(&Coast(sea))
 }
 
 /// The default document with a diameter painted in one small place.

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use meshbrush_core::document::Example;
-use meshbrush_core::domain::MeshBoundary;
+use meshbrush_core::document::{Example, ExampleData};
+use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource};
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::png::{Behind, read_metered as read_png};
@@ -63,12 +63,19 @@ impl Details {
     }
 }
 
+struct Sea(Vec<NamedPolygon>);
+
+impl ExampleData for Sea {
+    fn sea(&self) -> Vec<NamedPolygon> {
+        self.0.clone()
+    }
+}
+
 /// Returns a project with a picture, polygons and paint, each larger than a block.
 fn large_project() -> Project {
     let sea = fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/aegean_sea.geojson")).unwrap();
     let sea = geojson::read_named_from(&sea[..], Path::new("sea")).unwrap();
-    let mut project =
-        Project::of(&Example::Aegean.document(|| unreachable!(), || sea.clone(), || unreachable!()));
+    let mut project = Project::of(&Example::Aegean.document(&Sea(sea)));
     let values = (0..500 * 400).map(|n| (n % 997) as f32 / 997.0).collect();
     let raster = Arc::new(RasterPyramid::new(Raster::from_values(Rect::UNIT, [500, 400], values)));
     let source = RasterSource { name: "noise.png".into(), raster };

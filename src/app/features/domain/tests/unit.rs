@@ -78,6 +78,7 @@ fn examples_and_domains_from_files_have_their_unit() {
     for (example, unit) in [
         (Example::Threats, LengthUnit::None),
         (Example::Terrain, LengthUnit::Kilometre),
+        (Example::Heights, LengthUnit::Degree),
         (Example::Aegean, LengthUnit::Degree),
         (Example::CelticSea, LengthUnit::Metre),
     ] {
