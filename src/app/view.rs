@@ -255,6 +255,7 @@ impl View {
                 .lattice()
                 .ok()
                 .and_then(|lattice| Look::north_of(settings.domain.projection.as_ref(), &lattice)),
+            space: None,
         }
     }
 

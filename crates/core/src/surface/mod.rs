@@ -21,6 +21,7 @@
 
 mod alignment;
 mod fit;
+mod heights;
 mod nodes;
 mod queue;
 mod rule;
@@ -29,6 +30,7 @@ mod sampling;
 
 pub use alignment::domain_on_samples;
 pub use fit::SurfaceFit;
+pub use heights::HeightSource;
 pub use nodes::SurfaceNodes;
 pub use queue::ErrorQueue;
 pub use rule::{SurfaceDemand, SurfaceRule};
