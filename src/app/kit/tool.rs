@@ -47,6 +47,8 @@ pub struct ToolSpec {
     /// Whether it queries triangles: the one under the pointer is highlighted, the queried one is explained,
     /// pins can be moved, and the digits go to neighbours.
     pub queries: bool,
+    /// Whether it works in the view in space, too.
+    pub in_space: bool,
     /// Draws over the mesh while the tool is selected.
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// Begins a gesture when the primary button is pressed.
@@ -90,6 +92,7 @@ impl ToolSpec {
             has_ring: |_| false,
             brush: None,
             queries: false,
+            in_space: false,
             paint: |_, _| {},
             press: |_, _, _| None,
             press_secondary: |_, _| false,
