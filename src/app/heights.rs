@@ -184,6 +184,11 @@ impl<'a> Surface<'a> {
         (self.found.heights.scale, self.found.ends)
     }
 
+    /// Returns the height at a place in lattice steps, in steps; `None` beside the surface.
+    pub fn height_at(&self, at: DVec2) -> Option<f64> {
+        self.nearest(&ViewRay { at, per_step: DVec2::ZERO }).map(|(_, height)| height)
+    }
+
     /// Returns the point nearest the viewer that a ray meets: its place in lattice steps, and its height in
     /// steps.
     fn nearest(&self, ray: &ViewRay) -> Option<(DVec2, f64)> {
@@ -238,7 +243,6 @@ impl SpaceSight<'_> {
 
     /// Returns the height of the surface at a place of the plan, in steps; `None` beside it.
     fn height_at(&self, world: DVec2) -> Option<f64> {
-        let at = self.camera.plan().lattice().lattice_from_world(world);
-        self.surface.nearest(&ViewRay { at, per_step: DVec2::ZERO }).map(|(_, height)| height)
+        self.surface.height_at(self.camera.plan().lattice().lattice_from_world(world))
     }
 }

@@ -27,6 +27,8 @@ pub struct Space {
     pub ground: f64,
     /// The height in the middle; half way up where it is not known.
     height: Option<f64>,
+    /// Whether the height in the middle is to become that of the surface there.
+    lands: bool,
     /// The heights of the surface on the screen.
     extent: Option<(HeightScale, [u32; 2])>,
 }
@@ -40,6 +42,7 @@ impl Default for Space {
             light: Light::default(),
             ground: 1.0,
             height: None,
+            lands: false,
             extent: None,
         }
     }
@@ -88,9 +91,14 @@ impl Space {
         *camera.plan()
     }
 
+    /// Puts the surface at the place in the middle of the plan there, once its height is known.
+    pub fn land(&mut self) {
+        self.lands = true;
+    }
+
     /// Forgets the height in the middle: the whole surface is shown.
     pub fn forget_height(&mut self) {
-        self.height = None;
+        (self.height, self.lands) = (None, false);
     }
 
     /// Runs a command that needs no camera. Returns whether it was one.
@@ -118,11 +126,14 @@ impl View {
         }
         let is_in_degrees = session.document().settings().unit == LengthUnit::Degree;
         self.space.ground = if is_in_degrees { 1.0 / (1000.0 * KM_PER_DEGREE) } else { 1.0 };
-        if let Heights::Known(surface) = session.heights()
-            && self.space.note_extent(surface.extent())
-            && self.is_fitted
-        {
+        let Heights::Known(surface) = session.heights() else { return };
+        if self.space.note_extent(surface.extent()) && self.is_fitted {
             self.fit();
+        }
+        if let (true, Some(camera)) = (self.space.lands, self.camera) {
+            let middle = camera.lattice_from_screen(camera.half_size_px());
+            let height = surface.height_at(middle).map(|steps| surface.extent().0.height(steps));
+            (self.space.height, self.space.lands) = (height.or(self.space.height), false);
         }
     }
 

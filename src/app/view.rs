@@ -15,7 +15,7 @@ use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::Look;
-use meshbrush_render::scene::{Camera, Style};
+use meshbrush_render::scene::{Camera, SpaceCamera, Style};
 
 /// The field that is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -272,7 +272,8 @@ impl View {
                 self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
             }
             ViewCommand::Zoom(factor) => {
-                self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px()))
+                let about_middle = |camera: SpaceCamera| camera.zoomed(factor, camera.plan().half_size_px());
+                self.move_view(|camera| camera.zoomed(factor, camera.half_size_px()), about_middle);
             }
             ViewCommand::ZoomAt(factor, px) => {
                 self.move_view(|camera| camera.zoomed(factor, px), |camera| camera.zoomed(factor, px));
@@ -325,6 +326,7 @@ impl View {
         let camera = self.camera.map(moved);
         if camera != self.camera {
             (self.camera, self.is_fitted) = (camera, false);
+            self.space.land();
         }
     }
 

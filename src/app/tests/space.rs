@@ -154,3 +154,15 @@ fn heights_and_light_are_numbers() {
     send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
     assert_eq!(sight(&window).camera.exaggeration(), usual);
 }
+
+#[test]
+fn centring_a_place_puts_the_surface_there_in_the_middle() {
+    let mut window = hills();
+    send(&mut window, Command::View(ViewCommand::Zoom(4.0)));
+    for world in [dvec2(0.17, 0.1), dvec2(0.6, 0.5)] {
+        send(&mut window, Command::View(ViewCommand::LookAt(world)));
+        window.run();
+        let off = seen(&window, world).distance(canvas(&window).center());
+        assert!(off < 1.0, "{world} is {off} points from the middle");
+    }
+}

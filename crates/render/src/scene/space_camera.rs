@@ -46,7 +46,7 @@ impl Default for Light {
 
 impl Light {
     /// Share of the brightness of level ground that comes from everywhere.
-    pub const AMBIENT: f32 = 0.4;
+    pub const AMBIENT: f32 = 0.5;
     /// Least altitude, in degrees: level ground keeps the colour of its level at any.
     const LOWEST: f64 = 5.0;
 

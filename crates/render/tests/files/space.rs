@@ -209,3 +209,38 @@ mod on_the_gpu {
         }
     }
 }
+
+/// Prints how long a picture of two million triangles takes.
+#[test]
+#[ignore = "measures time"]
+fn time_of_two_million_triangles() {
+    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
+    let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+    mesh.refine(&Limits::default(), |element| element.triangle.level() < 16).unwrap();
+    let waves = heights(&mesh, waves);
+    let mut view = view(&mesh, &waves, 20.0, 40.0);
+    let surface = (waves.scale, waves.ends());
+    let direction = view.camera.direction();
+    view.camera =
+        SpaceCamera::fit(&lattice, surface, direction, view.camera.exaggeration(), [1600, 1000], 20.0);
+    let shown = ShownSurface { mesh: &mesh, pieces: None, heights: &waves };
+    let time = |name: &str, draw: &mut dyn FnMut(f64)| {
+        draw(0.0);
+        let began = std::time::Instant::now();
+        (1..=3).for_each(|n| draw(f64::from(n)));
+        eprintln!(
+            "{} triangles {name}: {:.1} ms",
+            mesh.triangle_count(),
+            began.elapsed().as_secs_f64() * 1e3 / 3.0
+        );
+    };
+    let style = Style::dark(colors());
+    let turned = |n: f64| SpaceView { camera: view.camera.turned(n, 0.0), ..view };
+    time("in software", &mut |n| _ = software::draw_surface(shown, &turned(n), &style));
+    #[cfg(feature = "gpu")]
+    if let Some(mut gpu) = crate::render_agreement::gpu() {
+        gpu.show(&mesh, 1).unwrap();
+        let name = format!("on {}", gpu.adapter());
+        time(&name, &mut |n| _ = gpu.picture_in_space(shown, 1, &turned(n), &style).unwrap());
+    }
+}

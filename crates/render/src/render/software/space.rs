@@ -113,8 +113,8 @@ impl<'a> Placed<'a> {
                 continue;
             }
             let first = group * GROUP;
-            for index in first..(first + GROUP).min(triangles.len()) {
-                let triangle = &triangles[index];
+            let group = &triangles[first..triangles.len().min(first + GROUP)];
+            for (index, triangle) in (first..).zip(group) {
                 if triangle.is_outside() || !flags.is_drawn(index) {
                     continue;
                 }
@@ -122,9 +122,8 @@ impl<'a> Placed<'a> {
                 if corners.iter().any(|corner| corner.is_nan()) {
                     continue;
                 }
-                let at_boundary = || TriangleArrays::boundary_in(triangles, flags, triangle);
                 let drawn = DrawnTriangle { triangle, corners, part: self.part };
-                band.draw(&drawn, at_boundary, shader);
+                band.draw(&drawn, shader);
             }
         }
     }
@@ -152,6 +151,29 @@ impl DrawnTriangle<'_> {
         let height = |node: usize| f64::from(self.part.heights[node]);
         let plane = self.part.nodes[to].as_dvec2() - self.part.nodes[from].as_dvec2();
         plane.extend(height(to) - height(from))
+    }
+}
+
+impl DrawnTriangle<'_> {
+    /// Returns its colours.
+    fn shade(&self, shader: &SpaceShader) -> Shade {
+        let edges = [self.steps(0, 1), self.steps(0, 2), self.steps(1, 2)];
+        let [right, up, _] = shader.rows;
+        let in_px = edges.map(|edge| dvec2(right.dot(edge), up.dot(edge)));
+        let longest = in_px.iter().map(|edge| edge.length_squared()).fold(0.0, f64::max).sqrt();
+        let least_px = in_px[0].perp_dot(in_px[1]).abs() / longest;
+        let paint = &shader.paints[self.triangle.level() as usize];
+        let brightness = shader.brightness([edges[0], edges[1]]);
+        let lit = |color: [f32; 3]| color.map(|channel| (channel * brightness).min(1.0));
+        let alpha = paint.alpha_at(least_px as f32, shader.style);
+        let rims = if alpha > 0.0 {
+            let boundary = TriangleArrays::boundary_in(self.part.triangles, self.part.flags, self.triangle);
+            boundary.map(|boundary| if boundary { shader.style.rim_px() } else { 0.0 })
+        } else {
+            [0.0; 3]
+        };
+        let reach_px = shader.style.edge_reach_px();
+        Shade { fill: lit(paint.fill), edge: lit(paint.edge), alpha, reach_px, rims }
     }
 }
 
@@ -191,16 +213,23 @@ impl<'a> SpaceShader<'a> {
 }
 
 /// The colours of one triangle.
+#[derive(Clone, Copy)]
 struct Shade {
     fill: [f32; 3],
     edge: [f32; 3],
     alpha: f32,
     reach_px: f32,
+    /// Subtracted from the distances to the edges opposite each corner, so that boundary edges get their full
+    /// width.
+    rims: [f32; 3],
 }
 
 impl Shade {
+    /// Returns the colour of a pixel at these distances from the edges opposite each corner, in pixels.
     #[inline]
-    fn color(&self, distance_px: f32) -> [u8; 4] {
+    fn color(&self, distances_px: [f32; 3]) -> [u8; 4] {
+        let nearest = |i: usize| distances_px[i] - self.rims[i];
+        let distance_px = nearest(0).min(nearest(1)).min(nearest(2));
         let share = (self.reach_px - distance_px).clamp(0.0, 1.0) * self.alpha;
         let channel = |i: usize| (255.0 * (self.fill[i] + share * (self.edge[i] - self.fill[i])) + 0.5) as u8;
         [channel(0), channel(1), channel(2), 0xff]
@@ -240,7 +269,7 @@ struct Band<'a> {
 }
 
 impl Band<'_> {
-    fn draw(&mut self, drawn: &DrawnTriangle, at_boundary: impl FnOnce() -> [bool; 3], shader: &SpaceShader) {
+    fn draw(&mut self, drawn: &DrawnTriangle, shader: &SpaceShader) {
         let corners = drawn.corners.map(|corner| snapped(corner.truncate()));
         let across = |axis: usize| {
             let along = corners.map(|corner| corner[axis]);
@@ -254,29 +283,13 @@ impl Band<'_> {
             return;
         }
         let Some(plane) = DepthPlane::through(drawn.corners) else { return };
-        let edges = [drawn.steps(0, 1), drawn.steps(0, 2), drawn.steps(1, 2)];
-        let shade = self.shade(drawn, edges, shader);
-        let rims = at_boundary().map(|boundary| if boundary { shader.style.rim_px() } else { 0.0 });
+        // Most small triangles have no pixel, or are hidden: those need no colour.
+        let mut known = None;
+        let mut shade = move || *known.get_or_insert_with(|| drawn.shade(shader));
         if is_huge {
-            self.fill_huge(drawn.corners, rims, &plane, &shade);
+            self.fill_huge(drawn.corners, &plane, &mut shade);
         } else {
-            self.fill(corners, [columns, rows], rims, &plane, &shade);
-        }
-    }
-
-    fn shade(&self, drawn: &DrawnTriangle, edges: [DVec3; 3], shader: &SpaceShader) -> Shade {
-        let [right, up, _] = shader.rows;
-        let in_px = edges.map(|edge| dvec2(right.dot(edge), up.dot(edge)));
-        let longest = in_px.iter().map(|edge| edge.length()).fold(0.0, f64::max);
-        let least_px = in_px[0].perp_dot(in_px[1]).abs() / longest;
-        let paint = &shader.paints[drawn.triangle.level() as usize];
-        let brightness = shader.brightness([edges[0], edges[1]]);
-        let lit = |color: [f32; 3]| color.map(|channel| (channel * brightness).min(1.0));
-        Shade {
-            fill: lit(paint.fill),
-            edge: lit(paint.edge),
-            alpha: paint.alpha_at(least_px as f32, shader.style),
-            reach_px: shader.style.edge_reach_px(),
+            self.fill(corners, [columns, rows], &plane, &mut shade);
         }
     }
 
@@ -285,27 +298,23 @@ impl Band<'_> {
         &mut self,
         [a, b, c]: [[i32; 2]; 3],
         [columns, rows]: [Range<i32>; 2],
-        [opposite_a, opposite_b, opposite_c]: [f32; 3],
         plane: &DepthPlane,
-        shade: &Shade,
+        shade: &mut dyn FnMut() -> Shade,
     ) {
         let turn =
             i64::from(b[0] - a[0]) * i64::from(c[1] - a[1]) - i64::from(b[1] - a[1]) * i64::from(c[0] - a[0]);
-        let (b, c, rims) = if turn < 0 {
-            (c, b, [opposite_b, opposite_a, opposite_c])
-        } else {
-            (b, c, [opposite_c, opposite_a, opposite_b])
-        };
+        // Clockwise on the screen; `own` says which edge is opposite each corner.
+        let (b, c, own) = if turn < 0 { (c, b, [1, 0, 2]) } else { (b, c, [1, 2, 0]) };
         let mut starts =
             [(a, b), (b, c), (c, a)].map(|(p, q)| EdgeFunction::new(p, q, columns.start, rows.start));
         for row in rows {
             let mut edges = starts;
             let mut depth = plane.depth(f64::from(columns.start) + 0.5, f64::from(row) + 0.5);
             for column in columns.clone() {
-                if edges.iter().all(|edge| edge.value + edge.bias >= 0) {
-                    let nearest = |i: usize| edges[i].value as f32 * edges[i].px_per_unit - rims[i];
-                    let distance = nearest(0).min(nearest(1)).min(nearest(2));
-                    self.put(column, row, depth as f32, distance, shade);
+                if edges.iter().all(|edge| edge.value + edge.bias >= 0)
+                    && let Some(pixel) = self.pixel_before(column, row, depth as f32)
+                {
+                    *pixel = shade().color(own.map(|i| edges[i].value as f32 * edges[i].px_per_unit));
                 }
                 edges.iter_mut().for_each(|edge| edge.value += edge.per_column);
                 depth += plane.per_column;
@@ -315,7 +324,7 @@ impl Band<'_> {
     }
 
     /// Fills the pixels of a triangle whose corners are far away, from the lines through its edges.
-    fn fill_huge(&mut self, corners: [DVec3; 3], rims: [f32; 3], plane: &DepthPlane, shade: &Shade) {
+    fn fill_huge(&mut self, corners: [DVec3; 3], plane: &DepthPlane, shade: &mut dyn FnMut() -> Shade) {
         let lines: [_; 3] = std::array::from_fn(|i| {
             let [own, from, to] = [i, (i + 1) % 3, (i + 2) % 3].map(|corner| corners[corner].truncate());
             let along = (to - from).normalize_or_zero();
@@ -327,21 +336,23 @@ impl Band<'_> {
             for column in 0..self.width {
                 let at = dvec2(f64::from(column) + 0.5, f64::from(row) + 0.5);
                 let inside = lines.map(|(normal, offset)| normal.dot(at) + offset);
-                if inside.iter().all(|&distance| distance >= least) {
-                    let nearest = |i: usize| inside[i] as f32 - rims[i];
-                    let distance = nearest(0).min(nearest(1)).min(nearest(2));
-                    self.put(column, row, plane.depth(at.x, at.y) as f32, distance, shade);
+                if inside.iter().all(|&distance| distance >= least)
+                    && let Some(pixel) = self.pixel_before(column, row, plane.depth(at.x, at.y) as f32)
+                {
+                    *pixel = shade().color(inside.map(|distance| distance as f32));
                 }
             }
         }
     }
 
+    /// Returns a pixel, if what it shows is behind a depth, which becomes its own.
     #[inline]
-    fn put(&mut self, column: i32, row: i32, depth: f32, distance_px: f32, shade: &Shade) {
+    fn pixel_before(&mut self, column: i32, row: i32, depth: f32) -> Option<&mut [u8; 4]> {
         let place = ((row - self.rows.start) * self.width + column) as usize;
-        if depth > self.depths[place] {
+        let is_before = depth > self.depths[place];
+        is_before.then(|| {
             self.depths[place] = depth;
-            self.pixels[place] = shade.color(distance_px);
-        }
+            &mut self.pixels[place]
+        })
     }
 }
