@@ -337,8 +337,14 @@ impl Canvas {
             marks::paint_point(&painter, screen_from_world(readout.point));
         }
         let pointer = response.hover_pos();
-        let over =
-            OverMesh { ui, canvas: rect, painter: &painter, screen_from_world: &screen_from_world, pointer };
+        let over = OverMesh {
+            ui,
+            canvas: rect,
+            painter: &painter,
+            screen_from_world: &screen_from_world,
+            straight: None,
+            pointer,
+        };
         for row in ROWS {
             (row.marks_below)(state, &over);
         }

@@ -18,6 +18,8 @@ use crate::app::widgets::{format, hint_pill};
 use meshbrush_mesh::mesh::{Progress, TriangleId};
 use meshbrush_render::colormap::Ground;
 
+/// Greatest length of a straight piece of a line on a surface, in points.
+const STRAIGHT: f32 = 6.0;
 /// Corners of the brush ring on a surface.
 const RING_CORNERS: u32 = 72;
 
@@ -80,7 +82,16 @@ impl Canvas {
             marks::paint_point(&painter, on_screen(readout.point));
         }
         let pointer = response.hover_pos();
-        let over = OverMesh { ui, canvas: rect, painter: &painter, screen_from_world: &on_screen, pointer };
+        let px_per_world = sight.camera.plan().px_per_world();
+        let straight = Some(f64::from(STRAIGHT * px_per_point) / px_per_world);
+        let over = OverMesh {
+            ui,
+            canvas: rect,
+            painter: &painter,
+            screen_from_world: &on_screen,
+            straight,
+            pointer,
+        };
         for row in ROWS {
             (row.marks_below)(state, &over);
         }
@@ -95,7 +106,7 @@ impl Canvas {
             && state.tools.tool.in_space
         {
             self.paint_ring(ui, state, &over, &sight, (pointer, world));
-            let radius = state.tools.radius * sight.camera.plan().px_per_world();
+            let radius = state.tools.radius * px_per_world;
             price::show(ui, state, rect, pointer, radius as f32 / px_per_point);
         }
         if response.contains_pointer() || self.gesture.is_some() {
