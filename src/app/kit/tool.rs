@@ -83,8 +83,8 @@ pub struct OverMesh<'a> {
 const MOST_PIECES: f64 = 256.0;
 
 impl OverMesh<'_> {
-    /// Returns a line through points in world units on the screen. In space it lies on the surface, also between
-    /// the points.
+    /// Returns a line through points in world units on the screen. In space it lies on the surface, also
+    /// between the points.
     pub fn line(&self, points: impl IntoIterator<Item = DVec2>) -> Vec<Pos2> {
         let (mut line, mut last) = (Vec::new(), None);
         for point in points {
