@@ -4,9 +4,7 @@ use super::command::SpaceCommand;
 use super::heights::Heights;
 use super::session::Session;
 use super::view::View;
-use super::widgets::degrees::KM_PER_DEGREE;
 use meshbrush_mesh::geometry::Lattice;
-use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::scene::{Camera, HeightScale, Light, SpaceCamera, SpaceView, ViewDirection};
 
 /// Whether the canvas shows the mesh in space, and from where.
@@ -23,7 +21,7 @@ pub struct Space {
     pub exaggeration: Option<f64>,
     /// The light.
     pub light: Light,
-    /// World units of a unit of height: 1, or in documents in degrees that of a metre.
+    /// World units of a unit of height: see [`SpaceCamera::metre_in`].
     pub ground: f64,
     /// The height in the middle; half way up where it is not known.
     height: Option<f64>,
@@ -124,8 +122,7 @@ impl View {
         if !self.space.is_on {
             return;
         }
-        let is_in_degrees = session.document().settings().unit == LengthUnit::Degree;
-        self.space.ground = if is_in_degrees { 1.0 / (1000.0 * KM_PER_DEGREE) } else { 1.0 };
+        self.space.ground = SpaceCamera::metre_in(session.document().settings().unit);
         let Heights::Known(surface) = session.heights() else { return };
         if self.space.note_extent(surface.extent()) && self.is_fitted {
             self.fit();

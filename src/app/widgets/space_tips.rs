@@ -8,7 +8,7 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ),
     (
         "Heights ×",
-        "The factor for heights in space. In documents in degrees, 1 is true for heights in metres.",
+        "The factor for heights in space. In documents in kilometres or degrees, 1 is true for heights in metres.",
     ),
     (
         "Look to",

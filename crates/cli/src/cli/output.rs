@@ -123,7 +123,7 @@ impl Output {
     pub fn caption(&self, look: &Look) -> String {
         match &look.space {
             Some(space) if self.is_picture() => {
-                format!(", with heights times {}", Number(rounded(space.exaggeration)))
+                format!(", with heights times {}", Number(rounded(space.exaggeration / space.metre)))
             }
             _ => String::new(),
         }

@@ -43,6 +43,8 @@ pub struct SpaceArguments {
     pub altitude: Option<f64>,
 
     /// Factor for heights in space; without it relief has an eighth of the longer side of the domain
+    ///
+    /// In domains in kilometres or degrees, heights are metres: 1 is true there, too.
     #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     pub exaggeration: Option<f64>,
 }
@@ -133,11 +135,14 @@ impl RequestedSpace {
             ));
         };
         let bounds = extract.lattice().bounds();
+        let metre = SpaceCamera::metre_in(finished.unit());
         let usual = || SpaceCamera::visible_exaggeration(bounds, heights.relief());
+        let in_world = |factor: f64| factor * metre;
         Ok(SpaceLook {
             direction: self.direction,
             light: Light::default(),
-            exaggeration: self.exaggeration.unwrap_or_else(usual),
+            exaggeration: self.exaggeration.map_or_else(usual, in_world),
+            metre,
             heights: Arc::new(heights),
         })
     }

@@ -280,8 +280,10 @@ pub struct SpaceLook {
     pub direction: ViewDirection,
     /// In which light.
     pub light: Light,
-    /// The factor by which heights are exaggerated.
+    /// World units that a unit of height has in the picture.
     pub exaggeration: f64,
+    /// World units that a unit of height has in truth.
+    pub metre: f64,
     /// The heights of the nodes of the extract.
     pub heights: Arc<NodeHeights>,
 }

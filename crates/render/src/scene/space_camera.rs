@@ -2,6 +2,7 @@ use glam::{DMat3, DVec2, DVec3, IVec3, dvec2, dvec3};
 
 use super::{Camera, HeightScale};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush_mesh::text::LengthUnit;
 
 /// Lowest altitude of the view, in degrees. From the horizon nothing could be seen but an edge.
 const LOWEST_ALTITUDE: f64 = 5.0;
@@ -10,6 +11,8 @@ const LOWEST_ALTITUDE: f64 = 5.0;
 const LARGEST_SIDE_PX: f64 = (1u32 << 21) as f64;
 /// Share of the longer side of the domain that its relief has in a picture, where nothing else is asked for.
 const RELIEF_SHARE: f64 = 0.125;
+/// Metres of a degree of latitude.
+const METRES_PER_DEGREE: f64 = 111_195.0;
 /// The range of factors by which heights can be exaggerated.
 const EXAGGERATIONS: [f64; 2] = [1e-9, 1e9];
 
@@ -96,6 +99,16 @@ pub struct ViewRay {
 }
 
 impl SpaceCamera {
+    /// Returns the length of a metre in a unit: factors for heights in metres are then true at 1. Without a
+    /// unit, heights have that of the plane.
+    pub fn metre_in(unit: LengthUnit) -> f64 {
+        match unit {
+            LengthUnit::None | LengthUnit::Metre => 1.0,
+            LengthUnit::Kilometre => 1e-3,
+            LengthUnit::Degree => 1.0 / METRES_PER_DEGREE,
+        }
+    }
+
     /// Returns the factor that gives relief an eighth of the longer side of a domain.
     pub fn visible_exaggeration(bounds: Rect, relief: f64) -> f64 {
         let factor = RELIEF_SHARE * bounds.size().max_element() / relief;
