@@ -121,7 +121,9 @@ pub use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 #[doc(inline)]
 pub use meshbrush_render::render::Image;
 #[doc(inline)]
-pub use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look, UnknownEnding};
+pub use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look, SpaceLook, UnknownEnding};
+#[doc(inline)]
+pub use meshbrush_render::scene::{HeightScale, Light, NodeHeights, ViewDirection};
 
 #[doc(inline)]
 pub use meshbrush_io::io::asc::read as read_asc;

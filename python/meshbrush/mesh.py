@@ -195,15 +195,21 @@ class Mesh:
         edges: bool | None = None,
         colormap: str | None = None,
         light: bool | None = None,
+        view: str | None = None,
+        azimuth: float | None = None,
+        altitude: float | None = None,
+        exaggeration: float | None = None,
         progress: Progress = None,
     ) -> list[str]:
         """Writes the mesh in the format of the ending, and returns the files.
 
         `values` are numbers at the nodes by their names, and `quantities` formulas, as in "depth = 20 - x"; solvers read
         `depth`. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a mesh in the
-        plane of a projection. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg.
+        plane of a projection. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"` a
+        .png shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
         """
-        output = _look(as_path(path) or path, size, edges, colormap, light)
+        space = _space(view, azimuth, altitude, exaggeration)
+        output = _look(as_path(path) or path, size, edges, colormap, light) | space
         output.update(binary=bool(binary), quantities=list(quantities or []))
         named = [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
         with watching(progress) as watch:
@@ -216,9 +222,19 @@ class Mesh:
         edges: bool | None = None,
         colormap: str | None = None,
         light: bool | None = None,
+        view: str | None = None,
+        azimuth: float | None = None,
+        altitude: float | None = None,
+        exaggeration: float | None = None,
     ) -> npt.NDArray[np.uint8]:
-        """Returns a picture with shape (height, width, 4): red, green, blue and alpha. It needs no other library."""
-        return self._core.picture(_look("picture.png", size, edges, colormap, light))
+        """Returns a picture with shape (height, width, 4): red, green, blue and alpha. It needs no other library.
+
+        With `view="space"` it shows the mesh as a surface. `azimuth` is the direction in which one looks, in degrees clockwise
+        from the y axis, `altitude` how high the viewer stands above the horizon, 5 to 90 degrees, and `exaggeration` the
+        factor for heights; without it relief has an eighth of the longer side of the domain.
+        """
+        space = _space(view, azimuth, altitude, exaggeration)
+        return self._core.picture(_look("picture.png", size, edges, colormap, light) | space)
 
     def _repr_png_(self) -> bytes:
         return self._core.png(_look("picture.png", (800, 600), self._core.counts[1] < 20_000, None, True))
@@ -299,3 +315,9 @@ def _look(
     elif isinstance(size, int):
         size = str(size)
     return {"file": file, "size": size, "edges": edges, "colormap": colormap, "light": light}
+
+
+def _space(
+    view: str | None, azimuth: float | None, altitude: float | None, exaggeration: float | None
+) -> dict[str, Any]:
+    return {"view": view, "azimuth": azimuth, "altitude": altitude, "exaggeration": exaggeration}

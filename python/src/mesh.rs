@@ -321,8 +321,11 @@ impl Mesh {
         let look = look_of(output)?;
         let picture = run(slf.py(), &Watching::QUIET, move |_| {
             let mesh = shared.finished.mesh();
-            shared.with_extract(|extract| look.look_for(&shared.finished).draw(mesh, extract))
-        })?;
+            shared.with_extract(|extract| {
+                look.look_for(&shared.finished, extract).map(|look| look.draw(mesh, extract))
+            })
+        })?
+        .map_err(mesh_error)?;
         let [width, height] = picture.size.map(|side| side as usize);
         let pixels = picture.rgba.into_pyarray(slf.py());
         Ok(pixels.call_method1("reshape", (height, width, 4))?.cast_into()?)
@@ -334,10 +337,15 @@ impl Mesh {
         let look = look_of(output)?;
         let bytes = run(slf.py(), &Watching::QUIET, move |_| {
             let mesh = shared.finished.mesh();
-            let picture = shared.with_extract(|extract| look.look_for(&shared.finished).draw(mesh, extract));
-            let mut bytes = Vec::new();
-            meshbrush_io::io::png::write(&mut bytes, picture.size, &picture.rgba).map(|()| bytes)
+            let picture = shared.with_extract(|extract| {
+                look.look_for(&shared.finished, extract).map(|look| look.draw(mesh, extract))
+            });
+            picture.map(|picture| {
+                let mut bytes = Vec::new();
+                meshbrush_io::io::png::write(&mut bytes, picture.size, &picture.rgba).map(|()| bytes)
+            })
         })?;
+        let bytes = bytes.map_err(mesh_error)?;
         Ok(PyBytes::new(slf.py(), &bytes.map_err(file_error)?))
     }
 }

@@ -402,6 +402,12 @@ def test_pictures_and_files(tmp_path: Path) -> None:
     assert picture.shape == (100, 120, 4) and picture.dtype == np.uint8 and picture[..., 3].min() == 255
     assert len(np.unique(picture.reshape(-1, 4), axis=0)) >= 5
     assert mesh._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(mb.MeshError, match="needs heights"):
+        mesh.picture(view="space")
+    hills = square()
+    hills.layers.surface(formula="sin(9 * x) * cos(7 * y)", within=0.05)
+    views = [hills.mesh().picture(size=(120, 100), view="space", azimuth=azimuth) for azimuth in (20, 200)]
+    assert views[0].shape == (100, 120, 4) and not np.array_equal(views[0], views[1])
     depth = 3 + mesh.nodes[:, 0]
     for ending in ("msh", "vtu", "2dm", "csv", "obj", "stl", "node", "14", "gr3", "slf", "svg", "png"):
         values = {"depth": depth} if ending not in ("svg", "png") else None

@@ -93,16 +93,15 @@ impl App {
             if self.run_key(event, ctx) {
                 used_keys.push(index);
             }
-            let lattice = self.session.mesh().lattice();
-            self.canvas.take_event(event, ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
+            let session = &self.session;
+            self.canvas.take_event(event, ctx, &mut self.view, &self.tools, session, &mut self.commands);
         }
         // Widgets must not act on these keys again.
         for index in used_keys.into_iter().rev() {
             ctx.input_mut(|input| input.events.remove(index));
         }
         self.run_commands(ctx);
-        let lattice = self.session.mesh().lattice();
-        self.canvas.take_state(ctx, &mut self.view, &self.tools, lattice, &mut self.commands);
+        self.canvas.take_state(ctx, &mut self.view, &self.tools, &self.session, &mut self.commands);
     }
 
     /// Runs the command of a key. Returns whether there was one: widgets must not act on the key again.
@@ -168,6 +167,8 @@ impl App {
         let cuts = self.session.advance_cuts(jobs);
         let follows = self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(jobs);
+        let derives = derives | self.session.find_heights(self.view.space.is_on, jobs);
+        self.view.follow_heights(&self.session);
         let (features, mut of_window) = self.features_in_context(ctx);
         let features_work = features.follow(&mut of_window);
         let bounds = self.session.document().settings().domain.bounds;

@@ -25,6 +25,7 @@ mod file_kinds;
 mod files;
 mod frame;
 mod frame_log;
+mod heights;
 mod help;
 mod home;
 mod jobs;
@@ -46,6 +47,7 @@ pub mod session;
 mod size_change;
 mod slices;
 mod software_window;
+mod space;
 #[cfg(test)]
 mod tests;
 pub mod theme;

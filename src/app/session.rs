@@ -11,6 +11,7 @@ use super::brake::Brake;
 use super::cuts::CutQueue;
 use super::derivation::{Derivation, Derived, ShownChange};
 use super::document_id::DocumentId;
+use super::heights::HeightFinder;
 use super::jobs::Jobs;
 use super::notices::{self, Notices};
 use super::readout::{Quantity, Readout};
@@ -50,9 +51,10 @@ pub struct Session {
     /// When the update in progress began.
     update_began: Option<Instant>,
     last_update: Option<Duration>,
-    derivation: Derivation,
+    pub(super) derivation: Derivation,
     boundary: BoundaryFinder,
     ages: AgeKeeper,
+    pub(super) heights: HeightFinder,
     /// The change of the follower's mesh since the canvas last took it.
     mesh_change: Option<MeshChange>,
 }
@@ -84,6 +86,7 @@ impl Session {
             derivation: Derivation::default(),
             boundary: BoundaryFinder::default(),
             ages: AgeKeeper::default(),
+            heights: HeightFinder::default(),
             mesh_change: None,
         })
     }

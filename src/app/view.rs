@@ -8,13 +8,14 @@ use super::dock::Dock;
 use super::kit::Tab;
 use super::presentation::Presentation;
 use super::readout::Quantity;
+use super::space::Space;
 use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::Look;
-use meshbrush_render::scene::{Camera, Style};
+use meshbrush_render::scene::{Camera, SpaceCamera, Style};
 
 /// The field that is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,6 +193,8 @@ pub struct View {
     pub revealed_panel: Option<&'static str>,
     /// Dark, light, or as the desktop has it.
     pub theme: ThemePreference,
+    /// The view in space.
+    pub space: Space,
 }
 
 impl Default for View {
@@ -213,6 +216,7 @@ impl Default for View {
             quantity: Quantity::TargetDiameter,
             revealed_panel: None,
             theme: ThemePreference::Dark,
+            space: Space::default(),
         }
     }
 }
@@ -255,6 +259,7 @@ impl View {
                 .lattice()
                 .ok()
                 .and_then(|lattice| Look::north_of(settings.domain.projection.as_ref(), &lattice)),
+            space: None,
         }
     }
 
@@ -267,10 +272,15 @@ impl View {
                 self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
             }
             ViewCommand::Zoom(factor) => {
-                self.move_camera(|camera| camera.zoomed(factor, camera.half_size_px()))
+                let about_middle = |camera: SpaceCamera| camera.zoomed(factor, camera.plan().half_size_px());
+                self.move_view(|camera| camera.zoomed(factor, camera.half_size_px()), about_middle);
             }
-            ViewCommand::ZoomAt(factor, px) => self.move_camera(|camera| camera.zoomed(factor, px)),
-            ViewCommand::Pan(delta_px) => self.move_camera(|camera| camera.panned(delta_px)),
+            ViewCommand::ZoomAt(factor, px) => {
+                self.move_view(|camera| camera.zoomed(factor, px), |camera| camera.zoomed(factor, px));
+            }
+            ViewCommand::Pan(delta_px) => {
+                self.move_view(|camera| camera.panned(delta_px), |camera| camera.panned(delta_px));
+            }
             ViewCommand::ToggleEdges => self.edges = !self.edges,
             ViewCommand::ToggleAid(aid) => self.aids.toggle(aid),
             ViewCommand::SetOverlay(overlay) => self.overlay = overlay,
@@ -291,6 +301,7 @@ impl View {
             ViewCommand::TogglePanels => self.toggle_panels(),
             ViewCommand::ShowTab(tab) => self.show_tab(tab),
             ViewCommand::TogglePresentation => self.toggle_presentation(ctx),
+            ViewCommand::Space(command) => self.change_space(command),
         }
     }
 
@@ -307,12 +318,15 @@ impl View {
     /// Shows the whole domain, also when the window gets another size, until the view is moved.
     pub fn fit(&mut self) {
         (self.camera, self.is_fitted) = (None, true);
+        self.space.forget_height();
     }
 
-    fn move_camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
+    /// Moves the camera of the plan.
+    pub(super) fn move_camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
         let camera = self.camera.map(moved);
         if camera != self.camera {
             (self.camera, self.is_fitted) = (camera, false);
+            self.space.land();
         }
     }
 
@@ -363,8 +377,11 @@ impl View {
             _ => {
                 self.is_fitted = true;
                 let above_hint = [size_px[0], size_px[1].saturating_sub(below_px as u32)];
-                let fitted = Camera::fit(lattice, bounds, above_hint, margin_px);
-                fitted.resized(size_px).panned(DVec2::new(0.0, -0.5 * below_px))
+                let up = DVec2::new(0.0, -0.5 * below_px);
+                match self.space.fitted(lattice, above_hint, margin_px) {
+                    Some(fitted) => self.space.put(fitted.resized(size_px).panned(up)),
+                    None => Camera::fit(lattice, bounds, above_hint, margin_px).resized(size_px).panned(up),
+                }
             }
         });
     }

@@ -205,4 +205,77 @@ fn norms_and_curves_of_errors() {
     refused("--target 0.3 --domain 0,0,1,1 --error-curve c.csv", "no visible layer is one");
     refused("--surface x --max-error 1 --domain 0,0,1,1 --error-curve c.png", "use .svg or .csv");
     refused("--surface x --max-error 1 --norm l3 --domain 0,0,1,1", "possible values: max, l2, h1");
+
+/// The picture of a run, in its colours: red, green and blue by pixel.
+fn picture(folder: &Folder, name: &str) -> ([u32; 2], Vec<[u8; 3]>) {
+    let file = std::io::BufReader::new(std::fs::File::open(folder.0.join(name)).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut bytes).unwrap();
+    ([frame.width, frame.height], bytes.chunks_exact(4).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect())
+}
+
+#[test]
+fn pictures_show_the_surface_in_space() {
+    let folder = Folder::new("space");
+    folder.file("heights.asc", Grid::new([33, 25], |x, y| 8.0 * (0.2 * x).sin() * (0.15 * y).cos()).text());
+    let run = |options: &str| {
+        let size = if options.contains("--size") { "" } else { "--size 400" };
+        let ran = folder.run(format!("mesh --surface heights.asc --max-error 0.5 -o m.png {size} {options}"));
+        assert_eq!(ran.status, 0, "{options}: {}", ran.err);
+        (picture(&folder, "m.png"), ran.err)
+    };
+    let ((size, usual), said) = run("--view space");
+    assert!(said.contains("m.png, with heights times 0.2"), "{said}");
+    assert!(size[0] == 400 && (150..350).contains(&size[1]), "{size:?}");
+    let ground = usual[0];
+    let drawn = usual.iter().filter(|pixel| **pixel != ground).count();
+    assert!(drawn > usual.len() / 4 && drawn < usual.len() * 9 / 10, "{drawn} of {}", usual.len());
+    assert_eq!(run("--view space --azimuth 20 --altitude 40").0.1, usual, "the usual direction");
+    for other in ["--azimuth 200", "--altitude 15", "--exaggeration 1"] {
+        assert_ne!(run(&format!("--view space {other}")).0.1, usual, "{other}");
+    }
+    // From above and without relief it is the plan, within its margin.
+    let ((from_above, _), _) =
+        run("--view space --altitude 90 --azimuth 0 --exaggeration 1e-6 --size 400x300");
+    assert_eq!(from_above, [400, 300]);
+
+    folder.file(
+        "space.toml",
+        "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 0.5\n\
+         [[output]]\nfile = \"r.png\"\nsize = \"400\"\nview = \"space\"\nazimuth = 200\n",
+    );
+    assert_eq!(folder.run("mesh space.toml").status, 0);
+    assert_eq!(picture(&folder, "r.png"), run("--view space --azimuth 200").0, "as by options");
+}
+
+#[test]
+fn pictures_that_cannot_be_in_space_are_refused() {
+    let folder = Folder::new("space-refused");
+    folder.file("heights.asc", Grid::new([8, 8], |x, y| x * y).text());
+    let surface = "mesh --surface heights.asc --max-error 1";
+    for (options, parts) in [
+        (format!("{surface} -o m.svg --view space"), &["--view space", ".png"][..]),
+        (format!("{surface} -o m.png --view space --altitude 4"), &["--altitude", "4", "5 to 90"]),
+        (format!("{surface} -o m.png --view space --altitude=-1"), &["--altitude", "5 to 90"]),
+        (format!("{surface} -o m.png --view space --azimuth nan"), &["--azimuth", "angle"]),
+        (format!("{surface} -o m.png --view space --exaggeration 0"), &["--exaggeration", "positive"]),
+        (format!("{surface} -o m.png --azimuth 10"), &["--azimuth", "--view space"]),
+        ("mesh --domain 0,0,1,1 --spacing 0.1 -o m.png --view space".into(), &["heights", "--surface"]),
+    ] {
+        let ran = folder.run(&*options);
+        assert!(ran.status != 0 && !folder.has("m.png"), "{options}");
+        assert!(parts.iter().all(|part| ran.err.contains(part)), "{options}: {}", ran.err);
+    }
+    let recipe = |keys: &str, file: &str| {
+        let text = format!(
+            "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 1\n[[output]]\nfile = \"{file}\"\n{keys}\n"
+        );
+        folder.file("m.toml", text);
+        folder.run("mesh m.toml").err
+    };
+    assert!(recipe("view = \"space\"", "m.svg").contains(".png"));
+    assert!(recipe("view = \"space\"", "m.vtu").contains("for pictures"));
+    assert!(recipe("view = \"moon\"", "m.png").contains("use plan or space"));
+    assert!(recipe("azimuth = 3", "m.png").contains("views in space"));
 }

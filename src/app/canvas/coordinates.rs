@@ -141,6 +141,8 @@ pub fn show_scale_bar(ui: &Ui, inner: Rect, camera: &Camera, state: &FrameState<
     let size = vec2(bar.max(text_size.x), text_size.y + 8.0) + 2.0 * BAR_MARGIN;
     let place = Rect::from_min_size(inner.right_bottom() - size, size);
     if let Some(north) = domain.projection.and_then(|projection| projection.north_at(center)) {
+        let in_space = state.view.space_view();
+        let north = in_space.map_or(north, |view| view.camera.turned_direction(north));
         show_north(ui, place.right_top() - vec2(0.0, 8.0), north);
     }
     let response = ui.interact(place, ui.scope_id().with("scale bar"), Sense::hover());

@@ -8,12 +8,13 @@ use eframe::wgpu;
 
 use crate::app::derivation::PiecesChange;
 use crate::app::derivation::ShownChange;
+use crate::app::heights::Surface;
 use crate::app::session::Session;
 use crate::app::software_window::CanvasImage;
 use meshbrush_core::document::MeshChange;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::render::gpu::{GpuError, GpuRenderer, MeshMirror, emulates_gpu};
-use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
+use meshbrush_render::scene::{Camera, Overlay, ShownMesh, ShownRevision, SpaceView, Style};
 
 /// Bytes of a mesh that are sent to the GPU in one frame: about 2 ms.
 const BYTES_PER_FRAME: usize = 16 << 20;
@@ -101,18 +102,7 @@ impl CanvasGpu {
             return Ok(Progress::Done);
         };
         // Before anything can fail: each change is reported once.
-        let sent = if self.in_software {
-            match &change.mesh {
-                Some(MeshChange::Within(changes)) => {
-                    renderer.picture_in_software_mut().note_changes(changes, session.mesh());
-                }
-                Some(MeshChange::Replaced) => renderer.picture_in_software_mut().forget_mesh(),
-                None => {}
-            }
-            Ok(Progress::Done)
-        } else {
-            self.sending.send(renderer.mirror_mut(), session, change)
-        };
+        let sent = follow(self.in_software, &mut self.sending, renderer, session, change);
         if let Some(failure) = failed.take() {
             return Err(failure);
         }
@@ -131,10 +121,86 @@ impl CanvasGpu {
         sent
     }
 
+    /// Sends changes of the mesh and its heights to the GPU, for a picture in space. The former picture stays
+    /// on the screen until all are there.
+    ///
+    /// # Errors
+    /// Fails when the GPU cannot hold the mesh, or could not draw the last frame.
+    pub fn sync_in_space(
+        &mut self,
+        session: &Session,
+        change: ShownChange,
+        surface: Option<Surface<'_>>,
+        seen: Option<(&SpaceView, &Style)>,
+    ) -> Result<Progress, GpuError> {
+        let mut renderer = self.state.renderer.write();
+        let Some(CanvasResources { renderer, failed }) = renderer.callback_resources.get_mut() else {
+            return Ok(Progress::Done);
+        };
+        let sent = follow(self.in_software, &mut self.sending, renderer, session, change);
+        if let Some(failure) = failed.take() {
+            return Err(failure);
+        }
+        let (device, queue) = (&self.state.device, &self.state.queue);
+        renderer.set_overlay(device, queue, None)?;
+        let (Some(surface), Some((view, style))) = (surface, seen) else { return sent };
+        if self.in_software {
+            let revision = ShownRevision { mesh: surface.revision(), pieces: surface.revision() };
+            let gpu = (!self.in_software_window).then_some((device, queue));
+            renderer.prepare_in_space_in_software(gpu, surface.shown(), revision, view, style)?;
+        } else if surface.is_current() && renderer.mirror().shown() == Some(session.follower().revision()) {
+            renderer.set_heights(device, queue, surface.shown().heights, surface.revision())?;
+        }
+        sent
+    }
+
+    /// Returns the shape that draws the mesh on the canvas, where `can_redraw` with the present view.
+    pub fn shape_in_space(
+        &self,
+        rect: egui::Rect,
+        view: SpaceView,
+        style: Style,
+        can_redraw: bool,
+    ) -> egui::Shape {
+        let sight = if can_redraw { Sight::Space(view) } else { Sight::Former };
+        let callback = CanvasCallback { sight, style: Arc::new(style), in_software: self.in_software };
+        egui_wgpu::Callback::new_paint_callback(rect, callback).into()
+    }
+
+    /// Returns whether the GPU has the mesh that is to be shown.
+    pub fn has_mesh(&self, session: &Session) -> bool {
+        let renderer = self.state.renderer.read();
+        let canvas = renderer.callback_resources.get::<CanvasResources>();
+        canvas.is_some_and(|canvas| canvas.renderer.mirror().shown() == Some(session.follower().revision()))
+    }
+
     /// Returns the shape that draws the mesh on the canvas.
     pub fn shape(&self, rect: egui::Rect, camera: Camera, style: Style) -> egui::Shape {
-        let callback = CanvasCallback { camera, style: Arc::new(style), in_software: self.in_software };
+        let sight = Sight::Plan(camera);
+        let callback = CanvasCallback { sight, style: Arc::new(style), in_software: self.in_software };
         egui_wgpu::Callback::new_paint_callback(rect, callback).into()
+    }
+}
+
+/// Tells the picture or the mirror which changes of the mesh there are.
+fn follow(
+    in_software: bool,
+    sending: &mut Sending,
+    renderer: &mut GpuRenderer,
+    session: &Session,
+    change: ShownChange,
+) -> Result<Progress, GpuError> {
+    if in_software {
+        match &change.mesh {
+            Some(MeshChange::Within(changes)) => {
+                renderer.picture_in_software_mut().note_changes(changes, session.mesh());
+            }
+            Some(MeshChange::Replaced) => renderer.picture_in_software_mut().forget_mesh(),
+            None => {}
+        }
+        Ok(Progress::Done)
+    } else {
+        sending.send(renderer.mirror_mut(), session, change)
     }
 }
 
@@ -207,8 +273,16 @@ fn arrange(mirror: &mut MeshMirror, session: &Session) -> Result<Progress, GpuEr
     mirror.arrange(mesh, session.follower().revision(), BLOCKS_PER_FRAME)
 }
 
+/// What the GPU draws.
+enum Sight {
+    Plan(Camera),
+    Space(SpaceView),
+    /// The picture of the last frame.
+    Former,
+}
+
 struct CanvasCallback {
-    camera: Camera,
+    sight: Sight,
     style: Arc<Style>,
     in_software: bool,
 }
@@ -223,7 +297,12 @@ impl CallbackTrait for CanvasCallback {
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
         if let Some(canvas) = resources.get_mut::<CanvasResources>().filter(|_| !self.in_software) {
-            let prepared = canvas.renderer.prepare(device, queue, encoder, &self.camera, &self.style);
+            let (renderer, style) = (&mut canvas.renderer, &self.style);
+            let prepared = match &self.sight {
+                Sight::Plan(camera) => renderer.prepare(device, queue, encoder, camera, style),
+                Sight::Space(view) => renderer.prepare_in_space(device, queue, encoder, view, style),
+                Sight::Former => Ok(()),
+            };
             canvas.failed = prepared.err();
         }
         Vec::new()

@@ -4,9 +4,11 @@ use eframe::egui::{Context, Id, Popup, PopupKind, Pos2, Ui};
 use glam::DVec2;
 
 use super::Canvas;
+use super::space::space_sight;
 use crate::app::command::{BrushCommand, Command, InspectCommand, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
+use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
 use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
@@ -25,9 +27,10 @@ pub fn open(ctx: &Context, at: Pos2, world: DVec2) {
 
 impl Canvas {
     /// Opens the menu for the point under the pointer, or else for the middle of the view.
-    pub fn open_menu(&self, ctx: &Context, view: &View, tools: &Tools) {
+    pub fn open_menu(&self, ctx: &Context, view: &View, tools: &Tools, session: &Session) {
         let (Some((canvas, rect)), Some(camera)) = (self.shown, view.camera) else { return };
-        let pointer = Pointer { rect, camera, tools, px_per_point: f64::from(ctx.pixels_per_point()) };
+        let (space, px_per_point) = (space_sight(view, session), f64::from(ctx.pixels_per_point()));
+        let pointer = Pointer { rect, camera, space, tools, px_per_point };
         let under_pointer = ctx.pointer_latest_pos().filter(|at| rect.contains(*at));
         let at = under_pointer.unwrap_or(rect.center());
         ctx.data_mut(|data| data.insert_temp(id(), (at, pointer.world(at))));

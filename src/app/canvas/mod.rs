@@ -10,18 +10,20 @@ mod menu;
 mod navigation;
 mod overlay;
 mod overlay_palette;
+mod press;
 mod price;
+mod space;
 mod toast;
 mod way_back;
 
-use eframe::egui::{
-    self, Context, CursorIcon, Event, Id, Key, PointerButton, Popup, Rect, Response, Sense, TouchPhase, Ui,
-};
+use eframe::egui::{self, Context, CursorIcon, Event, Id, Key, Popup, Rect, Response, Sense, Ui};
 use glam::DVec2;
 
 pub use gpu::{CanvasGpu, canvas_image};
 use overlay::OverlayColors;
 use overlay_palette::OverlayPalette;
+use press::{begin_gesture, pen_pressure};
+pub use space::space_sight;
 pub use toast::Toast;
 
 use super::busy::Busy;
@@ -35,7 +37,7 @@ use super::parts::{Part, mark};
 use super::session::Session;
 use super::software_window::SoftwareWindow;
 use super::theme::tokens;
-use super::tools::{PAN, Panning, Tools};
+use super::tools::{PAN, Tools};
 use super::view::View;
 use crate::app::kit::{FrameState, Gesture, OverMesh, Pointer, Press, marks};
 use meshbrush_core::paint::StrokePlan;
@@ -148,15 +150,15 @@ impl Canvas {
         ctx: &Context,
         view: &mut View,
         tools: &Tools,
-        lattice: &Lattice,
+        session: &Session,
         commands: &mut Vec<Command>,
     ) {
-        let Some(pointer) = self.pointer_on(ctx, view, tools, lattice) else { return };
+        let Some(pointer) = self.pointer_on(ctx, view, tools, session) else { return };
         match *event {
             Event::PointerButton { pos, button, pressed: true, modifiers }
                 if self.gesture.is_none() && self.is_free_at(ctx, pos) =>
             {
-                self.gesture = press(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
+                self.gesture = begin_gesture(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
             }
             Event::PointerMoved(pos) => {
                 if let Some(gesture) = &mut self.gesture {
@@ -183,10 +185,10 @@ impl Canvas {
         ctx: &Context,
         view: &mut View,
         tools: &Tools,
-        lattice: &Lattice,
+        session: &Session,
         commands: &mut Vec<Command>,
     ) {
-        let Some(mut pointer) = self.pointer_on(ctx, view, tools, lattice) else { return };
+        let Some(mut pointer) = self.pointer_on(ctx, view, tools, session) else { return };
         let Some(response) = self.shown.and_then(|(id, _)| ctx.read_response(id)) else { return };
         if !ctx.input(|input| input.pointer.any_down()) {
             self.interrupt(commands);
@@ -204,12 +206,12 @@ impl Canvas {
         ctx: &Context,
         view: &mut View,
         tools: &'a Tools,
-        lattice: &Lattice,
+        session: &'a Session,
     ) -> Option<Pointer<'a>> {
         let (_, rect) = self.shown?;
-        fit_camera(view, lattice, rect, ctx.pixels_per_point());
+        fit_camera(view, session.mesh().lattice(), rect, ctx.pixels_per_point());
         let px_per_point = f64::from(ctx.pixels_per_point());
-        Some(Pointer { rect, camera: view.camera?, tools, px_per_point })
+        Some(Pointer { rect, camera: view.camera?, space: space_sight(view, session), tools, px_per_point })
     }
 
     /// Returns whether a press at `pos`, in points, meets the canvas and nothing over it. egui knows this
@@ -244,41 +246,6 @@ impl Canvas {
         let from = tools.last_painted.filter(|_| shift).unwrap_or(to);
         (is_free && paints).then(|| StrokePlan { brush, mirror: tools.mirror(bounds), from, to })
     }
-}
-
-/// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted.
-fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
-    match phase {
-        TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
-        TouchPhase::End | TouchPhase::Cancel => Some(None),
-    }
-}
-
-/// Begins the gesture of a press: panning by Space or the middle button, else the tool's.
-fn press(
-    ctx: &Context,
-    press: Press,
-    button: PointerButton,
-    pointer: &Pointer<'_>,
-    commands: &mut Vec<Command>,
-) -> Option<Box<dyn Gesture>> {
-    let panning = || Some(Box::new(Panning { last: press.at, button }) as Box<dyn Gesture>);
-    match button {
-        PointerButton::Middle => panning(),
-        PointerButton::Primary if space_is_down(ctx) => panning(),
-        PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),
-        PointerButton::Secondary => {
-            if !(pointer.tools.tool.press_secondary)(pointer.tools, commands) {
-                menu::open(ctx, press.at, pointer.world(press.at));
-            }
-            None
-        }
-        _ => None,
-    }
-}
-
-fn space_is_down(ctx: &Context) -> bool {
-    ctx.input(|input| input.key_down(Key::Space)) && !ctx.egui_wants_keyboard_input()
 }
 
 /// Fits the view's camera to a canvas of the given rectangle in points.
@@ -317,6 +284,9 @@ impl Canvas {
 
     /// Sends the changes of the mesh to the GPU, and draws it.
     pub fn draw_mesh(&mut self, ui: &Ui, session: &mut Session, view: &View, commands: &mut Vec<Command>) {
+        if view.space.is_on {
+            return self.draw_in_space(ui, session, view, commands);
+        }
         self.follow_contours(session, view);
         let change = session.take_shown_change();
         let (Some(gpu), Some(camera), Some((_, rect))) = (&mut self.gpu, view.camera, self.shown) else {
@@ -347,6 +317,9 @@ impl Canvas {
     /// Draws highlights, what the tool shows, the brush ring and the price beside it, and sets the cursor.
     pub fn draw_marks(&self, ui: &mut Ui, response: &Response, state: &FrameState<'_>) {
         let Some(camera) = state.view.camera else { return };
+        if state.view.space.is_on {
+            return self.draw_marks_in_space(ui, response, state);
+        }
         let (rect, px_per_point) = (response.rect, ui.pixels_per_point());
         let painter = ui.painter_at(rect);
         self.paint_contours(&painter, rect, &camera);
@@ -364,8 +337,14 @@ impl Canvas {
             marks::paint_point(&painter, screen_from_world(readout.point));
         }
         let pointer = response.hover_pos();
-        let over =
-            OverMesh { ui, canvas: rect, painter: &painter, screen_from_world: &screen_from_world, pointer };
+        let over = OverMesh {
+            ui,
+            canvas: rect,
+            painter: &painter,
+            screen_from_world: &screen_from_world,
+            straight: None,
+            pointer,
+        };
         for row in ROWS {
             (row.marks_below)(state, &over);
         }

@@ -3,7 +3,7 @@
 use eframe::egui::{Context, Event, EventFilter, Id, Key, Response, Stroke, StrokeKind, Ui};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, ViewCommand};
+use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::Pointer;
 use crate::app::theme::tokens;
 
@@ -23,6 +23,14 @@ pub fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command
         && factor != 1.0
     {
         let px = pointer.px(at);
+        if let Some(space) = &mut pointer.space {
+            // About the point of the surface under the pointer.
+            if let Some(height) = space.height_at_px(px) {
+                space.camera = space.camera.about(height);
+                commands.push(Command::View(ViewCommand::Space(SpaceCommand::About(height))));
+            }
+            space.camera = space.camera.zoomed(factor, px);
+        }
         pointer.camera = pointer.camera.zoomed(factor, px);
         commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
     }

@@ -12,7 +12,7 @@ pub fn gestures() -> Vec<&'static GestureHelp> {
 }
 
 /// Those that belong to no feature.
-static GESTURES: [GestureHelp; 26] = [
+static GESTURES: [GestureHelp; 29] = [
     GestureHelp::new(GesturePlace::Querying, "Inspect a triangle", "click"),
     GestureHelp::new(GesturePlace::Querying, "Move a pin", "drag it"),
     GestureHelp::new(GesturePlace::Querying, "Go to a neighbour of the triangle", "1, 2, 3"),
@@ -30,6 +30,9 @@ static GESTURES: [GestureHelp; 26] = [
     GestureHelp::new(GesturePlace::Canvas, "Menu for a point", "right-click"),
     GestureHelp::new(GesturePlace::Canvas, "Move the view", "Space+drag"),
     GestureHelp::new(GesturePlace::Canvas, "Move the view", "middle-drag"),
+    GestureHelp::new(GesturePlace::Canvas, "Turn the view in space", "Space+drag"),
+    GestureHelp::new(GesturePlace::Canvas, "Turn the view in space", "middle-drag"),
+    GestureHelp::new(GesturePlace::Canvas, "Move the view in space", "Shift+middle-drag"),
     GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "wheel"),
     GestureHelp::new(GesturePlace::Canvas, "Zoom at the pointer", "pinch"),
     GestureHelp::new(GesturePlace::Canvas, "Move the view while the canvas has the focus", "arrow keys"),

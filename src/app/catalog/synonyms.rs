@@ -1,7 +1,7 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 46] = [
+static SYNONYMS: [(&str, &str); 47] = [
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
@@ -27,6 +27,7 @@ static SYNONYMS: [(&str, &str); 46] = [
     ("Path", "route line cost shortest safest"),
     ("Threats", "radar danger"),
     ("Pan", "move hand scroll"),
+    ("In space", "3d three dimensions perspective relief terrain surface orbit rotate heights"),
     ("Boundary", "markers pieces names"),
     ("Add layer: picture or grid, through a curve…", "raster depths shallow dem terrain values"),
     ("Add layer: threats", "radar danger table"),

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Key, Modifiers, ThemePreference};
 
-use crate::app::command::{Command, ShellCommand, ViewCommand};
+use crate::app::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
 use crate::app::widgets::key_menu::MENU_KEYS;
@@ -20,6 +20,9 @@ pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {
         item("Zoom in", ViewCommand::Zoom(1.5)).key(Key::Plus).key(Key::Equals),
         item("Zoom out", ViewCommand::Zoom(1.0 / 1.5)).key(Key::Minus),
         CatalogItem::new(View, "Go to…", Command::Shell(ShellCommand::AskPlace)).ctrl(Key::G),
+        item("In space", ViewCommand::Space(SpaceCommand::Toggle))
+            .keys(Modifiers::SHIFT, Key::V)
+            .checked(view.space.is_on),
         item("Edges", ViewCommand::ToggleEdges).key(Key::G).checked(view.edges).group(),
         aid("Coordinates along the canvas", CanvasAid::Coordinates).checked(view.aids.coordinates),
         aid("Graticule", CanvasAid::Graticule).checked(view.aids.graticule).palette_only(),
@@ -79,7 +82,7 @@ fn overlays(shown: FieldOverlay) -> [CatalogItem; 10] {
         match overlay {
             FieldOverlay::Risk => item.key(Key::O).group(),
             FieldOverlay::Target => item.keys(Modifiers::SHIFT, Key::O),
-            FieldOverlay::Layer | FieldOverlay::Slack => item,
+            FieldOverlay::Layer => item,
             _ => item.palette_only(),
         }
     })

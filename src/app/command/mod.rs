@@ -25,4 +25,4 @@ pub use super::features::threats::ThreatsCommand;
 pub use edit::EditCommand;
 pub use file::{FileCommand, Opened};
 pub use shell::ShellCommand;
-pub use view::ViewCommand;
+pub use view::{SpaceCommand, ViewCommand};

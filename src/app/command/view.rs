@@ -8,6 +8,7 @@ use crate::app::view::{CanvasAid, FieldOverlay};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_render::colormap::Colormap;
+use meshbrush_render::scene::{Light, ViewDirection};
 
 /// One thing to do with the view.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,4 +53,23 @@ pub enum ViewCommand {
     ShowTab(Tab),
     /// Begins or ends the mode for a projector.
     TogglePresentation,
+    /// Changes the view in space.
+    Space(SpaceCommand),
+}
+
+/// One thing to do with the view in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpaceCommand {
+    /// Shows the mesh in space, or the plan again.
+    Toggle,
+    /// Turns around the middle, and raises the viewer, by degrees.
+    Turn(DVec2),
+    /// Turns and zooms are from now on about what is at a height, in steps.
+    About(f64),
+    /// Looks in a direction.
+    LookFrom(ViewDirection),
+    /// Multiplies heights by a factor; with none by one that makes relief visible.
+    Exaggerate(Option<f64>),
+    /// Puts the light elsewhere.
+    Light(Light),
 }

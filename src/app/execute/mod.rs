@@ -95,7 +95,9 @@ impl App {
                 self.dialogs.open(Dialog::GoTo);
             }
             ShellCommand::AskRole(file) => self.dialogs.ask_role(file),
-            ShellCommand::MenuOfCanvas => self.canvas.open_menu(ctx, &self.view, &self.tools),
+            ShellCommand::MenuOfCanvas => {
+                self.canvas.open_menu(ctx, &self.view, &self.tools, &self.session);
+            }
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => {
                 stop_editing_keys(ctx);
@@ -125,6 +127,7 @@ impl App {
 
     /// Ends the steps. Else cancels what is in progress: the stroke, the edit that asks for very many
     /// triangles, the cut, or the rectangle or polygon. Else closes the help, or clears query and message.
+    /// Else leaves the view in space.
     fn escape(&mut self, ctx: &Context) {
         if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
             return;
@@ -140,6 +143,9 @@ impl App {
         if self.session.is_cutting() || (gesture_ended && in_gesture) {
             self.session.drop_cut();
         } else if !(self.put_down(ctx) || gesture_ended) && self.help.take().is_none() {
+            if self.session.queried().is_none() && self.session.notices().shown().is_none() {
+                self.view.leave_space();
+            }
             self.session.query(None);
             self.session.notices_mut().dismiss();
         }

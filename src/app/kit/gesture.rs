@@ -6,6 +6,7 @@ use eframe::egui::{CursorIcon, Modifiers, Painter, PointerButton, Pos2, Rect};
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand};
+use crate::app::heights::SpaceSight;
 use crate::app::tools::Tools;
 use meshbrush_render::scene::Camera;
 
@@ -104,8 +105,10 @@ impl Gesture for SettingsDrag {
 pub struct Pointer<'a> {
     /// The rectangle of the canvas, in points.
     pub rect: Rect,
-    /// The camera of the canvas.
+    /// The camera of the plan. In space its middle and its scale are those of the view.
     pub camera: Camera,
+    /// The view in space, where the canvas shows it.
+    pub space: Option<SpaceSight<'a>>,
     /// The selected tool and its settings.
     pub tools: &'a Tools,
     /// Physical pixels for a point.
@@ -126,7 +129,10 @@ impl Pointer<'_> {
 
     /// World coordinates of a position in points.
     pub fn world(&self, at: Pos2) -> DVec2 {
-        self.camera.world_from_screen(self.px(at))
+        match &self.space {
+            Some(space) => space.world(self.px(at)),
+            None => self.camera.world_from_screen(self.px(at)),
+        }
     }
 
     /// Returns the world coordinates of a position in points, with no more digits than a pixel can tell

@@ -47,6 +47,8 @@ pub struct ToolSpec {
     /// Whether it queries triangles: the one under the pointer is highlighted, the queried one is explained,
     /// pins can be moved, and the digits go to neighbours.
     pub queries: bool,
+    /// Whether it works in the view in space, too.
+    pub in_space: bool,
     /// Draws over the mesh while the tool is selected.
     pub paint: fn(&FrameState<'_>, &OverMesh<'_>),
     /// Begins a gesture when the primary button is pressed.
@@ -71,8 +73,32 @@ pub struct OverMesh<'a> {
     pub painter: &'a Painter,
     /// Screen points from world coordinates.
     pub screen_from_world: &'a dyn Fn(DVec2) -> Pos2,
+    /// In space the greatest length of a straight piece of a line, in world units.
+    pub straight: Option<f64>,
     /// The pointer in points, while it is over the canvas.
     pub pointer: Option<Pos2>,
+}
+
+/// Most pieces of a straight line on a surface.
+const MOST_PIECES: f64 = 256.0;
+
+impl OverMesh<'_> {
+    /// Returns a line through points in world units on the screen. In space it lies on the surface, also
+    /// between the points.
+    pub fn line(&self, points: impl IntoIterator<Item = DVec2>) -> Vec<Pos2> {
+        let (mut line, mut last) = (Vec::new(), None);
+        for point in points {
+            if let (Some(straight), Some(from)) = (self.straight, last) {
+                let from: DVec2 = from;
+                let pieces = (from.distance(point) / straight).ceil().clamp(1.0, MOST_PIECES) as u32;
+                let between = (1..pieces).map(|n| from.lerp(point, f64::from(n) / f64::from(pieces)));
+                line.extend(between.map(|at| (self.screen_from_world)(at)));
+            }
+            line.push((self.screen_from_world)(point));
+            last = Some(point);
+        }
+        line
+    }
 }
 
 impl ToolSpec {
@@ -90,6 +116,7 @@ impl ToolSpec {
             has_ring: |_| false,
             brush: None,
             queries: false,
+            in_space: false,
             paint: |_, _| {},
             press: |_, _, _| None,
             press_secondary: |_, _| false,

@@ -1,12 +1,15 @@
 //! How the mesh is shown.
 
-use eframe::egui::{ThemePreference, Ui};
+use std::ops::RangeInclusive;
 
-use crate::app::command::{Command, ViewCommand};
+use eframe::egui::{Response, ThemePreference, Ui};
+
+use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::app::widgets::{choice_rows, segmented, toggle_row};
+use crate::app::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 use meshbrush_render::colormap::Colormap;
+use meshbrush_render::scene::{Light, ViewDirection};
 
 /// What is shown in place of the colours of levels.
 pub fn overlay_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
@@ -34,6 +37,7 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
             commands.push(Command::View(ViewCommand::ToggleAid(aid)));
         }
     }
+    space_rows(ui, state, commands);
     ui.add_space(4.0);
     let mut map = view.colormap;
     if choice_rows(ui, "Colours", &mut map, &Colormap::ALL.map(|map| (map, map.name()))).changed() {
@@ -49,4 +53,45 @@ pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     if segmented(ui, "Theme", &mut theme, &themes).changed() {
         commands.push(Command::View(ViewCommand::Theme(theme)));
     }
+}
+
+/// The view in space: whether it is shown, from where, and in which light.
+fn space_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let space = &state.view.space;
+    let mut send = |command| commands.push(Command::View(ViewCommand::Space(command)));
+    let mut is_on = space.is_on;
+    if toggle_row(ui, "In space", &mut is_on).changed() {
+        send(SpaceCommand::Toggle);
+    }
+    if !space.is_on {
+        return;
+    }
+    let usual = space.usual_factor(state.session.mesh().lattice());
+    let mut factor = space.exaggeration.unwrap_or(usual);
+    if number(ui, "Heights ×", &mut factor, 1e-6..=1e6, usual, "").changed() {
+        send(SpaceCommand::Exaggerate((factor != usual).then_some(factor)));
+    }
+    let (mut direction, standard) = (space.direction, ViewDirection::default());
+    let azimuth = number(ui, "Look to", &mut direction.azimuth, 0.0..=360.0, standard.azimuth, "°");
+    let altitude = number(ui, "From above", &mut direction.altitude, 5.0..=90.0, standard.altitude, "°");
+    if azimuth.changed() || altitude.changed() {
+        send(SpaceCommand::LookFrom(direction));
+    }
+    let (mut light, standard) = (space.light, Light::default());
+    let azimuth = number(ui, "Light from", &mut light.azimuth, 0.0..=360.0, standard.azimuth, "°");
+    let altitude = number(ui, "Light above", &mut light.altitude, 5.0..=90.0, standard.altitude, "°");
+    if azimuth.changed() || altitude.changed() {
+        send(SpaceCommand::Light(light));
+    }
+}
+
+fn number(
+    ui: &mut Ui,
+    name: &'static str,
+    value: &mut f64,
+    range: RangeInclusive<f64>,
+    default: f64,
+    unit: &str,
+) -> Response {
+    NumberRow::new(name, value).aligned_with("Light above").range(range).default(default).unit(unit).show(ui)
 }

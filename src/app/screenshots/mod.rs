@@ -14,7 +14,7 @@ use super::WINDOW_SIZE;
 use super::command::StepCommand;
 use super::command::{
     BoundaryCommand, BrushCommand, Command, DomainCommand, EditCommand, FileCommand, InspectCommand,
-    LayerCommand, PinsCommand, ShellCommand, ViewCommand,
+    LayerCommand, PinsCommand, ShellCommand, SpaceCommand, ViewCommand,
 };
 use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainToolMode;
@@ -45,7 +45,7 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 20] = [
+const SCENES: [Scene; 21] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
@@ -57,6 +57,7 @@ const SCENES: [Scene; 20] = [
     scene("diamond", diamond),
     scene("terrain", terrain),
     scene("aegean", aegean),
+    scene("space", space),
     scene("layers", layers),
     scene("path", path),
     Scene { name: "front", size: [1280.0, 1360.0], px_per_point: 1.0, act: front },
@@ -179,6 +180,16 @@ fn aegean(window: &mut OffscreenWindow) {
     window.send(Command::Domain(DomainCommand::Mode(DomainToolMode::Brush)));
     window.send(Command::Brush(BrushCommand::Radius(0.2)));
     point_at(window, dvec2(25.25, 38.1));
+}
+
+/// A sea in space, about to be painted on.
+fn space(window: &mut OffscreenWindow) {
+    window.send(Command::File(FileCommand::OpenExample(Example::CelticSea)));
+    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::None)));
+    window.send(Command::View(ViewCommand::Space(SpaceCommand::Toggle)));
+    window.send(Command::View(ViewCommand::Zoom(1.3)));
+    let middle = window.domain_center();
+    point_at(window, middle);
 }
 
 /// Every kind of layer. The overlay has the colours of the layers that decide h̄; the threats are selected.

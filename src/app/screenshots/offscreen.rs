@@ -14,6 +14,7 @@ use egui_wgpu::{RenderState, RendererOptions, ScreenDescriptor, WgpuConfiguratio
 use glam::DVec2;
 
 use crate::app::App;
+use crate::app::canvas::space_sight;
 use crate::app::command::Command;
 use crate::app::kit::marks::point_from_px;
 use meshbrush_core::layers::Layer;
@@ -67,13 +68,21 @@ impl OffscreenWindow {
 
     /// Returns the position of a point in world units on the screen, in points.
     pub fn screen_from_world(&self, world: DVec2) -> Option<Pos2> {
-        let px = self.app.view.camera?.screen_from_world(world);
+        let px = match space_sight(&self.app.view, &self.app.session) {
+            Some(space) => space.screen(world),
+            None => self.app.view.camera?.screen_from_world(world),
+        };
         Some(point_from_px(self.app.canvas.rect()?, px, self.px_per_point))
     }
 
     /// Returns the rectangle of the canvas on the screen, in points.
     pub fn canvas_rect(&self) -> Option<Rect> {
         self.app.canvas.rect()
+    }
+
+    /// Returns the middle of the domain, in world units.
+    pub fn domain_center(&self) -> DVec2 {
+        self.app.session.document().settings().domain.bounds.center()
     }
 
     /// Returns the layers of the document, from the bottom to the top.
@@ -102,6 +111,7 @@ impl OffscreenWindow {
             let is_settled = (session.stage().is_settled() || session.question().is_some())
                 && session.pricer().progress() == Progress::Done
                 && !session.is_cutting()
+                && !(self.app.view.space.is_on && session.seeks_heights())
                 && !self.works_on_files();
             quiet = if is_settled { quiet + 1 } else { 0 };
         }

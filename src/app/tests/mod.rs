@@ -36,6 +36,7 @@ mod settings;
 mod six_jobs;
 mod size_prices;
 mod software_window;
+mod space;
 mod steady;
 mod threads;
 pub mod tips;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-pub use pan::{PAN, Panning};
+pub use pan::{PAN, move_view};
 
 use super::features::boundary::BoundaryTool;
 use super::features::domain::DomainTool;

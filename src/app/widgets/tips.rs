@@ -1,7 +1,7 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
-use super::layer_tips;
 use super::shown_keys::with_keys;
+use super::{layer_tips, space_tips};
 use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
 /// Points at an edge of the window within which a panel counts as being at that edge.
@@ -406,7 +406,7 @@ static SENTENCES: &[(&str, &str)] = &[
 
 /// Returns the sentence for a control, or an empty text.
 pub fn sentence(name: &str) -> &'static str {
-    let all = SENTENCES.iter().chain(layer_tips::SENTENCES);
+    let all = SENTENCES.iter().chain(layer_tips::SENTENCES).chain(space_tips::SENTENCES);
     all.into_iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
 }
 
@@ -465,7 +465,8 @@ mod tests {
 
     #[test]
     fn every_sentence_ends_with_a_full_stop_and_every_name_occurs_once() {
-        let all: Vec<_> = SENTENCES.iter().chain(layer_tips::SENTENCES).collect();
+        let all: Vec<_> =
+            SENTENCES.iter().chain(layer_tips::SENTENCES).chain(space_tips::SENTENCES).collect();
         for (number, (name, text)) in all.iter().enumerate() {
             assert!(text.ends_with('.'), "{name}: {text}");
             assert!(all[..number].iter().all(|(other, _)| other != name), "{name}");

@@ -18,6 +18,7 @@ use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
 };
 use super::path_args::PathArguments;
+use super::space_look::SpaceArguments;
 use super::surface_args::SurfaceArguments;
 use super::water::WaterArguments;
 use meshbrush_core::field::RefinementRule;
@@ -374,6 +375,9 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub picture: PictureArguments,
+
+    #[command(flatten)]
+    pub space: SpaceArguments,
 }
 
 /// The usual width of a picture, in pixels.

@@ -203,7 +203,8 @@ fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output],
             "--binary changes nothing: no .msh is written (-o), and other formats have one form.".into(),
         );
     }
-    if typed.picture.differs_from_default() && !outputs.iter().any(Output::is_picture) {
+    let differs = typed.picture.differs_from_default() || typed.space.differs_from_default();
+    if differs && !outputs.iter().any(Output::is_picture) {
         notes.push("The options on pictures change nothing: no .svg or .png is written (-o).".into());
     }
     notes.iter().for_each(|note| terminal.note(note));

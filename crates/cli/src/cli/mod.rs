@@ -31,6 +31,7 @@ mod replay;
 mod report;
 pub mod requested_files;
 mod run_clock;
+mod space_look;
 pub mod summary;
 mod surface_args;
 mod terminal;

@@ -7,10 +7,11 @@ use std::str::FromStr;
 use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
 use super::failure::Failure;
+use super::space_look::RequestedSpace;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
-use meshbrush_mesh::text::Grouped;
+use meshbrush_mesh::text::{Grouped, Number};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::{ExportFormat, LARGEST_PICTURE, Look};
 
@@ -108,9 +109,24 @@ impl Output {
         !matches!(self.format, ExportFormat::Mesh(_))
     }
 
+    /// Returns whether it is a picture without pixels.
+    pub fn is_vector_picture(&self) -> bool {
+        self.format == ExportFormat::Svg
+    }
+
     /// Returns the name of the output in messages.
     pub fn name(&self) -> String {
         self.path.as_deref().map_or("standard output".into(), |path| path.display().to_string())
+    }
+
+    /// Returns what a line about the written file adds to its name.
+    pub fn caption(&self, look: &Look) -> String {
+        match &look.space {
+            Some(space) if self.is_picture() => {
+                format!(", with heights times {}", Number(rounded(space.exaggeration / space.metre)))
+            }
+            _ => String::new(),
+        }
     }
 
     /// Writes the file, or all files of a format that has several, and returns their names. `extract` is that
@@ -134,6 +150,11 @@ impl Output {
         let written = self.format.write(path, mesh, extract, data, look, meter);
         written.map_err(|error| failed(path, error.to_string()))
     }
+}
+
+/// Returns a positive number with three digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.2e}").parse().unwrap_or(number)
 }
 
 fn named_format(name: &str) -> Result<ExportFormat, Failure> {
@@ -178,6 +199,7 @@ pub struct RequestedLook {
     edges: bool,
     colormap: Colormap,
     ground: Ground,
+    space: Option<RequestedSpace>,
 }
 
 impl RequestedLook {
@@ -203,18 +225,38 @@ impl RequestedLook {
         let colormap = saved.colormap.as_deref().unwrap_or(PICTURE_COLORMAP).parse();
         let colormap = colormap
             .map_err(|error: <Colormap as FromStr>::Err| KeyFault::value("colormap", error.to_string()))?;
-        Ok(Self::of(size, saved.edges.unwrap_or(true), colormap, saved.light.unwrap_or(false)))
+        let look = Self::of(size, saved.edges.unwrap_or(true), colormap, saved.light.unwrap_or(false));
+        Ok(look.in_space(RequestedSpace::of_saved(saved)?))
+    }
+
+    /// Returns this look in space, or with `None` that of the plan.
+    pub fn in_space(self, space: Option<RequestedSpace>) -> Self {
+        Self { space, ..self }
+    }
+
+    /// Returns whether it is a view in space.
+    pub fn is_in_space(&self) -> bool {
+        self.space.is_some()
     }
 
     fn of((width, height): (u32, Option<u32>), edges: bool, colormap: Colormap, is_light: bool) -> Self {
         let ground = if is_light { Ground::Light } else { Ground::Dark };
-        Self { width, height, edges, colormap, ground }
+        Self { width, height, edges, colormap, ground, space: None }
     }
 
-    /// Returns the look, with the colours spread over the levels of a mesh, and an arrow to the north in the
-    /// plane of a projection.
+    /// Returns the look of a mesh as files get it.
+    ///
+    /// # Errors
+    /// Fails when it is in space, and no node has a height.
+    pub fn for_extract(&self, finished: &FinishedMesh, extract: &Extract) -> Result<Look, Failure> {
+        let space = self.space.map(|space| space.for_extract(finished, extract)).transpose()?;
+        Ok(Look { space, ..self.for_mesh(finished) })
+    }
+
+    /// Returns the look of the plan, with the colours spread over the levels of a mesh, and an arrow to the
+    /// north in the plane of a projection.
     pub fn for_mesh(&self, finished: &FinishedMesh) -> Look {
-        let Self { width, height, edges, colormap, ground } = *self;
+        let Self { width, height, edges, colormap, ground, space: _ } = *self;
         let mesh = finished.mesh();
         let deepest = mesh.level_counts().len() as u8 - 1;
         let north = Look::north_of(finished.domain().projection.as_ref(), mesh.lattice());
@@ -225,6 +267,7 @@ impl RequestedLook {
             ground,
             level_colors: LevelColors::new(colormap, ground, deepest),
             north,
+            space: None,
         }
     }
 }

@@ -9,13 +9,14 @@ use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
 use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
+use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE};
 use meshbrush_mesh::mesh::Extract;
-use meshbrush_render::render::export::{ExportFormat, Look};
+use meshbrush_render::render::export::{ExportFormat, Look, NO_SVG_IN_SPACE};
 
 /// Files with one look and the same values at the nodes.
 #[derive(Debug)]
@@ -32,7 +33,7 @@ impl RequestedFiles {
     /// # Errors
     /// Fails with a sentence that names the option, the value and the rule.
     pub fn of_options(typed: &MeshArguments) -> Result<Self, Failure> {
-        let look = RequestedLook::new(&typed.picture)?;
+        let look = RequestedLook::new(&typed.picture)?.in_space(RequestedSpace::new(&typed.space)?);
         let quantities = parse_quantities(&typed.quantity).map_err(|(index, error)| match error {
             QuantityError::Name(_) => {
                 Failure::Usage(format!("--quantity {}: {error}", typed.quantity[index]))
@@ -44,7 +45,10 @@ impl RequestedFiles {
         })?;
         let format = typed.format.as_deref();
         let output = |path: &PathBuf| Output::new(path, format, typed.binary);
-        let outputs = typed.output.iter().map(output).collect::<Result<_, _>>()?;
+        let outputs = typed.output.iter().map(output).collect::<Result<Vec<_>, _>>()?;
+        if look.is_in_space() && outputs.iter().any(Output::is_vector_picture) {
+            return Err(Failure::Usage(format!("--view space: {NO_SVG_IN_SPACE}.")));
+        }
         Ok(Self { outputs, look, quantities })
     }
 
@@ -69,6 +73,9 @@ impl RequestedFiles {
     fn of_checked(saved: &SavedOutput, file: Output) -> Result<Self, KeyFault> {
         check_use(saved, &file)?;
         let look = RequestedLook::of_saved(saved)?;
+        if look.is_in_space() && file.is_vector_picture() {
+            return Err(KeyFault::value("view", format!("{NO_SVG_IN_SPACE}.")));
+        }
         let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
             let pointer = match &error {
                 QuantityError::Name(_) => None,
@@ -88,7 +95,19 @@ impl RequestedFiles {
 
 /// Refuses keys that mean nothing for the format of an output.
 fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
-    let SavedOutput { file: _, binary, quantities, size, edges, colormap, light } = saved;
+    let SavedOutput {
+        file: _,
+        binary,
+        quantities,
+        size,
+        edges,
+        colormap,
+        light,
+        view,
+        azimuth,
+        altitude,
+        exaggeration,
+    } = saved;
     if *binary && !output.is_binary() {
         let sentence = "only .msh has a text form and a binary form; leave it out.";
         return Err(KeyFault::key("binary", sentence));
@@ -102,6 +121,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         ("edges", edges.is_some()),
         ("colormap", colormap.is_some()),
         ("light", light.is_some()),
+        ("view", view.is_some()),
+        ("azimuth", azimuth.is_some()),
+        ("altitude", altitude.is_some()),
+        ("exaggeration", exaggeration.is_some()),
     ];
     match of_pictures.iter().find(|(_, is_given)| *is_given && !output.is_picture()) {
         Some(&(key, _)) => Err(KeyFault::key(key, "this is for pictures, .png and .svg; leave it out.")),
@@ -158,7 +181,7 @@ pub fn write_files(
     let placed = exported.in_coordinates()?;
     let placed = placed.as_ref().unwrap_or(extract);
     for files in requested {
-        let look = files.look.for_mesh(finished);
+        let look = files.look_for(finished, extract)?;
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
         let data = exported.data(&quantities);
         for output in &files.outputs {
@@ -167,7 +190,7 @@ pub fn write_files(
             let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
             interruption.end_program();
             for path in written? {
-                terminal.say(&format!("wrote {}", path.display()));
+                terminal.say(&format!("wrote {}{}", path.display(), output.caption(&look)));
             }
         }
     }
@@ -175,9 +198,15 @@ pub fn write_files(
 }
 
 impl RequestedFiles {
-    /// Returns the look of pictures of a mesh.
-    pub fn look_for(&self, finished: &FinishedMesh) -> Look {
-        self.look.for_mesh(finished)
+    /// Returns the look of its pictures of a mesh as files get it.
+    ///
+    /// # Errors
+    /// Fails when they are in space, and no node has a height.
+    pub fn look_for(&self, finished: &FinishedMesh, extract: &Extract) -> Result<Look, Failure> {
+        if self.outputs.iter().any(Output::is_picture) {
+            return self.look.for_extract(finished, extract);
+        }
+        Ok(self.look.for_mesh(finished))
     }
 
     /// Returns the one file that the keys of a recipe's output request, in the format of this name where one
@@ -205,7 +234,8 @@ impl RequestedFiles {
         let placed = exported.in_coordinates()?;
         let placed = placed.as_ref().unwrap_or(exported.extract);
         let quantities = self.values_at_nodes(exported, values)?;
-        let (data, look) = (exported.data(&quantities), self.look.for_mesh(exported.finished));
+        let look = self.look_for(exported.finished, exported.extract)?;
+        let data = exported.data(&quantities);
         let write = |output: &Output| output.write(mesh, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }

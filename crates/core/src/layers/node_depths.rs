@@ -96,6 +96,12 @@ impl DepthSurface<'_> {
         Ok(found.iter().map(|found| found.depth).collect())
     }
 
+    /// Returns the depth at a point in world units, in metres, positive downwards: where no layer has a
+    /// value, that of the nearest pixel; `None` far from every pixel with a value.
+    pub fn depth_near(&self, at: DVec2) -> Option<f64> {
+        self.around(at, 0.0).map(|found| found.depth)
+    }
+
     fn found_at(&self, mesh: MeshView, nodes: &[DVec2]) -> Result<Vec<Found>, NoDepth> {
         let sides = mean_sides(mesh, nodes);
         let found: Vec<Option<Found>> = nodes

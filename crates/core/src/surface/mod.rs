@@ -21,6 +21,7 @@
 
 mod alignment;
 mod fit;
+mod heights;
 mod nodes;
 mod order;
 mod queue;
@@ -32,6 +33,7 @@ mod two_sum;
 
 pub use alignment::domain_on_samples;
 pub use fit::SurfaceFit;
+pub use heights::HeightSource;
 pub use nodes::SurfaceNodes;
 pub use queue::{CurvePoint, ErrorQueue, QueueGoal};
 pub use rule::{SurfaceDemand, SurfaceRule};

@@ -2,13 +2,14 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::north_arrow::{ArrowLines, north_arrow_in};
 use super::{Image, software};
 use crate::colormap::{Ground, LevelColors};
-use crate::scene::{Camera, Style};
+use crate::scene::{Camera, Light, NodeHeights, SpaceCamera, SpaceView, Style, ViewDirection};
 use meshbrush_core::earth::Projection;
 use meshbrush_io::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_file_metered};
 use meshbrush_mesh::geometry::Lattice;
@@ -186,6 +187,7 @@ impl ExportFormat {
                 let several = || io::Error::other("the format has several files");
                 format.write_to(out, extract, data, meter).ok_or_else(several)?
             }
+            Self::Svg if look.space.is_some() => Err(io::Error::other(NO_SVG_IN_SPACE)),
             Self::Svg => {
                 let arrow = look.arrow(mesh.lattice());
                 let style = svg::SvgStyle { marks: &arrow, ..look.for_svg(mesh.lattice()) };
@@ -221,6 +223,9 @@ impl ExportFormat {
     ) -> io::Result<()> {
         match self {
             Self::Mesh(_) => Err(io::Error::other("the format is no picture")),
+            Self::Svg | Self::Png if look.space.is_some() => {
+                Err(io::Error::other("pictures of paths show the plan; leave out the view in space"))
+            }
             Self::Svg => {
                 let (arrow, style) = (look.arrow(mesh.lattice()), look.for_svg(mesh.lattice()));
                 let style = svg::SvgStyle { path, path_colors: PATH_COLORS, marks: &arrow, ..style };
@@ -239,6 +244,10 @@ impl ExportFormat {
         }
     }
 }
+
+/// Why an `.svg` shows no view in space.
+pub const NO_SVG_IN_SPACE: &str =
+    "a view in space is drawn pixel by pixel, and .svg holds no pixels; write a .png, or the plan";
 
 fn ending_of(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
@@ -260,6 +269,43 @@ pub struct Look {
     pub level_colors: LevelColors,
     /// The direction to the north in the middle of the picture, for an arrow; y points up.
     pub north: Option<DVec2>,
+    /// The view in space; the plan without it.
+    pub space: Option<SpaceLook>,
+}
+
+/// The appearance of a picture in space.
+#[derive(Clone, Debug)]
+pub struct SpaceLook {
+    /// From where.
+    pub direction: ViewDirection,
+    /// In which light.
+    pub light: Light,
+    /// World units that a unit of height has in the picture.
+    pub exaggeration: f64,
+    /// World units that a unit of height has in truth.
+    pub metre: f64,
+    /// The heights of the nodes of the extract.
+    pub heights: Arc<NodeHeights>,
+}
+
+/// Space around a picture in space, as a share of its shorter side.
+const SPACE_MARGIN: f64 = 0.04;
+/// The least and the largest height of a picture in space, as shares of its width.
+const SPACE_PROPORTIONS: [f64; 2] = [0.25, 2.0];
+
+impl SpaceLook {
+    /// Returns the whole surface over a lattice in a picture of a size, in pixels.
+    fn view(&self, lattice: &Lattice, size: [u32; 2], margin_px: f64) -> SpaceView {
+        let surface = (self.heights.scale, self.heights.ends());
+        let camera = SpaceCamera::fit(lattice, surface, self.direction, self.exaggeration, size, margin_px);
+        SpaceView { camera, light: self.light }
+    }
+
+    /// Returns the height of a picture as a share of its width.
+    fn proportion(&self, lattice: &Lattice) -> f64 {
+        let size = self.view(lattice, [1000; 2], 0.0).camera.box_px();
+        (size.y / size.x).clamp(SPACE_PROPORTIONS[0], SPACE_PROPORTIONS[1])
+    }
 }
 
 /// Widths of the lines of an arrow to the north and of those below them, in pixels.
@@ -276,7 +322,11 @@ impl Look {
 
     /// Returns the lines of the arrow to the north, if there is one.
     fn arrow(&self, lattice: &Lattice) -> ArrowLines {
-        self.north.map_or_else(Vec::new, |north| north_arrow_in(self.size(lattice), north))
+        let turned = |north| match &self.space {
+            Some(space) => space.view(lattice, [1000; 2], 0.0).camera.turned_direction(north),
+            None => north,
+        };
+        self.north.map_or_else(Vec::new, |north| north_arrow_in(self.size(lattice), turned(north)))
     }
 
     /// Returns the colours of the arrow and of the lines below it.
@@ -290,7 +340,11 @@ impl Look {
 
     fn size(&self, lattice: &Lattice) -> [u32; 2] {
         let extent = lattice.bounds().size();
-        let in_proportion = || (f64::from(self.width) * extent.y / extent.x).round();
+        let proportion = || match &self.space {
+            Some(space) => space.proportion(lattice),
+            None => extent.y / extent.x,
+        };
+        let in_proportion = || (f64::from(self.width) * proportion()).round();
         let height =
             self.height.unwrap_or_else(|| in_proportion().clamp(1.0, f64::from(LARGEST_PICTURE)) as u32);
         [self.width, height]
@@ -310,7 +364,12 @@ impl Look {
             Ground::Light => Style::light(colors),
         };
         let style = Style { edges: self.edges, ..style };
-        let mut picture = if extract.is_patched() {
+        let mut picture = if let Some(space) = &self.space {
+            let size = self.size(lattice);
+            let margin_px = SPACE_MARGIN * f64::from(size[0].min(size[1]));
+            let view = space.view(lattice, size, margin_px);
+            software::draw_extract_in_space(extract, &space.heights, &view, &style)
+        } else if extract.is_patched() {
             software::draw_extract(extract, &camera, &style)
         } else {
             software::draw(mesh, &camera, &style, None, &[])

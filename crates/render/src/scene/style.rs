@@ -43,7 +43,7 @@ const ALMOST_BLACK: f32 = 0.2;
 /// Share of white in such edges, 0 to 1.
 const LIGHTER_EDGE: f32 = 0.13;
 /// The share of the opacity of its edges that a faded level keeps.
-const FADED_EDGE: f32 = 0.5;
+pub(super) const FADED_EDGE: f32 = 0.5;
 
 impl Style {
     /// Returns the appearance on a dark ground.
@@ -181,21 +181,27 @@ impl LevelPaint {
     }
 }
 
-fn fill_color(level: u32, style: &Style) -> [f32; 3] {
+pub(super) fn fill_color(level: u32, style: &Style) -> [f32; 3] {
     let own = unit_color(style.level_colors.of(level as u8));
     if style.shows(level) { own } else { mixed(style.ground_color(), own, FADED_FILL) }
 }
 
 /// Returns the colour of the edges on a fill: a darker tint, or a lighter one on a fill that is almost black,
 /// so that an unrefined mesh is visible.
-fn edge_color(fill: [f32; 3], style: &Style) -> [f32; 3] {
+pub(super) fn edge_color(fill: [f32; 3], style: &Style) -> [f32; 3] {
     let is_almost_black = fill.iter().sum::<f32>() < 3.0 * ALMOST_BLACK;
     if is_almost_black { mixed(fill, [1.0; 3], LIGHTER_EDGE) } else { fill.map(|c| c * style.edge_shade) }
 }
 
 fn edge_alpha(leg_px: f32, style: &Style) -> f32 {
+    if style.edges { edge_fade(leg_px, style) } else { 0.0 }
+}
+
+/// Returns the opacity of edges where legs have this length in pixels.
+#[inline]
+pub(super) fn edge_fade(leg_px: f32, style: &Style) -> f32 {
     let [gone, full] = style.edge_fade_px;
-    if !style.edges || leg_px <= gone {
+    if leg_px <= gone {
         return 0.0;
     }
     let t = ((leg_px - gone) / (full - gone)).min(1.0);

@@ -19,3 +19,4 @@ mod render_agreement;
 mod runs;
 mod shader_validation;
 mod solvers;
+mod space;

@@ -15,6 +15,7 @@ pub static QUERY: ToolSpec = ToolSpec {
     options: &QUERY_OPTIONS,
     hint: |_| HINT,
     queries: true,
+    in_space: true,
     menu: |state, _| {
         let triangle = state.readout.and_then(|readout| readout.triangle.as_ref());
         let copy = Command::Inspect(InspectCommand::CopyReadout);

@@ -35,7 +35,7 @@ fn paint_shapes(over: &OverMesh<'_>, ShapeList { points, lines, polygons }: &Sha
         marks::paint_line(over.painter, closed(over, ring), Color32::WHITE, WIDTH);
     }
     for line in lines {
-        let along = line.iter().map(|&point| (over.screen_from_world)(point));
+        let along = over.line(line.iter().copied()).into_iter();
         marks::paint_line(over.painter, along, Color32::WHITE, WIDTH);
     }
     let view = over.painter.clip_rect().expand(POINT);
@@ -47,5 +47,5 @@ fn paint_shapes(over: &OverMesh<'_>, ShapeList { points, lines, polygons }: &Sha
 
 /// Returns the corners of a ring in points, with the first one again at the end.
 fn closed(over: &OverMesh<'_>, ring: &[DVec2]) -> impl Iterator<Item = Pos2> {
-    ring.iter().chain(ring.first()).map(|&corner| (over.screen_from_world)(corner))
+    over.line(ring.iter().chain(ring.first()).copied()).into_iter()
 }

@@ -19,6 +19,7 @@ pub static BRUSH: ToolSpec = ToolSpec {
     hint: |state| if state.tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
     has_ring: |_| true,
     brush: Some(brush),
+    in_space: true,
     press: press_to_paint,
     menu: line_to_here,
     ..ToolSpec::new("Brush", Key::B, Icon::BRUSH)

@@ -18,6 +18,7 @@ pub static ERASER: ToolSpec = ToolSpec {
     hint: |_| HINT,
     has_ring: |_| true,
     brush: Some(brush),
+    in_space: true,
     press: press_to_paint,
     menu: line_to_here,
     ..ToolSpec::new("Eraser", Key::E, Icon::ERASER)

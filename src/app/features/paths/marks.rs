@@ -48,7 +48,7 @@ fn paint_path(state: &FrameState<'_>, over: &OverMesh<'_>, number: usize) {
     let problem = shown.and_then(|shown| shown.problem.as_ref());
     let color = path_color(number);
     if let Some(found) = found {
-        let points = found.solution.points.iter().map(|&point| (over.screen_from_world)(point));
+        let points = over.line(found.solution.points.iter().copied()).into_iter();
         let color = if problem.is_some() { OUTDATED } else { color };
         match is_selected {
             true => paint_rimmed_line(over.painter, points, color, SELECTED_WIDTH),
@@ -110,7 +110,7 @@ fn shortened(name: String) -> String {
 /// front.
 fn paint_others(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let line = |path: &Solution, color, width| {
-        let points = path.points.iter().map(|&point| (over.screen_from_world)(point));
+        let points = over.line(path.points.iter().copied()).into_iter();
         paint_line(over.painter, points, color, width);
     };
     let alternatives = &state.features.paths.finder.alternatives;

@@ -231,6 +231,18 @@ pub struct SavedOutput {
     /// Whether the background of a picture is light.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub light: Option<bool>,
+    /// What a picture shows: `"plan"` or `"space"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub view: Option<String>,
+    /// Where one looks in space, in degrees clockwise from the y axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub azimuth: Option<f64>,
+    /// How high the viewer is above the horizon, in degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub altitude: Option<f64>,
+    /// The factor by which heights are exaggerated in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exaggeration: Option<f64>,
 }
 
 /// The boundary treatments.

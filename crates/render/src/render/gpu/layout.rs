@@ -1,11 +1,11 @@
 //! The uniform data of the shaders.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{IVec2, Vec2, Vec4};
+use glam::{IVec2, IVec3, Vec2, Vec3, Vec4};
 
 use crate::colormap::LEVELS;
 use crate::render::{HUGE_PX, SEAM_SLACK_PX};
-use crate::scene::{Camera, Detail, LevelPaint, Overlay, Style};
+use crate::scene::{Camera, Detail, LevelPaint, Light, Overlay, SpacePaint, SpaceView, Style};
 
 /// `Level` of mesh.wgsl.
 #[repr(C)]
@@ -44,7 +44,7 @@ pub(super) struct MeshView {
     half_size_px: Vec2,
     edge_reach_px: f32,
     seam_slack_px: f32,
-    node_chunk_bits: u32,
+    unused: u32,
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
@@ -55,7 +55,7 @@ pub(super) struct MeshView {
 }
 
 impl MeshView {
-    pub(super) fn new(camera: &Camera, style: &Style, detail: Option<Detail>, node_chunk_bits: u32) -> Self {
+    pub(super) fn new(camera: &Camera, style: &Style, detail: Option<Detail>) -> Self {
         let (anchor, fraction) = camera.anchor();
         Self {
             anchor,
@@ -64,7 +64,7 @@ impl MeshView {
             half_size_px: camera.half_size_px().as_vec2(),
             edge_reach_px: style.edge_reach_px(),
             seam_slack_px: SEAM_SLACK_PX,
-            node_chunk_bits,
+            unused: 0,
             rim_px: style.rim_px(),
             huge_px: HUGE_PX,
             fill_opacity: style.fill_opacity,
@@ -96,6 +96,75 @@ impl OverlayView {
             texels_per_px: map.per_px.as_vec2(),
             half_size_px: camera.half_size_px().as_vec2(),
             beyond: Vec4::from(overlay.beyond.map(f32::from)) / 255.0,
+        }
+    }
+}
+
+/// `Level` of space.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct SpaceLevel {
+    fill: [f32; 3],
+    edge_alpha: f32,
+    edge: [f32; 3],
+    unused: u32,
+}
+
+/// `View` of space.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(super) struct SpaceUniform {
+    right: Vec3,
+    edge_reach_px: f32,
+    up: Vec3,
+    rim_px: f32,
+    towards: Vec3,
+    seam_slack_px: f32,
+    anchor: IVec3,
+    huge_px: f32,
+    fraction: Vec3,
+    fade_from_px: f32,
+    shape: Vec3,
+    fade_to_px: f32,
+    light: Vec3,
+    ambient: f32,
+    to_viewer: Vec3,
+    strength: f32,
+    half_size_px: Vec2,
+    nearest_px: f32,
+    per_px: f32,
+    levels: [SpaceLevel; LEVELS],
+}
+
+impl SpaceUniform {
+    pub(super) fn new(view: &SpaceView, style: &Style) -> Self {
+        let camera = &view.camera;
+        let (anchor, fraction) = camera.anchor();
+        let [right, up, towards] = camera.rows().map(|row| row.as_vec3());
+        let [nearest, farthest] = camera.depth_range();
+        let [fade_from_px, fade_to_px] = style.edge_fade_px;
+        let level = |SpacePaint { fill, edge, edge_alpha }| SpaceLevel { fill, edge_alpha, edge, unused: 0 };
+        Self {
+            right,
+            edge_reach_px: style.edge_reach_px(),
+            up,
+            rim_px: style.rim_px(),
+            towards,
+            seam_slack_px: SEAM_SLACK_PX,
+            anchor,
+            huge_px: HUGE_PX,
+            fraction: fraction.as_vec3(),
+            fade_from_px,
+            shape: camera.shape().as_vec3(),
+            fade_to_px,
+            light: view.light.direction().as_vec3(),
+            ambient: Light::AMBIENT,
+            to_viewer: camera.to_viewer().as_vec3(),
+            strength: view.light.strength(),
+            half_size_px: camera.plan().half_size_px().as_vec2(),
+            nearest_px: nearest as f32,
+            per_px: (1.0 / (nearest - farthest).max(1.0)) as f32,
+            levels: SpacePaint::all(style).map(level),
         }
     }
 }

@@ -1,4 +1,4 @@
-// Draws triangles directly from their arrays: three vertices per entry, fetched by index. The triangles are
+// Draws triangles directly from their arrays, mesh_arrays.wgsl: three vertices per entry, fetched by index. They are
 // those of the mesh (vs_main), or pieces in place of some of them (vs_piece).
 //
 // In a picture with a detail level, triangles finer than it are merged into their ancestors of that level
@@ -24,7 +24,7 @@ struct View {
     half_size_px: vec2<f32>,
     edge_reach_px: f32,
     seam_slack_px: f32,
-    node_chunk_bits: u32,
+    unused: u32,
     rim_px: f32,
     huge_px: f32,
     fill_opacity: f32,
@@ -35,32 +35,7 @@ struct View {
     levels: array<Level, 64>,
 }
 
-struct Triangle {
-    vertices: array<u32, 3>,
-    neighbours: array<u32, 3>,
-    orientation: u32,
-    // The level, plus 64 where the triangle lies outside the domain.
-    kind: u32,
-}
-
 @group(0) @binding(0) var<uniform> view: View;
-@group(1) @binding(0) var<storage, read> triangles: array<Triangle>;
-@group(1) @binding(1) var<storage, read> nodes_0: array<vec2<u32>>;
-@group(1) @binding(2) var<storage, read> nodes_1: array<vec2<u32>>;
-@group(1) @binding(3) var<storage, read> nodes_2: array<vec2<u32>>;
-@group(1) @binding(4) var<storage, read> nodes_3: array<vec2<u32>>;
-// Of the whole mesh, while `triangles` are one part of it. Unused for pieces.
-@group(1) @binding(5) var<storage, read> draw_flags: array<u32>;
-// Lists of entries, of the whole mesh: two to a word, each as its place in its block.
-@group(1) @binding(6) var<storage, read> lists: array<u32>;
-@group(1) @binding(7) var<uniform> part: Part;
-
-struct Part {
-    // Index of the first of `triangles` in the mesh.
-    first: u32,
-    // The first place of their lists.
-    first_place: u32,
-}
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
@@ -72,18 +47,8 @@ struct Corner {
     @location(3) @interpolate(flat) rims_px: vec3<f32>,
 }
 
-// No neighbour.
-const BOUNDARY: u32 = 0xffffffffu;
-
 // Entries of a block; places of a list are within a block.
 const BLOCK: u32 = 16384u;
-
-// A triangle that is drawn has no flags. Of one that is not drawn, this says whether pieces are in its place.
-const HAS_PIECES: u32 = 4u;
-
-fn flags_of(triangle: u32) -> u32 {
-    return (draw_flags[triangle / 8u] >> (4u * (triangle % 8u))) & 0xfu;
-}
 
 @vertex
 fn vs_main(@builtin(vertex_index) index: u32) -> Corner {
@@ -130,7 +95,7 @@ fn shown_as_it_is(entry: u32, corner: u32, level_number: u32) -> Corner {
     }
     var rims_px = vec3(0.0);
     if level.edge_alpha > 0.0 {
-        rims_px = rims(entry, level_number, boundary_of_triangle(entry));
+        rims_px = rims(entry, level_number, boundary_of_triangle(entry), view.rim_px);
     }
     return shaded(placement, level, rims_px);
 }
@@ -146,7 +111,8 @@ fn vs_piece(@builtin(vertex_index) index: u32) -> Corner {
     } else {
         placement = piece_corner(entry, corner);
     }
-    return shaded(placement, view.levels[level_number], rims(entry, level_number, boundary_of_piece(entry)));
+    let rims_px = rims(entry, level_number, boundary_of_piece(entry), view.rim_px);
+    return shaded(placement, view.levels[level_number], rims_px);
 }
 
 // The ancestor that a triangle represents. Where pieces are in the place of the triangle, they are drawn over
@@ -278,18 +244,6 @@ fn steps_from_anchor(node: u32) -> vec2<i32> {
     return bitcast<vec2<i32>>(node_at(node)) - view.anchor;
 }
 
-fn node_at(node: u32) -> vec2<u32> {
-    let place = node & ((1u << view.node_chunk_bits) - 1u);
-    var p: vec2<u32>;
-    switch node >> view.node_chunk_bits {
-        case 0u: { p = nodes_0[place]; }
-        case 1u: { p = nodes_1[place]; }
-        case 2u: { p = nodes_2[place]; }
-        default: { p = nodes_3[place]; }
-    }
-    return p;
-}
-
 // The distances of a corner from the three edges: its height from the opposite edge, 0 from the two others.
 fn inside_at_corner(corner: u32, level: u32, apex_height_px: f32, base_height_px: f32) -> vec3<f32> {
     // The apex is the second vertex at even levels, the third at odd levels.
@@ -320,45 +274,6 @@ fn piece_corner(entry: u32, corner: u32) -> Placement {
     out.px = px_from_steps(own);
     out.inside_px[corner] = doubled_area / length(opposite);
     return out;
-}
-
-// For each corner, half the line width if the opposite edge is a boundary edge: no neighbour draws the other
-// half there. `boundary` is in the order of the neighbours.
-fn rims(entry: u32, level: u32, boundary: vec3<bool>) -> vec3<f32> {
-    let odd = level & 1u;
-    let apex = 1u + odd;
-    // Neighbours are anticlockwise, the one across the bisection edge first.
-    let second = select(2u - 2u * odd, odd, triangles[entry].orientation == 0u);
-    var out = vec3(0.0);
-    out[apex] = select(0.0, view.rim_px, boundary[0]);
-    out[second] = select(0.0, view.rim_px, boundary[1]);
-    out[3u - apex - second] = select(0.0, view.rim_px, boundary[2]);
-    return out;
-}
-
-fn boundary_of_triangle(entry: u32) -> vec3<bool> {
-    return vec3(
-        is_vacant(triangles[entry].neighbours[0]),
-        is_vacant(triangles[entry].neighbours[1]),
-        is_vacant(triangles[entry].neighbours[2]),
-    );
-}
-
-// Whether nothing is drawn in the place of a neighbour.
-fn is_vacant(neighbour: u32) -> bool {
-    if neighbour == BOUNDARY {
-        return true;
-    }
-    let flags = flags_of(neighbour);
-    return flags != 0u && (flags & HAS_PIECES) == 0u;
-}
-
-fn boundary_of_piece(entry: u32) -> vec3<bool> {
-    return vec3(
-        triangles[entry].neighbours[0] == BOUNDARY,
-        triangles[entry].neighbours[1] == BOUNDARY,
-        triangles[entry].neighbours[2] == BOUNDARY,
-    );
 }
 
 // A corner of a triangle that covers the whole canvas; the fragment shader discards what is outside the huge

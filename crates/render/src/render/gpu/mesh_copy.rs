@@ -22,7 +22,7 @@ const SMALL_GAP_OF_WORDS: usize = 4096;
 /// Upper bound of the words of flags of any mesh. All are in one buffer.
 const MOST_WORDS: usize = 1 << 28;
 
-/// Size of the uniform `Part` of mesh.wgsl in bytes: two u32, and padding that some drivers require.
+/// Size of the uniform `Part` of mesh.wgsl in bytes: three u32, and padding that some drivers require.
 const PART_BYTES: usize = 16;
 
 /// The handles with which buffers are made, filled and bound.
@@ -344,7 +344,7 @@ impl Arrays {
             let part = uniform_buffer(&gpu.device, "part of a mesh", PART_BYTES);
             let first = (chunk * gpu.limits.triangles) as u32;
             let first_place = arrangement.map_or(0, |arrangement| arrangement.first_place(chunk)) as u32;
-            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&[first, first_place]));
+            gpu.queue.write_buffer(&part, 0, bytemuck::bytes_of(&[first, first_place, gpu.limits.node_bits]));
             let lists = arrangement.and_then(Arrangement::buffer);
             let buffers = [triangles].into_iter().chain(nodes);
             let buffers =

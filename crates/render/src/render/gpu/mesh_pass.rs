@@ -3,6 +3,7 @@
 use super::arrangement::Span;
 use super::layout::MeshView;
 use super::mirror::MeshMirror;
+use super::shaders::MESH;
 use crate::scene::{Camera, Detail, Style};
 use meshbrush_mesh::geometry::LatticeRect;
 
@@ -29,9 +30,10 @@ impl MeshPass {
             layout: &view_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: view.as_entire_binding() }],
         });
-        let shader = device.create_shader_module(wgpu::include_wgsl!("mesh.wgsl"));
+        let shader = shader_module(device, "mesh", MESH);
         let groups = [&view_layout, mirror.layout()];
-        let pipeline = |vertex_shader| pipeline_from(device, &shader, vertex_shader, &groups, format, None);
+        let pipeline =
+            |vertex_shader| pipeline_from(device, &shader, vertex_shader, &groups, format, (None, None));
         Self {
             triangles: pipeline("vs_main"),
             merging: pipeline("vs_merging"),
@@ -51,7 +53,7 @@ impl MeshPass {
         style: &Style,
     ) {
         let sight = MeshSight::new(mirror, camera, style);
-        let view = MeshView::new(&sight.camera, style, sight.detail, mirror.limits().node_bits);
+        let view = MeshView::new(&sight.camera, style, sight.detail);
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&view));
         pass.set_bind_group(0, &self.view_group, &[]);
         let plain_pipeline = if sight.detail.is_some() { &self.merging } else { &self.triangles };
@@ -98,6 +100,14 @@ impl MeshSight {
     }
 }
 
+/// Returns a shader from one of [`super::shaders`].
+pub(super) fn shader_module(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    })
+}
+
 /// Returns a render pipeline without vertex buffers, from `vs_main` and `fs_main`, without depth buffer and
 /// multisampling.
 pub(super) fn render_pipeline(
@@ -107,17 +117,18 @@ pub(super) fn render_pipeline(
     format: wgpu::TextureFormat,
     blend: Option<wgpu::BlendState>,
 ) -> wgpu::RenderPipeline {
-    pipeline_from(device, shader, "vs_main", groups, format, blend)
+    pipeline_from(device, shader, "vs_main", groups, format, (blend, None))
 }
 
-/// Makes a pipeline like [`render_pipeline`], with another function as vertex shader.
-fn pipeline_from(
+/// Makes a pipeline like [`render_pipeline`], with another function as vertex shader, and where it is given
+/// with a buffer of depths.
+pub(super) fn pipeline_from(
     device: &wgpu::Device,
     shader: &wgpu::ShaderModule,
     vertex_shader: &str,
     groups: &[&wgpu::BindGroupLayout],
     format: wgpu::TextureFormat,
-    blend: Option<wgpu::BlendState>,
+    (blend, depth_stencil): (Option<wgpu::BlendState>, Option<wgpu::DepthStencilState>),
 ) -> wgpu::RenderPipeline {
     let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -135,7 +146,7 @@ fn pipeline_from(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
+        depth_stencil,
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: shader,

@@ -14,7 +14,9 @@ mod offscreen;
 mod overlay_pass;
 mod picture;
 mod sending;
+pub mod shaders;
 mod shown_image;
+mod space_pass;
 
 pub use chunks::{ChunkLimits, NODE_BUFFERS};
 pub use mirror::MeshMirror;
@@ -25,7 +27,7 @@ use self::overlay_pass::OverlayPass;
 use self::picture::MeshPicture;
 use crate::render::Image;
 use crate::render::software::{KeptPicture, PxRect};
-use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
+use crate::scene::{Camera, NodeHeights, Overlay, ShownMesh, ShownRevision, ShownSurface, SpaceView, Style};
 use meshbrush_mesh::text::Bytes;
 use meshbrush_mesh::text::Grouped;
 
@@ -224,6 +226,55 @@ impl GpuRenderer {
     /// Draws the picture in software, for a caller that draws the whole window with [`Self::take_image`].
     pub fn draw_image(&mut self, shown: ShownMesh, revision: ShownRevision, camera: &Camera, style: &Style) {
         self.picture.draw_image(shown, revision, camera, style);
+    }
+
+    /// Sends the heights of the nodes of the mesh in the mirror and of its pieces, unless those of this
+    /// revision were sent before. The revision is the caller's name for them.
+    ///
+    /// # Errors
+    /// Fails when the device cannot draw in space or hold the heights.
+    pub fn set_heights(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        heights: &NodeHeights,
+        revision: u64,
+    ) -> Result<(), GpuError> {
+        self.picture.set_heights((device, queue), &self.mirror, heights, revision)
+    }
+
+    /// Redraws the picture in space with `encoder` if the mesh, its heights, the view or the style changed,
+    /// and prepares [`Self::paint`]. [`Self::set_heights`] must have sent the heights of the mesh that is
+    /// shown. There is no overlay in space.
+    ///
+    /// # Errors
+    /// Fails when the canvas is larger than the largest texture.
+    pub fn prepare_in_space(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &SpaceView,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        self.picture.prepare_in_space((device, queue), encoder, &self.mirror, view, style)
+    }
+
+    /// Redraws the picture in space with the [software renderer](crate::render::software) if the mesh, the
+    /// view or the style changed, and prepares [`Self::paint`]; without a device, for a caller that draws the
+    /// whole window with [`Self::take_image`].
+    ///
+    /// # Errors
+    /// Fails when the canvas is larger than the largest texture.
+    pub fn prepare_in_space_in_software(
+        &mut self,
+        gpu: Option<(&wgpu::Device, &wgpu::Queue)>,
+        shown: ShownSurface,
+        revision: ShownRevision,
+        view: &SpaceView,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        self.picture.prepare_in_space_in_software(gpu, shown, revision, view, style)
     }
 
     /// Returns the picture of [`Self::draw_image`], the part that is new since the last call, and whether the

@@ -4,7 +4,7 @@ use super::mesh_pass::new_texture;
 use super::picture::begin_pass;
 use super::{ChunkLimits, GpuError, GpuRenderer, device_descriptor};
 use crate::render::Image;
-use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, Style};
+use crate::scene::{Camera, Overlay, ShownMesh, ShownRevision, ShownSurface, SpaceView, Style};
 use meshbrush_mesh::mesh::Mesh;
 
 /// A renderer with a device of its own, which draws pictures without a window.
@@ -103,7 +103,7 @@ impl Offscreen {
     /// # Errors
     /// Fails when the canvas is larger than the largest texture, or the device is lost.
     pub fn frame(&mut self, camera: &Camera, style: &Style) -> Result<(), GpuError> {
-        let canvas = self.canvas(camera)?;
+        let canvas = self.canvas(camera.size_px())?;
         let mut encoder = self.encoder();
         self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
         self.paint(&mut encoder, &canvas, style);
@@ -116,7 +116,7 @@ impl Offscreen {
     /// # Errors
     /// Fails as [`Self::frame`] does.
     pub fn picture(&mut self, camera: &Camera, style: &Style) -> Result<Image, GpuError> {
-        let canvas = self.canvas(camera)?;
+        let canvas = self.canvas(camera.size_px())?;
         let mut encoder = self.encoder();
         self.renderer.prepare(&self.device, &self.queue, &mut encoder, camera, style)?;
         self.paint(&mut encoder, &canvas, style);
@@ -134,9 +134,29 @@ impl Offscreen {
         camera: &Camera,
         style: &Style,
     ) -> Result<Image, GpuError> {
-        let canvas = self.canvas(camera)?;
+        let canvas = self.canvas(camera.size_px())?;
         let mut encoder = self.encoder();
         self.renderer.prepare_in_software(&self.device, &self.queue, shown, revision, camera, style)?;
+        self.paint(&mut encoder, &canvas, style);
+        read_back(&self.device, &self.queue, encoder, &canvas)
+    }
+
+    /// Draws a frame in space and reads it back. `shown` is the mesh that was uploaded with its pieces, and
+    /// `revision` the caller's name for its heights.
+    ///
+    /// # Errors
+    /// Fails as [`Self::frame`] does.
+    pub fn picture_in_space(
+        &mut self,
+        shown: ShownSurface,
+        revision: u64,
+        view: &SpaceView,
+        style: &Style,
+    ) -> Result<Image, GpuError> {
+        let canvas = self.canvas(view.camera.size_px())?;
+        let mut encoder = self.encoder();
+        self.renderer.set_heights(&self.device, &self.queue, shown.heights, revision)?;
+        self.renderer.prepare_in_space(&self.device, &self.queue, &mut encoder, view, style)?;
         self.paint(&mut encoder, &canvas, style);
         read_back(&self.device, &self.queue, encoder, &canvas)
     }
@@ -151,8 +171,7 @@ impl Offscreen {
         self.renderer.paint(&mut begin_pass(encoder, &view, [r, g, b, 1.0]));
     }
 
-    fn canvas(&self, camera: &Camera) -> Result<wgpu::Texture, GpuError> {
-        let size = camera.size_px();
+    fn canvas(&self, size: [u32; 2]) -> Result<wgpu::Texture, GpuError> {
         let limit = self.device.limits().max_texture_dimension_2d;
         if size[0] > limit || size[1] > limit {
             return Err(GpuError::TooLarge { what: "A picture", size, limit });

@@ -2,7 +2,10 @@
 
 use super::GpuError;
 use super::layout::OverlayView;
-use super::mesh_pass::{new_texture, render_pipeline, texel_entry, uniform_buffer, uniform_entry};
+use super::mesh_pass::{
+    new_texture, render_pipeline, shader_module, texel_entry, uniform_buffer, uniform_entry,
+};
+use super::shaders::OVERLAY;
 use crate::scene::{Camera, Overlay};
 use meshbrush_mesh::geometry::Rect;
 
@@ -36,7 +39,7 @@ impl OverlayPass {
             label: Some("overlay"),
             entries: &[uniform_entry(0), texel_entry(1)],
         });
-        let shader = device.create_shader_module(wgpu::include_wgsl!("overlay.wgsl"));
+        let shader = shader_module(device, "overlay", OVERLAY);
         let blend = wgpu::BlendState {
             color: wgpu::BlendComponent {
                 src_factor: wgpu::BlendFactor::Dst,

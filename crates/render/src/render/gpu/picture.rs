@@ -4,19 +4,25 @@ use super::GpuError;
 use super::mesh_pass::MeshPass;
 use super::mirror::MeshMirror;
 use super::shown_image::ShownImage;
+use super::space_pass::SpacePass;
 use crate::render::Image;
-use crate::render::software::{KeptPicture, PxRect};
-use crate::scene::{Camera, ShownMesh, ShownRevision, Style};
+use crate::render::software::{self, KeptPicture, PxRect};
+use crate::scene::{Camera, NodeHeights, ShownMesh, ShownRevision, ShownSurface, SpaceView, Style};
 
 /// Draws the mesh into a texture when something changed, and otherwise only copies the texture to the canvas.
 ///
 /// A window repaints whenever the pointer moves in a panel; that must not redraw a large mesh.
 pub(super) struct MeshPicture {
     mesh_pass: MeshPass,
+    /// Made for the first picture in space.
+    space_pass: Option<SpacePass>,
+    format: wgpu::TextureFormat,
     texture: ShownImage,
     drawn: Option<Drawn>,
     /// The picture that is drawn in software.
     kept: KeptPicture,
+    /// The picture in space that was drawn in software.
+    in_space: Image,
     /// The part of the kept picture that was drawn since [`Self::take_image`] last returned it.
     taken_from: Option<PxRect>,
     redraws: u64,
@@ -26,8 +32,15 @@ pub(super) struct MeshPicture {
 #[derive(PartialEq)]
 struct Drawn {
     source: Source,
-    camera: Camera,
+    sight: Sight,
     style: Style,
+}
+
+/// From where the mesh is seen.
+#[derive(Clone, Copy, PartialEq)]
+enum Sight {
+    Plan(Camera),
+    Space(SpaceView),
 }
 
 #[derive(PartialEq)]
@@ -41,13 +54,22 @@ enum Source {
     Image(ShownRevision),
 }
 
+impl Drawn {
+    fn is_image_of_plan(&self) -> bool {
+        matches!((&self.source, self.sight), (Source::Image(_), Sight::Plan(_)))
+    }
+}
+
 impl MeshPicture {
     pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
         Self {
             mesh_pass: MeshPass::new(device, format, mirror),
+            space_pass: None,
+            format,
             texture: ShownImage::new(device, format),
             drawn: None,
             kept: KeptPicture::default(),
+            in_space: Image { size: [0, 0], rgba: Vec::new() },
             taken_from: None,
             redraws: 0,
         }
@@ -64,7 +86,7 @@ impl MeshPicture {
         style: &Style,
     ) -> Result<(), GpuError> {
         let source = Source::Mirror(mirror.generation());
-        let Some(wanted) = self.if_not_drawn(source, camera, style) else { return Ok(()) };
+        let Some(wanted) = self.if_not_drawn(source, Sight::Plan(*camera), style) else { return Ok(()) };
         self.drawn = None;
         self.texture.fit(device, camera.size_px())?;
         if let Some(view) = self.texture.view() {
@@ -86,10 +108,12 @@ impl MeshPicture {
         camera: &Camera,
         style: &Style,
     ) -> Result<(), GpuError> {
-        let Some(wanted) = self.if_not_drawn(Source::Software(revision), camera, style) else {
+        let Some(wanted) = self.if_not_drawn(Source::Software(revision), Sight::Plan(*camera), style) else {
             return Ok(());
         };
-        let follows = self.drawn.take().is_some_and(|drawn| matches!(drawn.source, Source::Software(_)));
+        let follows = self.drawn.take().is_some_and(|drawn| {
+            matches!((drawn.source, drawn.sight), (Source::Software(_), Sight::Plan(_)))
+        });
         let is_other = self.texture.fit(device, camera.size_px())?;
         let changed = self.kept.update(shown, revision, camera, style);
         let image = self.kept.image();
@@ -110,8 +134,10 @@ impl MeshPicture {
         camera: &Camera,
         style: &Style,
     ) {
-        let Some(wanted) = self.if_not_drawn(Source::Image(revision), camera, style) else { return };
-        if !self.drawn.as_ref().is_some_and(|drawn| matches!(drawn.source, Source::Image(_))) {
+        let Some(wanted) = self.if_not_drawn(Source::Image(revision), Sight::Plan(*camera), style) else {
+            return;
+        };
+        if !self.drawn.as_ref().is_some_and(Drawn::is_image_of_plan) {
             self.taken_from = Some(PxRect::whole(camera.size_px()));
         }
         if let Some(part) = self.kept.update(shown, revision, camera, style) {
@@ -121,10 +147,80 @@ impl MeshPicture {
         self.keep(wanted);
     }
 
+    /// Does the work of [`GpuRenderer::prepare_in_space`](super::GpuRenderer::prepare_in_space).
+    pub(super) fn prepare_in_space(
+        &mut self,
+        gpu: (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        mirror: &MeshMirror,
+        view: &SpaceView,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        let Some(space_pass) = &mut self.space_pass else { return Ok(()) };
+        let wanted = Drawn {
+            source: Source::Mirror(mirror.generation()),
+            sight: Sight::Space(*view),
+            style: style.clone(),
+        };
+        if self.drawn.as_ref() == Some(&wanted) && !space_pass.has_news() {
+            return Ok(());
+        }
+        self.drawn = None;
+        self.texture.fit(gpu.0, view.camera.size_px())?;
+        if let Some(target) = self.texture.view() {
+            space_pass.draw(gpu, encoder, target, mirror, view, style);
+        }
+        self.keep(wanted);
+        Ok(())
+    }
+
+    /// Does the work of [`GpuRenderer::set_heights`](super::GpuRenderer::set_heights).
+    pub(super) fn set_heights(
+        &mut self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        mirror: &MeshMirror,
+        heights: &NodeHeights,
+        revision: u64,
+    ) -> Result<(), GpuError> {
+        let space_pass = match &mut self.space_pass {
+            Some(space_pass) => space_pass,
+            None => self.space_pass.insert(SpacePass::new(device, self.format, mirror)?),
+        };
+        space_pass.set_heights(device, queue, heights, revision)
+    }
+
+    /// Does the work of
+    /// [`GpuRenderer::prepare_in_space_in_software`](super::GpuRenderer::prepare_in_space_in_software), into
+    /// the texture where there is a device.
+    pub(super) fn prepare_in_space_in_software(
+        &mut self,
+        gpu: Option<(&wgpu::Device, &wgpu::Queue)>,
+        shown: ShownSurface,
+        revision: ShownRevision,
+        view: &SpaceView,
+        style: &Style,
+    ) -> Result<(), GpuError> {
+        let source = if gpu.is_some() { Source::Software(revision) } else { Source::Image(revision) };
+        let Some(wanted) = self.if_not_drawn(source, Sight::Space(*view), style) else { return Ok(()) };
+        self.drawn = None;
+        self.in_space = software::draw_surface(shown, view, style);
+        let whole = PxRect::whole(self.in_space.size);
+        match gpu {
+            Some((device, queue)) => {
+                self.texture.fit(device, view.camera.size_px())?;
+                self.texture.write(queue, &self.in_space, &whole);
+            }
+            None => self.taken_from = Some(whole),
+        }
+        self.keep(wanted);
+        Ok(())
+    }
+
     /// Does the work of [`GpuRenderer::take_image`](super::GpuRenderer::take_image).
     pub(super) fn take_image(&mut self) -> Option<(&Image, Option<PxRect>, bool)> {
         let drawn = self.drawn.as_ref().filter(|drawn| matches!(drawn.source, Source::Image(_)))?;
-        Some((self.kept.image(), self.taken_from.take(), drawn.style.is_opaque()))
+        let image = if drawn.is_image_of_plan() { self.kept.image() } else { &self.in_space };
+        Some((image, self.taken_from.take(), drawn.style.is_opaque()))
     }
 
     /// Returns the picture that is drawn in software. It must be told of every edit of the mesh.
@@ -133,8 +229,8 @@ impl MeshPicture {
     }
 
     /// Returns the contents to draw, or `None` if the picture already shows them.
-    fn if_not_drawn(&self, source: Source, camera: &Camera, style: &Style) -> Option<Drawn> {
-        let wanted = Drawn { source, camera: *camera, style: style.clone() };
+    fn if_not_drawn(&self, source: Source, sight: Sight, style: &Style) -> Option<Drawn> {
+        let wanted = Drawn { source, sight, style: style.clone() };
         (self.drawn.as_ref() != Some(&wanted)).then_some(wanted)
     }
 

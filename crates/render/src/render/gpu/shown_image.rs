@@ -1,7 +1,8 @@
 //! A picture in a texture, shown on a canvas of the same size.
 
 use super::GpuError;
-use super::mesh_pass::{new_texture, render_pipeline, texel_entry};
+use super::mesh_pass::{new_texture, render_pipeline, shader_module, texel_entry};
+use super::shaders::BLIT;
 use crate::render::Image;
 use crate::render::software::PxRect;
 
@@ -31,7 +32,7 @@ impl ShownImage {
             label: Some("picture"),
             entries: &[texel_entry(0), sampler_entry(1)],
         });
-        let shader = device.create_shader_module(wgpu::include_wgsl!("blit.wgsl"));
+        let shader = shader_module(device, "blit", BLIT);
         let pipeline = |blend| render_pipeline(device, &shader, &[&layout], format, blend);
         let (copy, blend) = (pipeline(None), pipeline(Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)));
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor::default());

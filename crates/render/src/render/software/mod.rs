@@ -7,12 +7,14 @@ mod groups;
 mod kept;
 mod painter;
 mod rasterizer;
+mod space;
 mod threads;
 
 use glam::Vec2;
 
 pub use self::damage::{BAND_ROWS, Damage, PxRect};
 pub use self::kept::KeptPicture;
+pub use self::space::{draw_extract_in_space, draw_surface};
 pub use self::threads::on_drawing_threads;
 
 use self::corners::Corners;

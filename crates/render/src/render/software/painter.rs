@@ -34,15 +34,21 @@ impl TriangleArrays<'_> {
     /// Returns, for each vertex, whether the opposite edge is on the boundary, so that no neighbour draws its
     /// half of the line.
     fn boundary_opposite(&self, triangle: &Triangle) -> [bool; 3] {
+        Self::boundary_in(self.triangles, self.flags, triangle)
+    }
+
+    /// Does the work of [`Self::boundary_opposite`] for any array of triangles with their flags.
+    pub(super) fn boundary_in(triangles: &[Triangle], flags: &DrawFlags, triangle: &Triangle) -> [bool; 3] {
         let mut boundary = [false; 3];
         for ((from, to), across) in triangle.edges().into_iter().zip(triangle.raw_neighbours) {
-            boundary[3 - from - to] = across.triangle().is_none_or(|id| self.is_vacant(id.index()));
+            boundary[3 - from - to] =
+                across.triangle().is_none_or(|id| vacant_in(triangles, flags, id.index()));
         }
         boundary
     }
 
     fn is_vacant(&self, index: usize) -> bool {
-        self.flags.is_vacant(index) || self.flags.is_drawn(index) && self.triangles[index].is_outside()
+        vacant_in(self.triangles, self.flags, index)
     }
 
     /// Returns, for each band, the groups of triangles that can be seen in its damaged part, in their order.
@@ -56,6 +62,11 @@ impl TriangleArrays<'_> {
         }
         bands
     }
+}
+
+/// Returns whether nothing is drawn in the place of a triangle.
+fn vacant_in(triangles: &[Triangle], flags: &DrawFlags, index: usize) -> bool {
+    flags.is_vacant(index) || flags.is_drawn(index) && triangles[index].is_outside()
 }
 
 /// Returns columns and rows of the pixels that triangles within `rect` can colour, if those that they are

@@ -103,20 +103,20 @@ pub(super) struct Rasterizer<'a> {
 /// The edge function of one edge of a snapped triangle. `value` at a pixel centre is positive inside; its
 /// unit is 2⁻¹⁶ px².
 #[derive(Clone, Copy)]
-struct EdgeFunction {
-    value: i64,
-    per_column: i64,
-    per_row: i64,
+pub(super) struct EdgeFunction {
+    pub(super) value: i64,
+    pub(super) per_column: i64,
+    pub(super) per_row: i64,
     /// 0 for edges that own the pixel centres on them, otherwise −1.
-    bias: i64,
-    px_per_unit: f32,
+    pub(super) bias: i64,
+    pub(super) px_per_unit: f32,
 }
 
 impl EdgeFunction {
     /// Returns the edge from `p` to `q` of a triangle that runs clockwise on the screen, at the pixel
     /// `column`, `row`.
     #[inline]
-    fn new(p: [i32; 2], q: [i32; 2], column: i32, row: i32) -> Self {
+    pub(super) fn new(p: [i32; 2], q: [i32; 2], column: i32, row: i32) -> Self {
         let [dx, dy] = [i64::from(q[0]) - i64::from(p[0]), i64::from(q[1]) - i64::from(p[1])];
         let x = i64::from(column * PIXEL + HALF_PIXEL) - i64::from(p[0]);
         let y = i64::from(row * PIXEL + HALF_PIXEL) - i64::from(p[1]);
@@ -224,7 +224,7 @@ fn nearest(distances: [f32; 3], rims: [f32; 3]) -> f32 {
 /// Returns the pixels within `limits` whose centres lie between `low` and `high`, which are in units of the
 /// grid of corners.
 #[inline]
-fn pixels_between(low: i32, high: i32, limits: &Range<i32>) -> Range<i32> {
+pub(super) fn pixels_between(low: i32, high: i32, limits: &Range<i32>) -> Range<i32> {
     let first = (low - HALF_PIXEL + PIXEL - 1) >> SUBPIXEL_BITS;
     let last = (high - HALF_PIXEL) >> SUBPIXEL_BITS;
     first.max(limits.start)..(last + 1).min(limits.end)

@@ -1,0 +1,149 @@
+//! Pictures of the surface in space, before there is a mesh.
+
+use std::sync::Arc;
+
+use clap::{Args, ValueEnum};
+
+use super::build::FinishedMesh;
+use super::failure::Failure;
+use meshbrush_core::surface::HeightSource;
+use meshbrush_io::io::KeyFault;
+use meshbrush_io::io::settings::SavedOutput;
+use meshbrush_mesh::mesh::Extract;
+use meshbrush_mesh::text::Number;
+use meshbrush_render::render::export::SpaceLook;
+use meshbrush_render::scene::{Light, NodeHeights, SpaceCamera, ViewDirection};
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PictureView {
+    /// The plan
+    Plan,
+    /// The surface in space
+    Space,
+}
+
+/// Pictures in space.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Pictures (.svg and .png)")]
+pub struct SpaceArguments {
+    /// What pictures show: the plan, or the mesh as a surface in space
+    ///
+    /// The heights are those of layers of surfaces, or else depths. Triangles without a height are left out.
+    /// Pictures in space are .png.
+    #[arg(long, value_name = "VIEW", value_enum, default_value = "plan")]
+    pub view: PictureView,
+
+    /// Direction in which one looks in space, in degrees clockwise from the y axis: 0 is northwards
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub azimuth: Option<f64>,
+
+    /// How high the viewer stands above the horizon, 5 to 90 degrees: 90 is from above
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub altitude: Option<f64>,
+
+    /// Factor for heights in space; without it relief has an eighth of the longer side of the domain
+    ///
+    /// In domains in kilometres or degrees, heights are metres: 1 is true there, too.
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
+    pub exaggeration: Option<f64>,
+}
+
+/// The view in space that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RequestedSpace {
+    direction: ViewDirection,
+    exaggeration: Option<f64>,
+}
+
+/// Why a number of a view cannot be used: its name, and the rule.
+struct BadNumber(&'static str, String);
+
+/// A number of a view in space without the view.
+const ONLY_IN_SPACE: &str = "this is for views in space";
+
+impl SpaceArguments {
+    /// Returns whether an option was given that is not the default.
+    pub fn differs_from_default(&self) -> bool {
+        let Self { view, azimuth, altitude, exaggeration } = self;
+        *view != PictureView::Plan || [azimuth, altitude, exaggeration].iter().any(|number| number.is_some())
+    }
+}
+
+impl RequestedSpace {
+    /// Returns the view that the arguments describe; `None` for the plan.
+    ///
+    /// # Errors
+    /// Fails when a number is out of its range, or is given for the plan.
+    pub fn new(typed: &SpaceArguments) -> Result<Option<Self>, Failure> {
+        let SpaceArguments { view, azimuth, altitude, exaggeration } = *typed;
+        let usage = |BadNumber(name, rule)| Failure::Usage(format!("--{name}: {rule}, with --view space."));
+        Self::of(view == PictureView::Space, [azimuth, altitude, exaggeration]).map_err(usage)
+    }
+
+    /// Returns the view that an output of a recipe describes; `None` for the plan.
+    ///
+    /// # Errors
+    /// Fails as [`Self::new`] does, and for the name of another view.
+    pub fn of_saved(saved: &SavedOutput) -> Result<Option<Self>, KeyFault> {
+        let view = saved.view.as_deref().unwrap_or("plan");
+        let view = PictureView::from_str(view, true)
+            .map_err(|_| KeyFault::value("view", format!("“{view}” is no view; use plan or space.")))?;
+        let numbers = [saved.azimuth, saved.altitude, saved.exaggeration];
+        let fault = |BadNumber(name, rule)| KeyFault::value(name, format!("{rule}, with view = \"space\"."));
+        Self::of(view == PictureView::Space, numbers).map_err(fault)
+    }
+
+    fn of(
+        is_space: bool,
+        [azimuth, altitude, exaggeration]: [Option<f64>; 3],
+    ) -> Result<Option<Self>, BadNumber> {
+        let given = [("azimuth", azimuth), ("altitude", altitude), ("exaggeration", exaggeration)];
+        if !is_space {
+            let number = given.into_iter().find(|(_, number)| number.is_some());
+            return number.map_or(Ok(None), |(name, _)| Err(BadNumber(name, ONLY_IN_SPACE.into())));
+        }
+        let checked = |name, number: f64, is_valid: bool, rule: &str| match is_valid {
+            true => Ok(number),
+            false => Err(BadNumber(name, format!("{} is not {rule}", Number(number)))),
+        };
+        let usual = ViewDirection::default();
+        let [azimuth, altitude] = [azimuth.unwrap_or(usual.azimuth), altitude.unwrap_or(usual.altitude)];
+        let azimuth = checked("azimuth", azimuth, azimuth.is_finite(), "an angle in degrees")?;
+        let is_high = (5.0..=90.0).contains(&altitude);
+        let altitude = checked("altitude", altitude, is_high, "an angle from 5 to 90 degrees")?;
+        let is_factor = |factor: &f64| *factor > 0.0 && factor.is_finite();
+        if let Some(factor) = exaggeration.filter(|factor| !is_factor(factor)) {
+            checked("exaggeration", factor, false, "a positive factor")?;
+        }
+        Ok(Some(Self { direction: ViewDirection { azimuth, altitude }, exaggeration }))
+    }
+
+    /// Returns the view of a mesh as files get it.
+    ///
+    /// # Errors
+    /// Fails when no node has a height.
+    pub fn for_extract(&self, finished: &FinishedMesh, extract: &Extract) -> Result<SpaceLook, Failure> {
+        let source = HeightSource::of(finished.built().surface.as_deref(), finished.layers());
+        let heights = source.map(|source| source.at_nodes(extract.lattice(), extract.nodes()));
+        let heights = heights.and_then(|heights| NodeHeights::new(&heights, &[]));
+        let Some(heights) = heights else {
+            return Err(Failure::Work(
+                "A picture in space needs heights, and no layer has any: add a surface with --surface, or depths with \
+                 --depth."
+                    .into(),
+            ));
+        };
+        let bounds = extract.lattice().bounds();
+        let metre = SpaceCamera::metre_in(finished.unit());
+        let usual = || SpaceCamera::visible_exaggeration(bounds, heights.relief());
+        let in_world = |factor: f64| factor * metre;
+        Ok(SpaceLook {
+            direction: self.direction,
+            light: Light::default(),
+            exaggeration: self.exaggeration.map_or_else(usual, in_world),
+            metre,
+            heights: Arc::new(heights),
+        })
+    }
+}

@@ -1,0 +1,47 @@
+//! What a press on the canvas begins.
+
+use eframe::egui::{Context, Key, PointerButton, TouchPhase};
+
+use super::menu;
+use super::space::only_in_plan;
+use crate::app::command::{Command, ShellCommand};
+use crate::app::kit::{Gesture, Pointer, Press};
+use crate::app::tools::move_view;
+
+/// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted.
+pub fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
+    match phase {
+        TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
+        TouchPhase::End | TouchPhase::Cancel => Some(None),
+    }
+}
+
+/// Begins the gesture of a press: panning by Space or the middle button, else the tool's.
+pub fn begin_gesture(
+    ctx: &Context,
+    press: Press,
+    button: PointerButton,
+    pointer: &Pointer<'_>,
+    commands: &mut Vec<Command>,
+) -> Option<Box<dyn Gesture>> {
+    match button {
+        PointerButton::Middle => Some(move_view(&press, button, pointer, commands)),
+        PointerButton::Primary if space_is_down(ctx) => Some(move_view(&press, button, pointer, commands)),
+        PointerButton::Primary if pointer.space.is_some() && !pointer.tools.tool.in_space => {
+            commands.push(Command::Shell(ShellCommand::Tell(only_in_plan(pointer.tools.tool))));
+            None
+        }
+        PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),
+        PointerButton::Secondary => {
+            if !(pointer.tools.tool.press_secondary)(pointer.tools, commands) {
+                menu::open(ctx, press.at, pointer.world(press.at));
+            }
+            None
+        }
+        _ => None,
+    }
+}
+
+fn space_is_down(ctx: &Context) -> bool {
+    ctx.input(|input| input.key_down(Key::Space)) && !ctx.egui_wants_keyboard_input()
+}

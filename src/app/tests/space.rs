@@ -1,0 +1,168 @@
+//! The view in space: turning it, and acting on the surface in it.
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec2, dvec2};
+
+use super::{
+    Window, canvas, entries, key, notice, press_at, release_at, send, settings, wait_for_jobs, wheel, window,
+};
+use crate::app::canvas::space_sight;
+use crate::app::command::{Command, EditCommand, ShellCommand, SpaceCommand, ViewCommand};
+use crate::app::features::inspection::QUERY;
+use crate::app::heights::SpaceSight;
+use crate::app::kit::marks::point_from_px;
+use meshbrush_core::document::Setting;
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceSource};
+
+/// Shows the hills of a formula in space.
+fn hills() -> Window {
+    let mut window = window();
+    let surface = Surface {
+        source: SurfaceSource::Formula(Formula::parse("sin(9 * x) * cos(7 * y)").unwrap()),
+        goal: SurfaceGoal::Within(0.05),
+    };
+    let mut layers = settings(&window).layers.clone();
+    layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
+    send(&mut window, Command::Edit(EditCommand::Set(Setting::Layers(layers))));
+    send(&mut window, Command::Edit(EditCommand::EndGesture));
+    wait_for_jobs(&mut window);
+    key(&mut window, Modifiers::SHIFT, Key::V);
+    wait_for_jobs(&mut window);
+    window
+}
+
+fn sight(window: &Window) -> SpaceSight<'_> {
+    space_sight(window.state().view(), window.state().session()).expect("the view is in space")
+}
+
+/// Where a place of the plan is on the screen, in points.
+fn seen(window: &Window, world: DVec2) -> Pos2 {
+    point_from_px(canvas(window), sight(window).screen(world), window.ctx.pixels_per_point())
+}
+
+fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, by: [f32; 2]) {
+    let from = canvas(window).center();
+    press_at(window, from, button, modifiers);
+    window.event(Event::PointerMoved(from + vec2(by[0], by[1])));
+    window.run();
+    release_at(window, from + vec2(by[0], by[1]), button);
+    window.run();
+}
+
+#[test]
+fn the_key_shows_the_surface_and_escape_the_plan() {
+    let mut window = hills();
+    let before = window.state().view().camera;
+    assert!(window.state().view().space.is_on && window.state().view().space_view().is_some());
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!window.state().view().space.is_on);
+    assert_ne!(window.state().view().camera, before, "the plan is fitted again");
+}
+
+#[test]
+fn a_document_without_heights_says_what_is_missing() {
+    let mut window = window();
+    key(&mut window, Modifiers::SHIFT, Key::V);
+    wait_for_jobs(&mut window);
+    assert!(window.query_by_label_contains("no heights to show in space").is_some());
+}
+
+#[test]
+fn middle_drags_turn_and_with_shift_they_pan() {
+    let mut window = hills();
+    let before = sight(&window).camera;
+    drag(&mut window, PointerButton::Middle, Modifiers::NONE, [50.0, 20.0]);
+    let turned = sight(&window).camera.direction();
+    assert!((turned.azimuth - before.direction().azimuth - 20.0).abs() < 1e-3, "{turned:?}");
+    assert!((turned.altitude - before.direction().altitude - 6.0).abs() < 1e-3, "{turned:?}");
+    let held = canvas(&window).center();
+    let world = sight(&window).camera.world_from_screen(sight(&window).camera.plan().half_size_px());
+    drag(&mut window, PointerButton::Middle, Modifiers::SHIFT, [50.0, 20.0]);
+    let now = sight(&window).camera;
+    let px = now.screen_from_world(world, now.height());
+    let moved = point_from_px(canvas(&window), px, window.ctx.pixels_per_point());
+    assert!(moved.distance(held + vec2(50.0, 20.0)) < 0.1, "{moved}");
+    assert_eq!(now.direction(), turned);
+    key(&mut window, Modifiers::NONE, Key::Home);
+    assert_eq!(sight(&window).camera.direction(), turned, "Home keeps the direction");
+    assert!(window.state().view().is_fitted);
+}
+
+#[test]
+fn the_wheel_keeps_the_point_of_the_surface_under_the_pointer() {
+    let mut window = hills();
+    let world = dvec2(0.3, 0.4);
+    let at = seen(&window, world);
+    for _ in 0..3 {
+        wheel(&mut window, at, 60.0);
+    }
+    let factor = sight(&window).camera.plan().px_per_world();
+    assert!(seen(&window, world).distance(at) < 0.1, "{} {at} at {factor}", seen(&window, world));
+}
+
+#[test]
+fn strokes_queries_and_pins_meet_the_surface() {
+    let mut window = hills();
+    for world in [dvec2(0.3, 0.42), dvec2(0.71, 0.65)] {
+        let at = seen(&window, world);
+        window.event(Event::PointerMoved(at));
+        window.run();
+        let under = sight(&window).world({
+            let offset = at - canvas(&window).min;
+            dvec2(f64::from(offset.x), f64::from(offset.y)) * f64::from(window.ctx.pixels_per_point())
+        });
+        // A point behind a hill shows what is in front of it.
+        if under.distance(world) > 1e-3 {
+            continue;
+        }
+        let edits = entries(&window);
+        press_at(&mut window, at, PointerButton::Primary, Modifiers::NONE);
+        release_at(&mut window, at, PointerButton::Primary);
+        wait_for_jobs(&mut window);
+        assert_eq!(entries(&window), edits + 1, "a dab of the brush");
+        let painted = window.state().tools().last_painted.unwrap();
+        assert!(painted.distance(world) < 1e-3, "{painted} is not {world}");
+    }
+    send(&mut window, Command::Shell(ShellCommand::Use(&QUERY)));
+    let at = seen(&window, dvec2(0.3, 0.42));
+    press_at(&mut window, at, PointerButton::Primary, Modifiers::NONE);
+    release_at(&mut window, at, PointerButton::Primary);
+    window.run();
+    let queried = window.state().session().queried().expect("a triangle is inspected");
+    assert!(queried.distance(dvec2(0.3, 0.42)) < 1e-3, "{queried}");
+}
+
+#[test]
+fn other_tools_say_that_they_work_in_the_plan() {
+    let mut window = hills();
+    key(&mut window, Modifiers::NONE, Key::D);
+    let edits = entries(&window);
+    drag(&mut window, PointerButton::Primary, Modifiers::NONE, [50.0, 20.0]);
+    assert!(notice(&window).contains("works in the plan"), "{}", notice(&window));
+    assert_eq!(entries(&window), edits);
+}
+
+#[test]
+fn heights_and_light_are_numbers() {
+    let mut window = hills();
+    let usual = sight(&window).camera.exaggeration();
+    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(Some(3.0 * usual)))));
+    assert!((sight(&window).camera.exaggeration() / usual - 3.0).abs() < 1e-9);
+    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
+    assert_eq!(sight(&window).camera.exaggeration(), usual);
+}
+
+#[test]
+fn centring_a_place_puts_the_surface_there_in_the_middle() {
+    let mut window = hills();
+    send(&mut window, Command::View(ViewCommand::Zoom(4.0)));
+    for world in [dvec2(0.17, 0.1), dvec2(0.6, 0.5)] {
+        send(&mut window, Command::View(ViewCommand::LookAt(world)));
+        window.run();
+        let off = seen(&window, world).distance(canvas(&window).center());
+        assert!(off < 1.0, "{world} is {off} points from the middle");
+    }
+}
