@@ -205,6 +205,7 @@ fn norms_and_curves_of_errors() {
     refused("--target 0.3 --domain 0,0,1,1 --error-curve c.csv", "no visible layer is one");
     refused("--surface x --max-error 1 --domain 0,0,1,1 --error-curve c.png", "use .svg or .csv");
     refused("--surface x --max-error 1 --norm l3 --domain 0,0,1,1", "possible values: max, l2, h1");
+}
 
 /// The picture of a run, in its colours: red, green and blue by pixel.
 fn picture(folder: &Folder, name: &str) -> ([u32; 2], Vec<[u8; 3]>) {

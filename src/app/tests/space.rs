@@ -14,7 +14,7 @@ use crate::app::heights::SpaceSight;
 use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceSource};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 
 /// Shows the hills of a formula in space.
 fn hills() -> Window {
@@ -22,6 +22,7 @@ fn hills() -> Window {
     let surface = Surface {
         source: SurfaceSource::Formula(Formula::parse("sin(9 * x) * cos(7 * y)").unwrap()),
         goal: SurfaceGoal::Within(0.05),
+        norm: SurfaceNorm::Largest,
     };
     let mut layers = settings(&window).layers.clone();
     layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
