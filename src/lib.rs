@@ -108,7 +108,7 @@ pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, Out
 #[doc(inline)]
 pub use meshbrush_io::io::{
     Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Place as PlaceInFile,
-    Provenance, ReadError,
+    Provenance, ReadError, ThirdCoordinate,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{

@@ -444,3 +444,20 @@ def test_a_mesh_within_an_error_of_an_array() -> None:
     layer.remove()
     document.layers.surface(heights, bounds, at_most=len(mesh.triangles), origin="lower")
     assert document.mesh().fingerprint == mesh.fingerprint
+
+
+def test_heights_in_files(tmp_path: Path) -> None:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25)
+    document.layers.surface(formula="3*x + y*y", within=0.01)
+    mesh = document.mesh()
+
+    def third(**options: bool) -> np.ndarray:
+        mesh.write(tmp_path / "m.obj", **options)
+        rows = [line.split() for line in (tmp_path / "m.obj").read_text().splitlines() if line.startswith("v ")]
+        return np.array([float(row[3]) for row in rows])
+
+    x, y = mesh.nodes.T
+    assert np.allclose(third(), 3 * x + y * y, atol=1e-12)
+    assert (third(flat=True) == 0).all()
+    mesh.write(tmp_path / "m.glb")
+    assert (tmp_path / "m.glb").read_bytes()[:4] == b"glTF"

@@ -149,6 +149,75 @@ fn another_error_in_a_mask_and_other_layers_count_too() {
     assert!(short.len() > 1000 && short.iter().all(|triangle| longest(triangle) <= 1.0 + 1e-9));
 }
 
+/// The third coordinates of the nodes of an `.obj`.
+fn heights_of_obj(text: &str) -> Vec<f64> {
+    let rows = text.lines().filter(|line| line.starts_with("v "));
+    rows.map(|line| line.rsplit(' ').next().unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn the_height_is_the_third_coordinate_and_0_where_it_is_flat() {
+    let folder = Folder::new("surface-third");
+    folder.file("heights.asc", Grid::new([20, 20], |x, y| 100.0 + x * y).text());
+    let mesh = "mesh --surface heights.asc --max-error 3";
+    assert_eq!(folder.run(format!("{mesh} -o m.obj -o m.2dm -o m.msh")).status, 0);
+    let (nodes, _) = two_dm(&folder.read("m.2dm"));
+    let heights: Vec<f64> = nodes.iter().map(|node| node[2]).collect();
+    assert!(heights.iter().all(|height| *height >= 99.0));
+    assert_eq!(heights_of_obj(&folder.read("m.obj")), heights);
+    let flat = folder.run(format!("{mesh} --flat -o m.obj -o m.2dm -o m.vtu"));
+    assert_eq!((flat.status, flat.err.contains("--flat")), (0, false), "{}", flat.err);
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 0.0));
+    assert!(two_dm(&folder.read("m.2dm")).0.iter().all(|node| node[2] == 0.0));
+    // A quantity that a person asks for is z in .2dm, and a surface of their own is one everywhere.
+    folder.run(format!("{mesh} --quantity 7 --quantity surface=5 -o m.2dm -o m.obj"));
+    assert!(two_dm(&folder.read("m.2dm")).0.iter().all(|node| node[2] == 7.0));
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 5.0));
+    // Recipes say it too, where a format can have heights.
+    let recipe = "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 3\n[[output]]\nfile = ";
+    folder.file("flat.toml", format!("{recipe}\"r.obj\"\nflat = true\n"));
+    assert_eq!(folder.run("mesh flat.toml").status, 0);
+    assert!(heights_of_obj(&folder.read("r.obj")).iter().all(|height| *height == 0.0));
+    folder.file("none.toml", format!("{recipe}\"r.csv\"\nflat = true\n"));
+    let refused = folder.run("mesh none.toml");
+    assert!(refused.status != 0 && refused.err.contains("flat"), "{}", refused.err);
+    let idle = folder.run(format!("{mesh} --flat -o m.csv"));
+    assert!(idle.err.contains("--flat changes nothing"), "{}", idle.err);
+}
+
+#[test]
+fn far_from_values_a_node_has_the_height_of_the_nodes_around_it() {
+    let folder = Folder::new("surface-far");
+    folder.file("heights.asc", Grid::new([10, 10], |_, _| 250.0).text());
+    let ran =
+        folder.run("mesh --domain 0,0,400,10 --spacing 10 --surface heights.asc --max-error 1 -o m.obj");
+    assert!(ran.err.contains("64 pixels") && ran.err.contains("around"), "{}", ran.err);
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 250.0));
+}
+
+#[test]
+fn models_of_a_mesh_in_degrees_are_in_metres() {
+    let folder = Folder::new("surface-degrees");
+    folder.file(
+        "sea.geojson",
+        r#"{"type":"Polygon","coordinates":[[[10,50],[10.2,50],[10.2,50.1],[10,50.1],[10,50]]]}"#,
+    );
+    let mesh = "mesh --region sea.geojson --projection auto --spacing 5000 --surface 0.01*x --max-error 1";
+    let ran = folder.run(format!("{mesh} -o m.obj -o m.csv"));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let text = folder.read("m.obj");
+    assert!(text.contains("# unit: m") && !text.contains("longitude"), "{}", &text[..400]);
+    let xs: Vec<f64> = text
+        .lines()
+        .filter(|line| line.starts_with("v "))
+        .map(|line| line.split(' ').nth(1).unwrap().parse().unwrap())
+        .collect();
+    let extent = xs.iter().fold(f64::MIN, |a, b| a.max(*b)) - xs.iter().fold(f64::MAX, |a, b| a.min(*b));
+    assert!((extent / 14_330.0 - 1.0).abs() < 0.02, "{extent}");
+    folder.run(format!("{mesh} --flat -o m.obj"));
+    assert!(folder.read("m.obj").contains("longitude"));
+}
+
 #[test]
 fn what_cannot_be_met_is_said() {
     let folder = Folder::new("surface-refused");

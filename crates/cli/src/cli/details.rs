@@ -24,6 +24,8 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
+    /// The height of the surface at each node, if a layer is one and files are wanted.
+    pub heights: Option<Vec<f64>>,
     /// The triangles across straits, if a layer asks for them and they are wanted.
     pub straits: Option<StraitSummary>,
 }
@@ -71,7 +73,9 @@ impl MeshDetails {
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         let surface = finished.surface_fit(extract);
-        Ok(Self { boundary, parts, provenance, depths, surface, straits })
+        let filled = surface.as_ref().filter(|_| uses.node_data);
+        let heights = filled.map(|fit| fit.filled_heights(extract.view()));
+        Ok(Self { boundary, parts, provenance, depths, surface, heights, straits })
     }
 
     /// Returns the number of triangles of each part.

@@ -11,6 +11,7 @@ use super::output::Output;
 use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
+use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
 use meshbrush_mesh::text::Grouped;
 
@@ -110,7 +111,8 @@ fn note_far_from_surface(
     let without = fit.heights.iter().filter(|height| height.is_none()).count();
     if without > 0 {
         terminal.note(&format!(
-            "{} of {} nodes are more than 64 pixels from every value of the surface; they have the height 0 in files.",
+            "{} of {} nodes are more than 64 pixels from every value of the surface; in files they have the mean \
+             height of the nodes around them.",
             Grouped(without),
             Grouped(fit.heights.len())
         ));
@@ -175,6 +177,10 @@ fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output],
     }
     if typed.format.is_some() && !outputs.iter().any(Output::is_named) {
         notes.push("--format changes nothing: the endings of the files (-o) choose their formats.".into());
+    }
+    let has_heights = |output: &Output| output.third_coordinate() != ThirdCoordinate::None;
+    if typed.flat && !outputs.iter().any(has_heights) {
+        notes.push("--flat changes nothing: no file with heights is written (-o).".into());
     }
     if typed.binary && !outputs.iter().any(Output::is_binary) {
         notes.push(

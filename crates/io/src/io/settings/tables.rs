@@ -219,6 +219,9 @@ pub struct SavedOutput {
     /// Further values at the nodes, as in `"depth = 20 - x"`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quantities: Vec<String>,
+    /// Whether the third coordinate is 0, and not the height of a surface.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub flat: bool,
     /// Width, or width and height, of a picture in pixels, as in `"1600x900"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,
