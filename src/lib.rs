@@ -73,7 +73,7 @@ pub use meshbrush_core::layers::{
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};
 #[doc(inline)]
 pub use meshbrush_core::surface::{
-    SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
+    SampleCount, SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::text::LengthUnit;

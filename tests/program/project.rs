@@ -446,7 +446,7 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 10";
+const VERSION: &str = "\"version\": 11";
 
 /// Returns the settings as if an older program had written them.
 fn of_version(text: &str, version: u32) -> String {
@@ -457,10 +457,10 @@ fn of_version(text: &str, version: u32) -> String {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace(VERSION, "\"version\": 11, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 12, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 11", "up to version 10"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 12", "up to version 11"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.
@@ -540,7 +540,7 @@ fn errors_stay_short_for_long_values() {
     let long = "m".repeat(100_000);
     for [from, to] in [
         ["Meshbrush project", &long],
-        [VERSION, &format!("\"version\": 10, \"{long}\": 1")],
+        [VERSION, &format!("\"version\": 11, \"{long}\": 1")],
         ["\"written_by\": \"Mesh", &format!("\"written_by\": \"{long}")],
         ["\"spacing\"", &format!("\"{long}\"")],
         ["\"area\"", &format!("\"{long}\"")],
@@ -549,7 +549,7 @@ fn errors_stay_short_for_long_values() {
             assert!(text.contains(from), "{from}: {text}");
             text.replacen(from, to, 1).replacen(
                 VERSION,
-                "\"version\": 11",
+                "\"version\": 12",
                 usize::from(from.contains("written")),
             )
         });

@@ -219,6 +219,91 @@ fn models_of_a_mesh_in_degrees_are_in_metres() {
 }
 
 #[test]
+fn errors_of_a_raster_count_in_place_of_the_largest() {
+    let folder = Folder::new("surface-errors");
+    let grid = Grid::new([40, 40], |x, y| 8.0 * (0.3 * x).sin() * (0.2 * y).cos());
+    folder.file("heights.asc", grid.text());
+    // The left half asks for 0.2, and the right one for nothing.
+    let row = "0.2 -9\n".repeat(2);
+    let header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 20\nNODATA_value -9\n";
+    folder.file("errors.asc", format!("{header}{row}"));
+    folder.file(
+        "errors.toml",
+        "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 3\n[[layer]]\nkind = \"raster\"\n\
+         file = \"errors.asc\"\nas = \"error\"\n",
+    );
+    let mesh = "mesh --surface heights.asc --error-raster errors.asc --json";
+    let ran = folder.run(format!("{mesh} --max-error 3 -o m.2dm"));
+    assert!(!ran.err.contains("The mesh is"), "{}", ran.err);
+    assert_eq!(folder.run("mesh errors.toml --json").json()["hash"], ran.json()["hash"]);
+    let errors = || {
+        let (nodes, triangles) = two_dm(&folder.read("m.2dm"));
+        let left = triangles.iter().copied().filter(|corners| corners.iter().all(|n| nodes[*n][0] < 20.0));
+        let left: Vec<[usize; 3]> = left.collect();
+        [grid.error(&nodes, &left).0, grid.error(&nodes, &triangles).0]
+    };
+    let [left, all] = errors();
+    assert!(left <= 0.2 + 1e-6 && all > 0.5 && all <= 3.0 + 1e-9, "{left} {all}");
+    let count = ran.json()["triangles"].as_u64().unwrap();
+    let counted = folder.run(format!("{mesh} --at-most {count} -o m.2dm"));
+    let [counted_left, counted_all] = errors();
+    assert!(counted.json()["triangles"].as_u64().unwrap() <= count);
+    assert!(counted_left <= 0.2 + 1e-6 && counted_all <= all, "{counted_left} {counted_all}");
+    let why = folder.run("why 5.3,7.1 --surface heights.asc --error-raster errors.asc --max-error 3 --domain 0,0,40,40 --spacing 40");
+    assert!(why.out.contains("and 0.2000 is allowed"), "{}", why.out);
+    folder.file("zero.asc", header.replace("NODATA_value -9\n", "") + "0 1\n1 1\n");
+    let refused = folder.run("mesh --surface heights.asc --max-error 3 --error-raster zero.asc");
+    assert!(refused.status != 0 && refused.err.contains("the error is 0"), "{}", refused.err);
+}
+
+#[test]
+fn samples_without_a_value_are_counted_and_can_be_left_out() {
+    let folder = Folder::new("surface-nodata");
+    let grid = Grid::new([20, 20], |x, y| 10.0 + 0.3 * x * y);
+    // A block of 6 × 4 pixels at the left has no value.
+    let is_missing = |row: usize, column: usize| (8..12).contains(&row) && column < 6;
+    let rows = grid.text();
+    let (header, rows): (Vec<&str>, Vec<&str>) =
+        (rows.lines().take(5).collect(), rows.lines().skip(5).collect());
+    let rows = rows.iter().enumerate().map(|(row, line)| {
+        let value = |(column, text): (usize, &str)| {
+            if is_missing(row, column) { "-9999".into() } else { text.to_owned() }
+        };
+        line.split(' ').enumerate().map(value).collect::<Vec<_>>().join(" ") + "\n"
+    });
+    let text = format!("{}\nNODATA_value -9999\n{}", header.join("\n"), rows.collect::<String>());
+    folder.file("heights.asc", text);
+    let mesh = "mesh --surface heights.asc --max-error 1 --json";
+    let whole = folder.run(mesh);
+    assert!(whole.err.contains("24 of 400 samples"), "{}", whole.err);
+    assert_eq!(whole.json()["missing_samples"], 24);
+    assert!((whole.json()["missing_share"].as_f64().unwrap() - 0.06).abs() < 1e-12);
+    let outside = folder.run(format!("{mesh} --outside-nodata"));
+    assert_eq!(outside.json()["missing_samples"], 0, "{}", outside.err);
+    // The outline closes along the sides of the raster, and corners are cut.
+    let area = outside.json()["region_area"].as_f64().unwrap();
+    assert!((area - 376.0).abs() < 1.0, "{area}");
+    let same = folder.run(format!("{mesh} --outside-nodata --region heights.asc"));
+    assert_eq!(same.json()["hash"], outside.json()["hash"]);
+    folder.file(
+        "m.toml",
+        "[domain]\nregion = \"heights.asc\"\noutside_nodata = true\n[[layer]]\nkind = \"surface\"\n\
+         file = \"heights.asc\"\nwithin = 1\n",
+    );
+    assert_eq!(folder.run("mesh m.toml --json").json()["hash"], outside.json()["hash"]);
+    folder.file("none.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value 1\n1 1\n");
+    for (options, part) in [
+        ("--surface x*y --max-error 1 --outside-nodata", "--outside-nodata needs a grid"),
+        ("--region none.asc --outside-nodata", "no pixel has a value"),
+        ("--region heights.asc --outside-nodata --contour 3", "--contour"),
+        ("--surface heights.asc --max-error 1 --outside-nodata --domain 0,0,1,1", "--domain"),
+    ] {
+        let ran = folder.run(format!("mesh {options}"));
+        assert!(ran.status != 0 && ran.err.contains(part), "{options}: {}", ran.err);
+    }
+}
+
+#[test]
 fn what_cannot_be_met_is_said() {
     let folder = Folder::new("surface-refused");
     folder.file("heights.asc", Grid::new([8, 8], |x, y| x * y).text());

@@ -126,9 +126,10 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
 fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
     let errors = state.session.follower().surface().into_iter().flat_map(|rule| rule.errors());
     let errors: Vec<f64> = errors.map(|(_, error)| error).collect();
+    let is_varied = state.session.follower().surface().is_some_and(|rule| rule.has_errors_of_layers());
     let ends = match errors[..] {
         [] => return no_layer(ui, inner, "Surface error", "no layer of a surface"),
-        [first, ..] if first.is_finite() && errors.iter().all(|error| *error == first) => {
+        [first, ..] if !is_varied && first.is_finite() && errors.iter().all(|error| *error == first) => {
             let error = format::significant(first, 3);
             [format!("−{error}"), "0".into(), error]
         }

@@ -48,6 +48,7 @@ static SENTENCES: &[(&str, &str)] = &[
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
     ),
     ("What the brush paints/Diameter", "The brush paints the target diameter itself."),
+    ("What the brush paints/Error", "The brush paints the largest error from surfaces, in their unit."),
     (
         "How a stroke changes the paint/Build up",
         "Each stroke raises the risk, or only refines where a diameter is painted[; {build-up}].",

@@ -8,7 +8,7 @@ use super::input::Input;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
-use meshbrush_core::surface::SurfaceFit;
+use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 
@@ -133,12 +133,18 @@ pub struct SurfaceSummary {
     pub rms_error: f64,
     /// The place of the largest difference: x and y.
     pub worst: [f64; 2],
+    /// Samples in the domain at which no surface has a value.
+    pub missing_samples: usize,
+    /// Their share of all samples in the domain, 0 to 1.
+    pub missing_share: f64,
 }
 
-impl From<&SurfaceFit> for SurfaceSummary {
-    fn from(fit: &SurfaceFit) -> Self {
+impl SurfaceSummary {
+    /// Returns the figures of a mesh by how it fits, and by the count of the samples.
+    pub fn new(fit: &SurfaceFit, count: SampleCount) -> Self {
         let SurfaceFit { heights: _, largest, at, rms, samples: _ } = fit;
-        Self { max_error: *largest, rms_error: *rms, worst: (*at).into() }
+        let (missing_samples, missing_share) = (count.missing, count.missing_share());
+        Self { max_error: *largest, rms_error: *rms, worst: (*at).into(), missing_samples, missing_share }
     }
 }
 

@@ -11,6 +11,7 @@ use super::output::Output;
 use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
+use meshbrush_core::surface::SampleCount;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
 use meshbrush_mesh::text::Grouped;
@@ -117,8 +118,18 @@ fn note_far_from_surface(
             Grouped(fit.heights.len())
         ));
     }
-    let asked = finished.built().surface.iter().flat_map(|rule| rule.errors().map(|(_, error)| error));
-    if fit.largest > asked.fold(0.0, f64::max) {
+    let rule = finished.built().surface.as_ref();
+    if let Some(count) = rule.map(|rule| rule.samples().count()).filter(|count| count.missing > 0) {
+        let SampleCount { known, missing } = count;
+        terminal.note(&format!(
+            "{} of {} samples of the surface in the domain, {:.2} %, have no value: they are left out. --outside-nodata \
+             takes their area out of the domain.",
+            Grouped(missing),
+            Grouped(known + missing),
+            100.0 * count.missing_share()
+        ));
+    }
+    if fit.largest > rule.map_or(0.0, |rule| rule.largest_allowed()) {
         let reason = match extract.is_patched() {
             true => "nodes were moved onto the outline, or the surface jumps",
             false => "the surface jumps there, and no mesh is closer",

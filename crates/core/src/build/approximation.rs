@@ -67,14 +67,16 @@ impl Approximation {
         budget: usize,
     ) -> Result<Progress, RefineError> {
         let next = match &mut self.step {
-            Step::Sample(sampling) => match sampling.advance(&built.domain, budget) {
-                Progress::More => None,
-                Progress::Done => {
-                    let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
-                    let counts_next = rule.most_triangles().is_some();
-                    Some(self.refine(rule, counts_next, built))
+            Step::Sample(sampling) => {
+                match sampling.advance(&built.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
+                    Progress::More => None,
+                    Progress::Done => {
+                        let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
+                        let counts_next = rule.most_triangles().is_some();
+                        Some(self.refine(rule, counts_next, built))
+                    }
                 }
-            },
+            }
             Step::Refine(work) => {
                 if work.advance(built, paint, budget)? == Progress::More {
                     return Ok(Progress::More);

@@ -31,7 +31,7 @@ pub struct SurfaceDemand {
     pub error: f64,
     /// The place of this sample, in world units.
     pub at: DVec2,
-    /// The largest error that the layer allows.
+    /// The largest error that is allowed there: by the layer, or by one of errors.
     pub most: f64,
 }
 
@@ -81,12 +81,28 @@ impl SurfaceRule {
         self.samples.layers.iter().zip(&self.errors).map(|(layer, &error)| (layer.id, error))
     }
 
-    /// Returns the height of the surface at a point in world units, and the largest error that its layer
-    /// allows; `None` where no layer that covers it has a value.
+    /// Returns the largest error that is allowed anywhere: by the layers of surfaces, and by layers of
+    /// errors.
+    pub fn largest_allowed(&self) -> f64 {
+        let of_layers = self.samples.layers.iter().flat_map(|layer| layer.errors.iter().flatten());
+        let of_layers = of_layers.filter(|error| !error.is_nan()).map(|&error| f64::from(error));
+        self.errors.iter().copied().chain(of_layers).fold(0.0, f64::max)
+    }
+
+    /// Returns whether layers of errors give samples an error in place of that of their surface.
+    pub fn has_errors_of_layers(&self) -> bool {
+        self.samples.layers.iter().any(|layer| layer.errors.is_some())
+    }
+
+    /// Returns the height of the surface at a point in world units, and the largest error that layers of
+    /// errors, or else the layer of the surface, allow there; `None` where no layer that covers it has a
+    /// value.
     pub fn allowed_at(&self, point: DVec2) -> Option<(f64, f64)> {
         let layers = self.samples.layers.iter().zip(&self.errors);
         let mut covering = layers.filter(|(layer, _)| layer.covers(point));
-        covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))
+        let (height, own) =
+            covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))?;
+        Some((height, self.samples.errors.at(point).unwrap_or(own)))
     }
 
     /// Returns whether the error of a triangle exceeds that of a layer. `nodes` keeps the heights at nodes.
@@ -109,11 +125,12 @@ impl SurfaceRule {
         let heights = corners.map(|corner| self.samples.height_at(corner));
         let heights = SurfaceTriangle::new(corners, heights).heights?;
         let layers = self.samples.layers.iter().zip(&self.errors);
-        let (samples, &most) = layers.into_iter().find(|(samples, _)| samples.id == layer)?;
-        let mut demand = SurfaceDemand { layer, error: 0.0, at: corners[0], most };
+        let (samples, &own) = layers.into_iter().find(|(samples, _)| samples.id == layer)?;
+        let mut demand = SurfaceDemand { layer, error: 0.0, at: corners[0], most: own };
         samples.each(corners, heights, |at, difference| {
-            if difference.abs() > demand.error {
-                (demand.error, demand.at) = (difference.abs(), at);
+            let (error, most) = (difference.abs(), self.samples.errors.at(at).unwrap_or(own));
+            if error / most > demand.error / demand.most {
+                (demand.error, demand.at, demand.most) = (error, at, most);
             }
         });
         Some(demand)
@@ -121,10 +138,12 @@ impl SurfaceRule {
 
     fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<LayerId> {
         let layers = self.samples.layers.iter().zip(&self.errors);
-        let mut asking = layers.filter(|(layer, error)| error.is_finite() && layer.may_ask(triangle));
+        let asks = |layer: &LayerSamples, error: f64| error.is_finite() || layer.errors.is_some();
+        let mut asking = layers.filter(|(layer, error)| asks(layer, **error) && layer.may_ask(triangle));
         let exceeded = asking.find(|(layer, error)| match triangle.heights {
             Some(heights) => layer.exceeds(triangle.corners, heights, **error),
-            None => layer.has_sample(triangle.corners),
+            None if error.is_finite() => layer.has_sample(triangle.corners),
+            None => layer.has_sample_of_layers(triangle.corners),
         });
         exceeded.map(|(layer, _)| layer.id)
     }

@@ -42,7 +42,7 @@ const PLACES: [(&str, &str); 31] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (10, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (11, KEYS);
 
 const KEYS: &str = "\
 : format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
@@ -71,7 +71,7 @@ layers.layer: kind name visible locked combine mask mask_file quantity formula f
     period triangles smoothing time_step courant across width_from width_to within at_most
 layers.layer.kind: paint formula raster threats distance corridor band depth straits feature-size surface
 layers.layer.combine: finest floor replace
-layers.layer.quantity: risk diameter
+layers.layer.quantity: risk diameter error
 layers.layer.to: outline coasts
 layers.layer.types: open land no-slip land natural land inflow no-slip inflow natural inflow
 layers.layer.positive: up down

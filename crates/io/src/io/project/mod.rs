@@ -65,7 +65,7 @@ use settings::{Parts, Saved};
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 10;
+const VERSION: u64 = 11;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";

@@ -83,6 +83,9 @@ pub struct SavedDomain {
     /// The width of the narrowest inlet of the contour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_inlet: Option<f64>,
+    /// Whether the domain is where the grid has values.
+    #[serde(skip_serializing_if = "is_no")]
+    pub outside_nodata: bool,
     /// What the coordinates of files are that do not name a known system: "lonlat", "EPSG:…", or a projection
     /// as PROJ writes it.
     #[serde(skip_serializing_if = "Option::is_none")]
