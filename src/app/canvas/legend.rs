@@ -35,6 +35,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Age => Some(age_legend(ui, inner, palette)),
         FieldOverlay::Depth => Some(depth_legend(ui, inner, state, palette)),
         FieldOverlay::DepthError => Some(depth_error_legend(ui, inner, state, palette)),
+        FieldOverlay::Surface => Some(surface_legend(ui, inner, state, palette)),
         FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None => None,
@@ -119,6 +120,23 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
     let ends = [format!("−{percent} %"), "0".into(), format!("{percent} %")];
     scale(ui, place, (-steps..=steps).map(color), ends);
     below_scale(ui, place, "shallower, deeper".into());
+    place
+}
+
+/// Shows heights from the lowest to the highest sample, and how far contour lines are apart.
+fn surface_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
+    let range = state.session.follower().surface().and_then(|rule| rule.samples().height_range());
+    let Some([lowest, highest]) = range else {
+        return no_layer(ui, inner, "Surface", "no layer of a surface");
+    };
+    let ends = [lowest, lowest.midpoint(highest), highest].map(|height| format::significant(height, 3));
+    let spoken = format!("Legend: surface {} to {}", ends[0], ends[2]);
+    let place = boxed(ui, inner, 30.0 + ROW, "Surface", &spoken);
+    let steps = 16_u8;
+    let color = |step: u8| palette.height(f32::from(step) / f32::from(steps));
+    scale(ui, place, (0..=steps).map(color), ends);
+    let interval = isobath_interval((highest - lowest).max(f64::MIN_POSITIVE));
+    below_scale(ui, place, format!("contours every {}", format::significant(interval, 3)));
     place
 }
 

@@ -37,6 +37,7 @@ static SENTENCES: &[(&str, &str)] = &[
         "Overlay/Depth error",
         "Shows where depths that are linear over triangles are deeper or shallower than the grids.",
     ),
+    ("Overlay/Surface", "Shows the height of surfaces as a shaded relief with contour lines."),
     ("Overlay/Surface error", "Shows where the mesh is higher (red) or lower (blue) than surfaces."),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),

@@ -4,13 +4,16 @@ use std::fs;
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
 
 use super::depth::click_on;
 use crate::app::command::{
     BrushCommand, Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ViewCommand,
 };
+use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
-    TALL, Window, active, folder, send, settings, triangles, type_into, wait_for_jobs, wait_until, window_of,
+    RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into,
+    wait_for_jobs, wait_until, window_of,
 };
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
@@ -115,4 +118,28 @@ fn the_area_with_values_becomes_the_domain() {
     assert!(window.query_by_label_contains("Without a value").is_none());
     send(&mut window, Command::Domain(DomainCommand::UseValues(id)));
     wait_for_jobs(&mut window);
+}
+
+#[test]
+fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
+    let file = folder("app-surface", "relief").join("slope.asc");
+    // From 0 in the west to 190 in the east, with a ridge across the middle row.
+    let rows = (0..20).map(|_| (0..20).map(|x| (10 * x).to_string()).collect::<Vec<_>>().join(" "));
+    let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
+    let mut window = drawn_window();
+    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    assert!(window.query_by_label_contains("Legend: no layer of a surface").is_some());
+    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    wait_for_jobs(&mut window);
+    assert!(window.query_by_label_contains("Legend: surface 0 to 190").is_some());
+    let image = picture(&mut window);
+    let colors = |x: f64| pixel(&image, on_screen(&window, dvec2(x, 9.3)));
+    let [low, middle, high] = [1.2, 9.7, 18.6].map(colors);
+    assert!(low[1] > low[0] && high[0] > 180 && high[2] > 170, "green below, pale above: {low:?} {high:?}");
+    assert!(middle[0] > low[0] && middle[2] < high[2], "{middle:?}");
 }
