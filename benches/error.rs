@@ -14,7 +14,7 @@ use meshbrush_core::document::{Document, Follower, Setting, Settings};
 use meshbrush_core::domain::Domain;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
-    Layer, LayerKind, RasterSource, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
+    Layer, LayerKind, PaintLayers, RasterSource, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_core::surface::SurfaceSampling;
@@ -96,7 +96,7 @@ fn main() {
                 .expect("a valid grid")
                 .domain()
                 .clone();
-            while sampling.advance(&domain, 1 << 18) == Progress::More {}
+            while sampling.advance(&domain, PaintLayers::blank(), 1 << 18) == Progress::More {}
             let each = began.elapsed().as_nanos() as f64 / samples as f64;
             println!("samples: {each:.2} ns each");
         });

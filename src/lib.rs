@@ -74,7 +74,8 @@ pub use meshbrush_core::layers::{
 pub use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror, Patch, PathPoint, Repaint, Stroke};
 #[doc(inline)]
 pub use meshbrush_core::surface::{
-    CurvePoint, SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples, domain_on_samples,
+    CurvePoint, SampleCount, SurfaceDemand, SurfaceFit, SurfaceNodes, SurfaceRule, SurfaceSamples,
+    domain_on_samples,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::text::LengthUnit;
@@ -109,7 +110,7 @@ pub use meshbrush_core::outline::{DerivedMesh, DerivedViolation, OutlineFit, Out
 #[doc(inline)]
 pub use meshbrush_io::io::{
     Cancelled, Counted, Flaw, MeshData, MeshFormat, MeshSource, Meter, NodeValues, Place as PlaceInFile,
-    Provenance, ReadError,
+    Provenance, ReadError, ThirdCoordinate,
 };
 #[doc(inline)]
 pub use meshbrush_mesh::mesh::{

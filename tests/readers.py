@@ -1,7 +1,7 @@
 """Every export, read back by a reader that is not ours: the same nodes, triangles and levels, and the same area.
 
-Called by tests/run with the program to test: readers.py PROGRAM. Needs numpy, meshio, svg.path and pypng (from Debian), and py2dm and
-triangle (from PyPI).
+Called by tests/run with the program to test: readers.py PROGRAM. Needs numpy, meshio, svg.path and pypng (from Debian), and py2dm,
+triangle and trimesh (from PyPI).
 """
 
 import csv
@@ -18,6 +18,7 @@ import png
 import py2dm
 import svg.path
 import triangle.data
+import trimesh
 
 ENDINGS = ["vtu", "msh", "msh2", "obj", "stl", "node", "2dm", "csv", "svg", "png"]
 TARGET = "0.02 + 0.1*hypot(x - 0.3, y - 0.2)"
@@ -317,6 +318,52 @@ def check_binary(program, folder, options, summary, area):
     return []
 
 
+SURFACE = "30*sin(6*x)*cos(4*y) + 5*x"
+MODELS = ["vtu", "msh", "obj", "stl", "ply", "glb", "2dm"]
+
+
+def read_model(path):
+    """Places of nodes, and their triangles. The positions of .glb are turned back, and moved to the place that it states."""
+    if path.suffix == ".2dm":
+        with py2dm.Reader(str(path)) as mesh:
+            places = np.array([node.pos for node in mesh.iter_nodes()])
+            return places, np.array([[node - 1 for node in element.nodes] for element in mesh.iter_elements()])
+    if path.suffix == ".glb":
+        (model,) = trimesh.load(path, process=False).geometry.values()
+        data = path.read_bytes()
+        extras = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])["nodes"][0]["extras"]
+        x, y, z = np.asarray(model.vertices, dtype=float).T
+        assert model.is_winding_consistent and (model.face_normals[:, 1] > 0).all(), "triangles face up"
+        return np.stack([x, -z, y], axis=1) + np.asarray(extras["origin"]), np.asarray(model.faces)
+    mesh = meshio.read(path)
+    blocks = [block.data for block in mesh.cells if block.type == "triangle"]
+    if path.suffix == ".ply":
+        assert np.array_equal(mesh.point_data["surface"], mesh.points[:, 2]), "the quantity"
+        assert (mesh.point_data["quality"] > 0).all()
+    return mesh.points, np.concatenate(blocks)
+
+
+def check_heights(program, folder):
+    """Heights are those of the surface, in every format that has a third coordinate."""
+    words = [word for ending in MODELS for word in ("-o", str(folder / f"m.{ending}"))]
+    domain = ["--domain", "2,10,4,11.5", "--spacing", "0.25"]
+    command = [program, "mesh", "--json", "--surface", SURFACE, "--max-error", "0.3", *domain, *words]
+    summary = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout)
+    failures = []
+    for ending in MODELS:
+        try:
+            places, triangles = read_model(folder / f"m.{ending}")
+            x, y, z = places.T
+            error = np.abs(30 * np.sin(6 * x) * np.cos(4 * y) + 5 * x - z).max()
+            assert error < (1e-3 if ending in ("stl", "glb") else 1e-9), f"heights off by {error}"
+            assert len(triangles) == summary["triangles"], f"{len(triangles)} triangles"
+            check_area = Found(places, triangles, exact=ending not in ("stl", "glb"))
+            assert abs(check_area.area() / 3 - 1) < check_area.tolerance, "area"
+        except Exception as error:  # whatever a reader cannot take is a failure of that format
+            failures.append(f".{ending}: {type(error).__name__}: {error}")
+    return summary, failures
+
+
 def check_small_vtu(program, folder):
     """meshio takes the arrays of a .vtu file for others, depending on their compressed sizes, unless they are stored in reverse order."""
     failed = []
@@ -338,6 +385,10 @@ def main():
         count, failed = check_small_vtu(sys.argv[1], pathlib.Path(folder))
     print(f"{count} small .vtu files: {'not read at the spacings ' + ', '.join(failed) if failed else 'read back'}")
     broken |= bool(failed)
+    with tempfile.TemporaryDirectory() as folder:
+        summary, failures = check_heights(sys.argv[1], pathlib.Path(folder))
+    print(f"heights: {summary['triangles']} triangles, {', '.join(MODELS)}: {'; '.join(failures) or 'read back'}")
+    broken |= bool(failures)
     for name, options in CASES.items():
         with tempfile.TemporaryDirectory() as folder:
             summary, failures = check_case(sys.argv[1], pathlib.Path(folder), options)

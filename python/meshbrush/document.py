@@ -26,7 +26,7 @@ from .window import View, edited, shown
 _TABLES = {
     "domain": (
         *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits"),
-        *("contour", "positive", "smallest_island", "smallest_inlet"),
+        *("contour", "positive", "smallest_island", "smallest_inlet", "outside_nodata"),
     ),
     "mesh": ("spacing", "rule", "max_triangles", "max_level", "max_memory"),
     "limits": ("h_min", "h_risk", "h_max", "shape", "gradation"),
@@ -36,7 +36,7 @@ _TABLES = {
 #: Options that belong to the domain, and are not changed later.
 _OF_DOMAIN = {
     *("unit", "crs", "projection", "splits"),
-    *("contour", "positive", "smallest_island", "smallest_inlet"),
+    *("contour", "positive", "smallest_island", "smallest_inlet", "outside_nodata"),
 }
 
 
@@ -60,7 +60,7 @@ class Document:
     `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
     diameter `boundary_diameter` along the outline. `names` and `types` are names and types of the piece of the boundary
     at a point, as in {(24.5, 37.9): "harbour"}. Where the domain is a file with a grid of heights, `contour` is the depth
-    of its shore. `rule` is "area" or "vertex". Other keywords are those of a recipe.
+    of its shore; with `outside_nodata`, the domain is where the grid has values. `rule` is "area" or "vertex". Other keywords are those of a recipe.
     """
 
     def __init__(
@@ -88,6 +88,7 @@ class Document:
         positive: str | None = None,
         smallest_island: float | None = None,
         smallest_inlet: float | None = None,
+        outside_nodata: bool | None = None,
         rule: str | None = None,
         max_triangles: int | None = None,
         max_level: int | None = None,
@@ -243,7 +244,8 @@ class Document:
 
 @dataclass(frozen=True)
 class Brush:
-    """A round brush, in world units: it paints a target `diameter`, a `risk` from 0 to 1, or erases.
+    """A round brush, in world units: it paints a target `diameter`, a `risk` from 0 to 1, the largest `error` from
+    surfaces, in their unit, or erases.
 
     With a projection, the radius is metres on the Earth at the first point of the stroke. Lengths may be texts with a
     unit, as in "500 m".
@@ -255,6 +257,7 @@ class Brush:
     radius: Length
     diameter: Length | None = None
     risk: float | None = None
+    error: float | None = None
     erase: bool = False
     hardness: float = 0.5
     strength: float = 1.0
@@ -263,14 +266,16 @@ class Brush:
     mirror_y: float | None = None
 
     def _medium(self) -> tuple[str, Length]:
-        given = (self.diameter is not None) + (self.risk is not None) + self.erase
-        if given != 1:
-            raise MeshError("A brush has one of diameter, risk and erase=True.")
+        amounts = (self.diameter, self.risk, self.error)
+        if sum(amount is not None for amount in amounts) + self.erase != 1:
+            raise MeshError("A brush has one of diameter, risk, error and erase=True.")
         for key, value in (("hardness", self.hardness), ("strength", self.strength)):
             if not 0 <= value <= 1:
                 raise MeshError(f"{key}: {value} cannot be used: it lies from 0 to 1.")
         if self.diameter is not None:
             return "diameter", self.diameter
+        if self.error is not None:
+            return "error", float(self.error)
         return ("risk", float(self.risk)) if self.risk is not None else ("eraser", 0.0)
 
 

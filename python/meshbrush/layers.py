@@ -164,7 +164,7 @@ class Layers(Sequence[Layer]):
     ) -> Layer:
         """Adds values by pixel: an array with its bounds, a data array of xarray, a data set of rasterio, or a file.
 
-        `reads` says that they are "risk" or "diameter"; else `curve` is pairs of a value and the target diameter there.
+        `reads` says that they are "risk", "diameter" or "error"; else `curve` is pairs of a value and the target diameter there.
         The first row of an array is the northern one, unless `origin` is "lower". NaN asks for nothing. Without bounds
         an array covers the rectangle of the domain. Bounds are world units; in a document with a projection they are
         longitudes and latitudes, or in the system `crs`, where
@@ -172,7 +172,7 @@ class Layers(Sequence[Layer]):
         """
         if (reads is None) == (curve is None):
             raise MeshError(
-                'A raster needs what its values mean: reads="risk", reads="diameter", or a curve, as in '
+                'A raster needs what its values mean: reads="risk", reads="diameter", reads="error", or a curve, as in '
                 "curve=[(0, 0.1), (50, 2)]."
             )
         keys = {"as": reads, "curve": curve, **common}
@@ -369,7 +369,7 @@ class Layers(Sequence[Layer]):
         return self._add("feature-size", keys, {})
 
     def paint(self, quantity: str = "diameter", **common: Unpack[Common]) -> Layer:
-        """Adds a layer for strokes of "diameter" or "risk". A stroke adds one where there is none."""
+        """Adds a layer for strokes of "diameter", "risk" or "error". A stroke adds one where there is none."""
         return self._add("paint", {"quantity": quantity, **common}, {})
 
     def __len__(self) -> int:

@@ -190,6 +190,7 @@ class Mesh:
         quantities: list[str] | None = None,
         format: str | None = None,  # noqa: A002
         binary: bool = False,
+        flat: bool = False,
         crs: str | None = None,
         size: str | tuple[int, int] | None = None,
         edges: bool | None = None,
@@ -205,12 +206,13 @@ class Mesh:
 
         `values` are numbers at the nodes by their names, and `quantities` formulas, as in "depth = 20 - x"; solvers read
         `depth`. `format` names one that the ending does not. `crs` is "plane", "lonlat" or "EPSG:…" for a mesh in the
-        plane of a projection. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"` a
-        .png shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
+        plane of a projection. With a surface the third coordinate of a node is its height, in formats that have one, and 0
+        where `flat`. `size`, `edges`, `colormap` and `light` are for pictures, .png and .svg. With `view="space"` a .png
+        shows the mesh as a surface, with the heights of layers of surfaces or else of depths; see `picture`.
         """
         space = _space(view, azimuth, altitude, exaggeration)
         output = _look(as_path(path) or path, size, edges, colormap, light) | space
-        output.update(binary=bool(binary), quantities=list(quantities or []))
+        output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []))
         named = [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
         with watching(progress) as watch:
             return [str(file) for file in self._core.write(output, format, crs, named, watch)]

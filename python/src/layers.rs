@@ -243,6 +243,10 @@ fn medium(quantity: &str, value: f64, change: &str) -> PyResult<Medium> {
         "diameter" => Err(mesh_error(format!(
             "diameter: {value} cannot be used: a length must be positive and finite."
         ))),
+        "error" if value > 0.0 && value < f64::from(f32::MAX) => Ok(Medium::Error(value)),
+        "error" => {
+            Err(mesh_error(format!("error: {value} cannot be used: an error must be positive and finite.")))
+        }
         "risk" if (0.0..=1.0).contains(&value) => Ok(Medium::Risk(value)),
         "risk" => Err(mesh_error(format!("risk: {value} cannot be used: a risk lies from 0 to 1."))),
         _ => Ok(Medium::Eraser),

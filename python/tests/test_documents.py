@@ -450,3 +450,49 @@ def test_a_mesh_within_an_error_of_an_array() -> None:
     layer.remove()
     document.layers.surface(heights, bounds, at_most=len(mesh.triangles), origin="lower")
     assert document.mesh().fingerprint == mesh.fingerprint
+
+
+def test_errors_by_place_and_missing_values() -> None:
+    rows, columns = np.mgrid[0:40, 0:40]
+    heights = 5 * np.sin(columns / 4.0) * np.cos(rows / 5.0)
+    heights[10:20, 30:] = np.nan
+    bounds = (0, 0, 40, 40)
+
+    def document() -> mb.Document:
+        made = mb.Document(mb.Domain.rectangle(*bounds), spacing=8)
+        made.layers.surface(heights, bounds, within=2, origin="lower")
+        return made
+
+    plain = document().mesh()
+    assert plain.statistics["missing_samples"] == 100
+    assert plain.statistics["missing_share"] == pytest.approx(100 / 1600)
+    painted = document()
+    with painted.stroke(mb.Brush(radius=6, error=0.1, hardness=1.0)) as stroke:
+        stroke.line([(10, 10)])
+    assert [layer.kind for layer in painted.layers][-1] == "paint"
+    formula = document()
+    formula.layers.formula("if(hypot(x - 10, y - 10) < 5, 0.1, inf)", quantity="error")
+    for finer in (painted, formula):
+        mesh = finer.mesh()
+        assert len(mesh) > len(plain)
+        within = np.hypot(*(mesh.nodes[mesh.triangles].mean(axis=1) - 10).T) < 5
+        assert within.sum() > 50
+    with pytest.raises(mb.MeshError):
+        mb.Brush(radius=1, error=1.0, risk=0.5)._medium()
+
+
+def test_heights_in_files(tmp_path: Path) -> None:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25)
+    document.layers.surface(formula="3*x + y*y", within=0.01)
+    mesh = document.mesh()
+
+    def third(**options: bool) -> np.ndarray:
+        mesh.write(tmp_path / "m.obj", **options)
+        rows = [line.split() for line in (tmp_path / "m.obj").read_text().splitlines() if line.startswith("v ")]
+        return np.array([float(row[3]) for row in rows])
+
+    x, y = mesh.nodes.T
+    assert np.allclose(third(), 3 * x + y * y, atol=1e-12)
+    assert (third(flat=True) == 0).all()
+    mesh.write(tmp_path / "m.glb")
+    assert (tmp_path / "m.glb").read_bytes()[:4] == b"glTF"

@@ -15,14 +15,18 @@ use super::widgets::format;
 use meshbrush_core::document::{Document, Example, ExampleData, Recording, SeaChart, Settings};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::NodeDepths;
+use meshbrush_core::layers::{Layer, NodeDepths};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
+use meshbrush_core::surface::SurfaceRule;
 use meshbrush_io::io::png::{Behind, decode};
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
-use meshbrush_io::io::{self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, recording};
+use meshbrush_io::io::{
+    self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, SURFACE, ThirdCoordinate, recording,
+};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::mesh::MeshView;
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::ExportFormat;
 
@@ -154,6 +158,7 @@ pub fn export(
     let (mesh, domain) = (session.follower().shared_mesh(), session.follower().domain().clone());
     let (field, settings) = (session.follower().field().clone(), session.follower().settings().clone());
     let (paint, rule) = (session.document().paint().clone(), settings.rule);
+    let surface = session.follower().surface().cloned();
     let look = view.picture(session.document().settings());
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
@@ -164,25 +169,25 @@ pub fn export(
             } else {
                 Vec::new()
             };
-            let boundary = MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
-            let parts = extract.part_numbers();
-            let depths = match format.wants_node_data() {
-                true => NodeDepths::of(&settings.layers, extract.view()),
-                false => None,
+            let boundary = &MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
+            let parts = &extract.part_numbers();
+            let quantities = match format.wants_node_data() {
+                true => values_at_nodes(&settings.layers, surface.as_deref(), extract.view())?,
+                false => Vec::new(),
             };
-            let depths = depths.transpose().map_err(std::io::Error::other)?;
-            let depths = depths.map(|depths| NodeValues { name: DEPTH.into(), values: depths.depths });
-            let (target_diameter, quantities) = (&target_diameter, depths.as_slice());
+            let (target_diameter, quantities) = (&target_diameter, &quantities[..]);
+            let heights = quantities.iter().find(|values| values.name == SURFACE).map(|it| &*it.values);
             let source = MeshSource::Document(&settings.name);
             let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
-            let plane = settings.domain.projection;
-            let provenance = &provenance.in_coordinates(&Coordinates::Geographic, plane);
-            let (boundary, parts) = (&boundary, &parts);
-            let data = MeshData { target_diameter, quantities, boundary, parts, provenance };
-            let placed = settings
-                .domain
-                .nodes_in(&Coordinates::Geographic, &extract)
-                .map(|nodes| extract.with_coordinates(nodes));
+            // A model in space has lengths along all axes.
+            let is_model = format.third_coordinate() == ThirdCoordinate::Model && heights.is_some();
+            let provenance = &match settings.domain.projection {
+                Some(plane) if is_model => provenance.in_plane(&plane),
+                plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
+            };
+            let data = MeshData { target_diameter, quantities, heights, boundary, parts, provenance };
+            let nodes = settings.domain.nodes_in(&Coordinates::Geographic, &extract).filter(|_| !is_model);
+            let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
             let placed = placed.as_ref().unwrap_or(&extract);
             let files = format.write(&file, &mesh, placed, &data, &look, meter)?;
             Ok((files, extract.triangles().len()))
@@ -197,6 +202,19 @@ pub fn export(
         }
     });
     Ok(())
+}
+
+/// Returns the depths and the heights of surfaces at the nodes of a mesh, where layers have them.
+fn values_at_nodes(
+    layers: &[Layer],
+    surface: Option<&SurfaceRule>,
+    mesh: MeshView,
+) -> std::io::Result<Vec<NodeValues>> {
+    let depths = NodeDepths::of(layers, mesh).transpose().map_err(std::io::Error::other)?;
+    let depths = depths.map(|depths| (DEPTH, depths.depths));
+    let heights = surface.map(|rule| (SURFACE, rule.samples().filled_heights(mesh)));
+    let values = |(name, values): (&str, Vec<f64>)| NodeValues { name: name.into(), values };
+    Ok(depths.into_iter().chain(heights).map(values).collect())
 }
 
 /// Returns the document as a recipe at a path, which gets its ending if it has none.

@@ -38,13 +38,15 @@ pub enum FieldOverlay {
     Depth,
     /// How far the mesh is from the depths.
     DepthError,
+    /// The height of surfaces, as a shaded relief.
+    Surface,
     /// How far the mesh is from surfaces.
     SurfaceError,
 }
 
 impl FieldOverlay {
     /// All of them, in the order of lists.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::None,
         Self::Risk,
         Self::Target,
@@ -54,6 +56,7 @@ impl FieldOverlay {
         Self::Age,
         Self::Depth,
         Self::DepthError,
+        Self::Surface,
         Self::SurfaceError,
     ];
 
@@ -69,6 +72,7 @@ impl FieldOverlay {
             Self::Age => "Age",
             Self::Depth => "Depth",
             Self::DepthError => "Depth error",
+            Self::Surface => "Surface",
             Self::SurfaceError => "Surface error",
         }
     }
@@ -85,6 +89,7 @@ impl FieldOverlay {
             Self::Age => "Overlay age of triangles",
             Self::Depth => "Overlay depth of water",
             Self::DepthError => "Overlay depth error of the mesh",
+            Self::Surface => "Overlay surface as a relief",
             Self::SurfaceError => "Overlay surface error of the mesh",
         }
     }

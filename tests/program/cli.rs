@@ -80,14 +80,15 @@ fn people_get_the_summary_on_standard_error() {
 #[test]
 fn every_ending_is_written_and_the_files_agree() {
     let folder = Folder::new("cli-endings");
-    let outputs = "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.stl -o m.2dm -o m.svg";
+    let outputs =
+        "-o m.vtu -o m.msh -o m.obj -o m.NODE -o m.csv -o m.stl -o m.ply -o m.glb -o m.2dm -o m.svg";
     let ran = folder.run(format!("mesh {} {outputs} --quantity x*y", diamond(0.25)));
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert_eq!(
         folder.names(),
         [
-            "m.2dm", "m.NODE", "m.csv", "m.edge", "m.ele", "m.msh", "m.neigh", "m.obj", "m.stl", "m.svg",
-            "m.vtu"
+            "m.2dm", "m.NODE", "m.csv", "m.edge", "m.ele", "m.glb", "m.msh", "m.neigh", "m.obj", "m.ply",
+            "m.stl", "m.svg", "m.vtu"
         ]
     );
     assert_eq!(folder.read("m.csv").lines().count(), 9561);
@@ -626,9 +627,9 @@ fn wrong_arguments_are_explained() {
         ("mesh --max-memory -1GB", 2, "--max-memory -1GB: choose 1MB at least"),
         ("mesh --rule both", 2, "invalid value 'both'"),
         (
-            "mesh -o mesh.ply",
+            "mesh -o mesh.xyz",
             2,
-            "use one of .vtu .msh .obj .stl .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .msh2 .dat .svg .png",
+            "use one of .vtu .msh .obj .stl .ply .glb .node .2dm .csv .14 .grd .gr3 .ll .nc .slf .mesh .msh2 .dat .svg .png",
         ),
         ("mesh -o mesh", 2, "-o mesh: the ending chooses the format; use one of .vtu"),
         ("mesh -o m.svg --size 0", 2, "--size 0: write a width"),

@@ -73,6 +73,7 @@ fn kinds() -> Vec<LayerKind> {
     let many = ShapeList { polygons: vec![vec![circle(dvec2(2.0, 1.0), 0.2, 30)]], ..ShapeList::default() };
     let diameters = other.raster().values().iter().map(|v| if v.is_nan() { f32::INFINITY } else { 0.05 + v });
     let diameters = Raster::from_values(other.raster().bounds(), [40, 30], diameters.collect());
+    let errors = Raster::filled(diameters.bounds(), [3, 4], 0.25);
     vec![
         LayerKind::constant(0.4),
         LayerKind::target(Formula::parse("0.1 + 0.2*abs(x - y)").unwrap()),
@@ -96,6 +97,15 @@ fn kinds() -> Vec<LayerKind> {
         corridor(vec![dvec2(0.2, 0.3), dvec2(0.7, 0.4), dvec2(1.3, 1.6)], 0.3),
         corridor(circle(dvec2(1.0, 1.0), 0.6, 30), f64::INFINITY),
         LayerKind::Paint(Quantity::Risk),
+        LayerKind::Paint(Quantity::Error),
+        LayerKind::Formula {
+            quantity: Quantity::Error,
+            formula: Formula::parse("if(x < 1, 0.1, inf)").unwrap(),
+        },
+        LayerKind::Raster {
+            source: source("error.asc", &Arc::new(RasterPyramid::new(errors))),
+            reading: RasterReading::Error,
+        },
         LayerKind::Paint(Quantity::Diameter),
         LayerKind::Paint(Quantity::Diameter),
         LayerKind::Depth(Depths::new(

@@ -126,7 +126,7 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
         2 => LayerKind::risk(formula("0.9*exp(-hypot(x - 1, y - 2))")),
         3 => LayerKind::Threats(threats(random)),
         4 => LayerKind::Paint(Quantity::Risk),
-        5 => LayerKind::Paint(Quantity::Diameter),
+        5 => LayerKind::Paint([Quantity::Diameter, Quantity::Error][random.usize(..2)]),
         6 => {
             let source = RasterSource { name: "bottom.asc".into(), raster: raster(random, 0.0, 1.0) };
             LayerKind::Band { source, between: [0.3, 0.4], diameter: at_zero }
@@ -134,7 +134,7 @@ fn kind(random: &mut fastrand::Rng, has_outline: bool) -> LayerKind {
         n @ 7..=9 => {
             let (low, reading) = match n {
                 7 => (0.0, RasterReading::Risk),
-                8 => (0.1, RasterReading::Diameter),
+                8 => (0.1, [RasterReading::Diameter, RasterReading::Error][random.usize(..2)].clone()),
                 _ => {
                     let knots = vec![[0.1, 0.8], [0.6, 0.2], [0.9, 0.1]];
                     (0.0, RasterReading::Curve(Arc::new(ValueCurve::new(knots).unwrap())))
@@ -330,6 +330,7 @@ fn document(random: &mut fastrand::Rng) -> Document {
         let medium = match quantity {
             Quantity::Risk => Medium::Risk(0.8),
             Quantity::Diameter => Medium::Diameter(0.12, DiameterChange::Finer),
+            Quantity::Error => Medium::Error(0.03),
         };
         document.activate_layer(layer);
         document.begin_stroke(Brush { medium, radius: 0.3, hardness: 0.5, strength: 1.0 });

@@ -149,6 +149,160 @@ fn another_error_in_a_mask_and_other_layers_count_too() {
     assert!(short.len() > 1000 && short.iter().all(|triangle| longest(triangle) <= 1.0 + 1e-9));
 }
 
+/// The third coordinates of the nodes of an `.obj`.
+fn heights_of_obj(text: &str) -> Vec<f64> {
+    let rows = text.lines().filter(|line| line.starts_with("v "));
+    rows.map(|line| line.rsplit(' ').next().unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn the_height_is_the_third_coordinate_and_0_where_it_is_flat() {
+    let folder = Folder::new("surface-third");
+    folder.file("heights.asc", Grid::new([20, 20], |x, y| 100.0 + x * y).text());
+    let mesh = "mesh --surface heights.asc --max-error 3";
+    assert_eq!(folder.run(format!("{mesh} -o m.obj -o m.2dm -o m.msh")).status, 0);
+    let (nodes, _) = two_dm(&folder.read("m.2dm"));
+    let heights: Vec<f64> = nodes.iter().map(|node| node[2]).collect();
+    assert!(heights.iter().all(|height| *height >= 99.0));
+    assert_eq!(heights_of_obj(&folder.read("m.obj")), heights);
+    let flat = folder.run(format!("{mesh} --flat -o m.obj -o m.2dm -o m.vtu"));
+    assert_eq!((flat.status, flat.err.contains("--flat")), (0, false), "{}", flat.err);
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 0.0));
+    assert!(two_dm(&folder.read("m.2dm")).0.iter().all(|node| node[2] == 0.0));
+    // A quantity that a person asks for is z in .2dm, and a surface of their own is one everywhere.
+    folder.run(format!("{mesh} --quantity 7 --quantity surface=5 -o m.2dm -o m.obj"));
+    assert!(two_dm(&folder.read("m.2dm")).0.iter().all(|node| node[2] == 7.0));
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 5.0));
+    // Recipes say it too, where a format can have heights.
+    let recipe = "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 3\n[[output]]\nfile = ";
+    folder.file("flat.toml", format!("{recipe}\"r.obj\"\nflat = true\n"));
+    assert_eq!(folder.run("mesh flat.toml").status, 0);
+    assert!(heights_of_obj(&folder.read("r.obj")).iter().all(|height| *height == 0.0));
+    folder.file("none.toml", format!("{recipe}\"r.csv\"\nflat = true\n"));
+    let refused = folder.run("mesh none.toml");
+    assert!(refused.status != 0 && refused.err.contains("flat"), "{}", refused.err);
+    let idle = folder.run(format!("{mesh} --flat -o m.csv"));
+    assert!(idle.err.contains("--flat changes nothing"), "{}", idle.err);
+}
+
+#[test]
+fn far_from_values_a_node_has_the_height_of_the_nodes_around_it() {
+    let folder = Folder::new("surface-far");
+    folder.file("heights.asc", Grid::new([10, 10], |_, _| 250.0).text());
+    let ran =
+        folder.run("mesh --domain 0,0,400,10 --spacing 10 --surface heights.asc --max-error 1 -o m.obj");
+    assert!(ran.err.contains("64 pixels") && ran.err.contains("around"), "{}", ran.err);
+    assert!(heights_of_obj(&folder.read("m.obj")).iter().all(|height| *height == 250.0));
+}
+
+#[test]
+fn models_of_a_mesh_in_degrees_are_in_metres() {
+    let folder = Folder::new("surface-degrees");
+    folder.file(
+        "sea.geojson",
+        r#"{"type":"Polygon","coordinates":[[[10,50],[10.2,50],[10.2,50.1],[10,50.1],[10,50]]]}"#,
+    );
+    let mesh = "mesh --region sea.geojson --projection auto --spacing 5000 --surface 0.01*x --max-error 1";
+    let ran = folder.run(format!("{mesh} -o m.obj -o m.csv"));
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let text = folder.read("m.obj");
+    assert!(text.contains("# unit: m") && !text.contains("longitude"), "{}", &text[..400]);
+    let xs: Vec<f64> = text
+        .lines()
+        .filter(|line| line.starts_with("v "))
+        .map(|line| line.split(' ').nth(1).unwrap().parse().unwrap())
+        .collect();
+    let extent = xs.iter().fold(f64::MIN, |a, b| a.max(*b)) - xs.iter().fold(f64::MAX, |a, b| a.min(*b));
+    assert!((extent / 14_330.0 - 1.0).abs() < 0.02, "{extent}");
+    folder.run(format!("{mesh} --flat -o m.obj"));
+    assert!(folder.read("m.obj").contains("longitude"));
+}
+
+#[test]
+fn errors_of_a_raster_count_in_place_of_the_largest() {
+    let folder = Folder::new("surface-errors");
+    let grid = Grid::new([40, 40], |x, y| 8.0 * (0.3 * x).sin() * (0.2 * y).cos());
+    folder.file("heights.asc", grid.text());
+    // The left half asks for 0.2, and the right one for nothing.
+    let row = "0.2 -9\n".repeat(2);
+    let header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 20\nNODATA_value -9\n";
+    folder.file("errors.asc", format!("{header}{row}"));
+    folder.file(
+        "errors.toml",
+        "[[layer]]\nkind = \"surface\"\nfile = \"heights.asc\"\nwithin = 3\n[[layer]]\nkind = \"raster\"\n\
+         file = \"errors.asc\"\nas = \"error\"\n",
+    );
+    let mesh = "mesh --surface heights.asc --error-raster errors.asc --json";
+    let ran = folder.run(format!("{mesh} --max-error 3 -o m.2dm"));
+    assert!(!ran.err.contains("The mesh is"), "{}", ran.err);
+    assert_eq!(folder.run("mesh errors.toml --json").json()["hash"], ran.json()["hash"]);
+    let errors = || {
+        let (nodes, triangles) = two_dm(&folder.read("m.2dm"));
+        let left = triangles.iter().copied().filter(|corners| corners.iter().all(|n| nodes[*n][0] < 20.0));
+        let left: Vec<[usize; 3]> = left.collect();
+        [grid.error(&nodes, &left).0, grid.error(&nodes, &triangles).0]
+    };
+    let [left, all] = errors();
+    assert!(left <= 0.2 + 1e-6 && all > 0.5 && all <= 3.0 + 1e-9, "{left} {all}");
+    let count = ran.json()["triangles"].as_u64().unwrap();
+    let counted = folder.run(format!("{mesh} --at-most {count} -o m.2dm"));
+    let [counted_left, counted_all] = errors();
+    assert!(counted.json()["triangles"].as_u64().unwrap() <= count);
+    assert!(counted_left <= 0.2 + 1e-6 && counted_all <= all, "{counted_left} {counted_all}");
+    let why = folder.run("why 5.3,7.1 --surface heights.asc --error-raster errors.asc --max-error 3 --domain 0,0,40,40 --spacing 40");
+    assert!(why.out.contains("and 0.2000 is allowed"), "{}", why.out);
+    folder.file("zero.asc", header.replace("NODATA_value -9\n", "") + "0 1\n1 1\n");
+    let refused = folder.run("mesh --surface heights.asc --max-error 3 --error-raster zero.asc");
+    assert!(refused.status != 0 && refused.err.contains("the error is 0"), "{}", refused.err);
+}
+
+#[test]
+fn samples_without_a_value_are_counted_and_can_be_left_out() {
+    let folder = Folder::new("surface-nodata");
+    let grid = Grid::new([20, 20], |x, y| 10.0 + 0.3 * x * y);
+    // A block of 6 × 4 pixels at the left has no value.
+    let is_missing = |row: usize, column: usize| (8..12).contains(&row) && column < 6;
+    let rows = grid.text();
+    let (header, rows): (Vec<&str>, Vec<&str>) =
+        (rows.lines().take(5).collect(), rows.lines().skip(5).collect());
+    let rows = rows.iter().enumerate().map(|(row, line)| {
+        let value = |(column, text): (usize, &str)| {
+            if is_missing(row, column) { "-9999".into() } else { text.to_owned() }
+        };
+        line.split(' ').enumerate().map(value).collect::<Vec<_>>().join(" ") + "\n"
+    });
+    let text = format!("{}\nNODATA_value -9999\n{}", header.join("\n"), rows.collect::<String>());
+    folder.file("heights.asc", text);
+    let mesh = "mesh --surface heights.asc --max-error 1 --json";
+    let whole = folder.run(mesh);
+    assert!(whole.err.contains("24 of 400 samples"), "{}", whole.err);
+    assert_eq!(whole.json()["missing_samples"], 24);
+    assert!((whole.json()["missing_share"].as_f64().unwrap() - 0.06).abs() < 1e-12);
+    let outside = folder.run(format!("{mesh} --outside-nodata"));
+    assert_eq!(outside.json()["missing_samples"], 0, "{}", outside.err);
+    // The outline closes along the sides of the raster, and corners are cut.
+    let area = outside.json()["region_area"].as_f64().unwrap();
+    assert!((area - 376.0).abs() < 1.0, "{area}");
+    let same = folder.run(format!("{mesh} --outside-nodata --region heights.asc"));
+    assert_eq!(same.json()["hash"], outside.json()["hash"]);
+    folder.file(
+        "m.toml",
+        "[domain]\nregion = \"heights.asc\"\noutside_nodata = true\n[[layer]]\nkind = \"surface\"\n\
+         file = \"heights.asc\"\nwithin = 1\n",
+    );
+    assert_eq!(folder.run("mesh m.toml --json").json()["hash"], outside.json()["hash"]);
+    folder.file("none.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value 1\n1 1\n");
+    for (options, part) in [
+        ("--surface x*y --max-error 1 --outside-nodata", "--outside-nodata needs a grid"),
+        ("--region none.asc --outside-nodata", "no pixel has a value"),
+        ("--region heights.asc --outside-nodata --contour 3", "--contour"),
+        ("--surface heights.asc --max-error 1 --outside-nodata --domain 0,0,1,1", "--domain"),
+    ] {
+        let ran = folder.run(format!("mesh {options}"));
+        assert!(ran.status != 0 && ran.err.contains(part), "{options}: {}", ran.err);
+    }
+}
+
 #[test]
 fn what_cannot_be_met_is_said() {
     let folder = Folder::new("surface-refused");

@@ -1,5 +1,5 @@
-//! Depths of water at the pixels of a picture: as a shaded relief with isobaths, and how far a mesh is from
-//! them.
+//! Depths of water and surfaces at the pixels of a picture: as a shaded relief with isobaths or contour
+//! lines, and how far a mesh is from them.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -22,13 +22,15 @@ const ROUNDING: f64 = 1e-9;
 /// Depth that counts as least in relative differences, in metres.
 const LEAST_DEPTH: f64 = 10.0;
 
-/// A surface of depths at the pixels of a picture.
+/// A surface of depths, or of heights, at the pixels of a picture.
 #[derive(Clone, Debug)]
 pub struct Relief {
     /// Depths in metres, positive downwards; NaN without one.
     depths: Raster,
     /// Metres between isobaths.
     interval: f64,
+    /// The depth from which on there are isobaths: the shore, or any height.
+    first_isobath: f64,
     /// World units up in the relief for each metre.
     exaggeration: f64,
 }
@@ -55,14 +57,39 @@ impl Relief {
         size: [u32; 2],
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Self> {
+        let depth_at = |point| surface.depth_at(point);
+        Self::of(depth_at, (surface.deepest(), 0.0), domain, (bounds, size), goes_on)
+    }
+
+    /// Returns the relief of a surface of heights, as [`Self::new`]: depths are minus the heights, and
+    /// isobaths are contour lines. `rise` is the difference of the greatest and the least height.
+    pub fn of_heights(
+        height_at: impl Fn(DVec2) -> Option<f64>,
+        rise: f64,
+        domain: Rect,
+        pixels: (Rect, [u32; 2]),
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Self> {
+        let depth_at = |point| height_at(point).map(|height| -height);
+        Self::of(depth_at, (rise, f64::NEG_INFINITY), domain, pixels, goes_on)
+    }
+
+    fn of(
+        depth_at: impl Fn(DVec2) -> Option<f64>,
+        (deepest, first_isobath): (f64, f64),
+        domain: Rect,
+        (bounds, size): (Rect, [u32; 2]),
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Self> {
         let grid = Raster::filled(bounds, size, 0_u8);
         let centers = grid.pixel_centers();
-        let depth = |(x, y)| surface.depth_at(centers(x, y)).map_or(f32::NAN, |depth| depth as f32);
+        let depth = |(x, y)| depth_at(centers(x, y)).map_or(f32::NAN, |depth| depth as f32);
         let depths = grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| depth((x, y))));
-        let deepest = surface.deepest().max(f64::MIN_POSITIVE);
+        let deepest = deepest.max(f64::MIN_POSITIVE);
         Some(Self {
             depths: Raster::from_values(bounds, size, depths.collect::<Option<_>>()?),
             interval: isobath_interval(deepest),
+            first_isobath,
             exaggeration: RELIEF * domain.size().max_element() / deepest,
         })
     }
@@ -100,7 +127,10 @@ impl Relief {
         let band = |depth: f32| (f64::from(depth) / self.interval).floor();
         let here = band(self.depths.get(x, y));
         let beside = [(1, 0), (0, 1)].map(|(dx, dy)| self.depths.known(i64::from(x) + dx, i64::from(y) + dy));
-        beside.into_iter().flatten().any(|depth| band(depth) != here && band(depth).max(here) >= 0.0)
+        beside
+            .into_iter()
+            .flatten()
+            .any(|depth| band(depth) != here && band(depth).max(here) >= self.first_isobath)
     }
 }
 
@@ -238,6 +268,25 @@ mod tests {
             Relief::new(&DepthSurface::of(&layers).unwrap(), Rect::UNIT, Rect::UNIT, [9, 9], &|| false)
                 .is_none()
         );
+    }
+
+    #[test]
+    fn heights_are_lit_like_depths_and_have_contour_lines_everywhere() {
+        // A hill of 100 from 30 below zero, and nothing in the east.
+        let height = |at: DVec2| 100.0 * (1.0 - 2.5 * at.distance(dvec2(0.5, 0.5))).max(0.0) - 30.0;
+        let height_at = |at: DVec2| (at.x < 0.9).then(|| height(at));
+        let pixels = (Rect::UNIT, [200, 200]);
+        let relief = Relief::of_heights(height_at, 100.0, Rect::UNIT, pixels, &|| true).unwrap();
+        let pixels: Vec<Option<ReliefPixel>> = relief.pixels().collect();
+        let at = |x: usize, y: usize| pixels[200 * y + x].unwrap();
+        assert!(pixels[199].is_none() && pixels[200 * 100 + 190].is_none());
+        assert!(at(70, 130).light > 1.05 && at(130, 70).light < 0.95, "{:?} {:?}", at(70, 130), at(130, 70));
+        assert_eq!(at(5, 5), ReliefPixel { depth: 30.0, light: 1.0, is_isobath: false });
+        let crossed = (20..=100).filter(|&x| at(x, 100).is_isobath).count();
+        assert!((9..=22).contains(&crossed), "{crossed}");
+        // The shore of depths has no lines above it.
+        let above = |x: &usize| at(*x, 100).is_isobath && at(*x, 100).depth < -15.0;
+        assert!((20..=100).filter(above).count() > 4);
     }
 
     #[test]

@@ -35,6 +35,7 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
         FieldOverlay::Age => Some(age_legend(ui, inner, palette)),
         FieldOverlay::Depth => Some(depth_legend(ui, inner, state, palette)),
         FieldOverlay::DepthError => Some(depth_error_legend(ui, inner, state, palette)),
+        FieldOverlay::Surface => Some(surface_legend(ui, inner, state, palette)),
         FieldOverlay::SurfaceError => Some(surface_error_legend(ui, inner, state, palette)),
         FieldOverlay::None if state.view.aids.contours => Some(target_legend(ui, inner, state)),
         FieldOverlay::None => None,
@@ -122,6 +123,23 @@ fn depth_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &Ov
     place
 }
 
+/// Shows heights from the lowest to the highest sample, and how far contour lines are apart.
+fn surface_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
+    let range = state.session.follower().surface().and_then(|rule| rule.samples().height_range());
+    let Some([lowest, highest]) = range else {
+        return no_layer(ui, inner, "Surface", "no layer of a surface");
+    };
+    let ends = [lowest, lowest.midpoint(highest), highest].map(|height| format::significant(height, 3));
+    let spoken = format!("Legend: surface {} to {}", ends[0], ends[2]);
+    let place = boxed(ui, inner, 30.0 + ROW, "Surface", &spoken);
+    let steps = 16_u8;
+    let color = |step: u8| palette.height(f32::from(step) / f32::from(steps));
+    scale(ui, place, (0..=steps).map(color), ends);
+    let interval = isobath_interval((highest - lowest).max(f64::MIN_POSITIVE));
+    below_scale(ui, place, format!("contours every {}", format::significant(interval, 3)));
+    place
+}
+
 /// Returns how much higher the mesh is than the surface, up to the error that is allowed.
 fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &OverlayPalette) -> Rect {
     let Some(rule) = state.session.follower().surface() else {
@@ -129,9 +147,10 @@ fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &
     };
     let errors: Vec<f64> = rule.errors().map(|(_, error)| error).collect();
     let is_summed = SurfaceNorm::ALL[1..].iter().any(|norm| rule.error_of(*norm).is_some());
+    let is_varied = rule.has_errors_of_layers();
     let ends = match errors[..] {
         _ if is_summed => ["−largest", "0", "largest"].map(str::to_owned),
-        [first, ..] if first.is_finite() && errors.iter().all(|error| *error == first) => {
+        [first, ..] if !is_varied && first.is_finite() && errors.iter().all(|error| *error == first) => {
             let error = format::significant(first, 3);
             [format!("−{error}"), "0".into(), error]
         }

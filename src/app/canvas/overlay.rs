@@ -44,7 +44,7 @@ struct OverlayState {
 impl OverlayState {
     /// Returns whether colours are found pixel by pixel of the screen, so that they are exact at any zoom.
     fn is_of_screen(kind: FieldOverlay) -> bool {
-        Self::needs_mesh(kind) || kind == FieldOverlay::Depth
+        Self::needs_mesh(kind) || matches!(kind, FieldOverlay::Depth | FieldOverlay::Surface)
     }
 
     /// Returns whether colours depend on the triangles.
@@ -185,6 +185,7 @@ fn colors_of(
             _ if state.kind == FieldOverlay::DepthError => {
                 depth_error_colors(&layers, &*extract()?, &state, goes_on)
             }
+            _ if state.kind == FieldOverlay::Surface => surface_colors(surface.as_deref(), &state, goes_on),
             _ if state.kind == FieldOverlay::SurfaceError => {
                 surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
             }
@@ -245,6 +246,25 @@ fn depth_error_colors(
     let Some((surface, depths)) = surface.zip(depths) else { return Some(neutral(*size, palette)) };
     let differences = depth_differences(mesh.view(), &depths, &surface, (*bounds, *size), goes_on)?;
     Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
+}
+
+/// Returns a shaded relief with contour lines; neutral where there is no surface.
+fn surface_colors(
+    rule: Option<&SurfaceRule>,
+    OverlayState { bounds, size, domain, palette, .. }: &OverlayState,
+    goes_on: &dyn Fn() -> bool,
+) -> Option<Vec<[u8; 4]>> {
+    let found = rule.and_then(|rule| Some((rule, rule.samples().height_range()?)));
+    let Some((rule, [lowest, highest])) = found else { return Some(neutral(*size, palette)) };
+    let (rise, height_at) = (highest - lowest, |point| rule.allowed_at(point).map(|(height, _)| height));
+    let relief = Relief::of_heights(height_at, rise, *domain, (*bounds, *size), goes_on)?;
+    let color = |pixel: Option<ReliefPixel>| {
+        let Some(pixel) = pixel else { return palette.neutral() };
+        let share = (-f64::from(pixel.depth) - lowest) / rise.max(f64::MIN_POSITIVE);
+        let light = if pixel.is_isobath { ISOBATH } else { 1.0 } * pixel.light.min(MOST_LIGHT);
+        lit(palette.height(share as f32), light)
+    };
+    Some(relief.pixels().map(color).collect())
 }
 
 /// Returns how far the mesh is from surfaces; neutral beyond it, and without a surface.

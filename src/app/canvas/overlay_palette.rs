@@ -19,6 +19,14 @@ const WATER: [Opaque; 5] = [
     [0x35, 0x6b, 0x9e, 0xff],
     [0x2b, 0x35, 0x6b, 0xff],
 ];
+/// The colours of ground from the lowest to the highest place, at equal steps.
+const GROUND: [Opaque; 5] = [
+    [0x4f, 0x7d, 0x55, 0xff],
+    [0x9c, 0xae, 0x6b, 0xff],
+    [0xd9, 0xc8, 0x8f, 0xff],
+    [0xb5, 0x89, 0x64, 0xff],
+    [0xe9, 0xe4, 0xdd, 0xff],
+];
 /// Edits from which on a triangle counts as old.
 pub const OLD_AGE: u32 = 10;
 
@@ -84,9 +92,13 @@ impl OverlayPalette {
     /// Returns the colour of water by its depth, as a share of the deepest: shallow water has most of the
     /// colours.
     pub fn water(&self, share: f32) -> Opaque {
-        let along = share.clamp(0.0, 1.0).sqrt() * (WATER.len() - 1) as f32;
-        let below = (along as usize).min(WATER.len() - 2);
-        mixed(WATER[below], WATER[below + 1], along - below as f32)
+        between(&WATER, share.clamp(0.0, 1.0).sqrt())
+    }
+
+    /// Returns the colour of ground by its height, as a share of the way from the lowest to the highest
+    /// place.
+    pub fn height(&self, share: f32) -> Opaque {
+        between(&GROUND, share.clamp(0.0, 1.0))
     }
 
     /// Returns the colour of land.
@@ -130,6 +142,13 @@ impl OverlayPalette {
 pub fn lit([r, g, b, a]: Opaque, light: f32) -> Opaque {
     let [r, g, b] = [r, g, b].map(|channel| (f32::from(channel) * light).min(255.0) as u8);
     [r, g, b, a]
+}
+
+/// Returns the colour at a share from 0 to 1 of the way along some colours.
+fn between(colors: &[Opaque], share: f32) -> Opaque {
+    let along = share * (colors.len() - 1) as f32;
+    let below = (along as usize).min(colors.len() - 2);
+    mixed(colors[below], colors[below + 1], along - below as f32)
 }
 
 fn mixed(from: Opaque, to: Opaque, share: f32) -> Opaque {

@@ -43,6 +43,10 @@ fn picked_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
             let level = level.map_or(String::new(), |level| format!(" · level {level}"));
             format!("h̄ {}{level}", format::length(diameter, state.unit()))
         }
+        PaintKind::Error => {
+            let (_, error) = session.follower().surface()?.allowed_at(point)?;
+            format!("largest error {}", format::digits(error, 5))
+        }
     };
     Some((text, t.value))
 }

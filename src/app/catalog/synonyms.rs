@@ -13,7 +13,7 @@ static SYNONYMS: [(&str, &str); 47] = [
     ("Save as recipe…", "toml export script"),
     (
         "Export mesh…",
-        "save write vtu msh node 2dm csv obj stl svg png sms gmsh paraview drawing picture 14 grd gr3 ll nc slf mesh msh2 \
+        "save write vtu msh node 2dm csv obj stl ply glb gltf svg png sms gmsh paraview drawing picture 14 grd gr3 ll nc slf mesh msh2 \
          dat adcirc fort schism hgrid delft ugrid netcdf telemac selafin mike wavewatch fvcom coast solver",
     ),
     ("Export path…", "save write route geojson csv svg png line"),

@@ -73,7 +73,7 @@ fn parts() -> [CatalogItem; 3] {
 }
 
 /// Returns an entry for each overlay. Those that the menu leaves out are in the list of the panel.
-fn overlays(shown: FieldOverlay) -> [CatalogItem; 10] {
+fn overlays(shown: FieldOverlay) -> [CatalogItem; 11] {
     FieldOverlay::ALL.map(|overlay| {
         // The key of the overlay that is shown hides it.
         let next = if overlay == shown { FieldOverlay::None } else { overlay };

@@ -32,6 +32,8 @@ pub enum PaintKind {
     Risk,
     /// The target diameter itself.
     Diameter,
+    /// The largest error from surfaces.
+    Error,
 }
 
 /// The selected tool, and the settings of all tools.
@@ -59,6 +61,8 @@ pub struct Tools {
     pub risk: f64,
     /// The diameter that the brush paints, in world units.
     pub diameter: f64,
+    /// The error that the brush paints, in the unit of surfaces.
+    pub error: f64,
     /// How strongly strokes are smoothed, 0 to 1.
     pub smoothing: f64,
     /// Whether strokes are repeated: left and right, above and below.
@@ -95,6 +99,7 @@ impl Tools {
             erase_strength: 1.0,
             risk: 0.5,
             diameter: 2.0 * h_min,
+            error: 1.0,
             smoothing: 0.0,
             mirrored: [false; 2],
             pen: Pen::default(),

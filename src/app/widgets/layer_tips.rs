@@ -7,6 +7,14 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
         "What the formula gives/Risk",
         "The formula gives the risk, from 0 to 1, which the transfer curve turns into a diameter.",
     ),
+    (
+        "What the formula gives/Error",
+        "The formula gives the largest error from surfaces, in place of that of their layers.",
+    ),
+    (
+        "What the values mean/Error",
+        "The raster holds the largest error from surfaces, in place of that of their layers.",
+    ),
     ("What the values mean/Diameter", "The raster holds target diameters, in the unit of the document."),
     ("What the values mean/Risk", "The raster holds risk, from 0 to 1."),
     ("What the values mean/Curve", "A curve gives the target diameter for each value of the raster."),
@@ -30,6 +38,10 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     (
         "Use the contour as the domain",
         "The water of this layer becomes the domain, as far as it is in the bounds of the document.",
+    ),
+    (
+        "Use the area with values as the domain",
+        "Pixels without a value are outside the domain, as far as they are in the bounds of the document.",
     ),
     ("Limit the range", "Beyond a distance of your choice the layer asks for nothing."),
 ];

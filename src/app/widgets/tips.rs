@@ -37,6 +37,7 @@ static SENTENCES: &[(&str, &str)] = &[
         "Overlay/Depth error",
         "Shows where depths that are linear over triangles are deeper or shallower than the grids.",
     ),
+    ("Overlay/Surface", "Shows the height of surfaces as a shaded relief with contour lines."),
     ("Overlay/Surface error", "Shows where the mesh is higher (red) or lower (blue) than surfaces."),
     ("Colours/Viridis", "Violet over green to yellow; safe for colour-blind people."),
     ("Colours/Magma", "Black over purple and orange to pale yellow."),
@@ -48,6 +49,7 @@ static SENTENCES: &[(&str, &str)] = &[
         "The brush paints risk, from 0 to 1, which the transfer curve turns into a diameter.",
     ),
     ("What the brush paints/Diameter", "The brush paints the target diameter itself."),
+    ("What the brush paints/Error", "The brush paints the largest error from surfaces, in their unit."),
     (
         "How a stroke changes the paint/Build up",
         "Each stroke raises the risk, or only refines where a diameter is painted[; {build-up}].",

@@ -342,6 +342,12 @@ pub struct MeshArguments {
     #[arg(long, help_heading = "Output")]
     pub binary: bool,
 
+    /// Write z = 0 in place of the height of a surface, in .vtu, .msh, .obj, .stl, .ply, .glb and .2dm
+    ///
+    /// The heights stay as values at the nodes where the format has any.
+    #[arg(long, help_heading = "Output")]
+    pub flat: bool,
+
     /// Coordinates in files of a region on the Earth: longitude and latitude (lonlat), those of the plane of
     /// --projection (plane), or those of a code or of a projection as PROJ writes it [default: those of the
     /// region's file]

@@ -8,7 +8,7 @@ use super::input::Input;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
-use meshbrush_core::surface::SurfaceFit;
+use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
 
@@ -24,6 +24,8 @@ pub struct MeshDetails {
     pub depths: Option<NodeDepths>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
+    /// The height of the surface at each node, if a layer is one and files are wanted.
+    pub heights: Option<Vec<f64>>,
     /// The triangles across straits, if a layer asks for them and they are wanted.
     pub straits: Option<StraitSummary>,
 }
@@ -71,7 +73,9 @@ impl MeshDetails {
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         let surface = finished.surface_fit(extract);
-        Ok(Self { boundary, parts, provenance, depths, surface, straits })
+        let filled = surface.as_ref().filter(|_| uses.node_data);
+        let heights = filled.map(|fit| fit.filled_heights(extract.view()));
+        Ok(Self { boundary, parts, provenance, depths, surface, heights, straits })
     }
 
     /// Returns the number of triangles of each part.
@@ -132,12 +136,24 @@ pub struct SurfaceSummary {
     pub gradient_error: f64,
     /// The place of the largest difference: x and y.
     pub worst: [f64; 2],
+    /// Samples in the domain at which no surface has a value.
+    pub missing_samples: usize,
+    /// Their share of all samples in the domain, 0 to 1.
+    pub missing_share: f64,
 }
 
-impl From<&SurfaceFit> for SurfaceSummary {
-    fn from(fit: &SurfaceFit) -> Self {
+impl SurfaceSummary {
+    /// Returns the figures of a mesh by how it fits, and by the count of the samples.
+    pub fn new(fit: &SurfaceFit, count: SampleCount) -> Self {
         let SurfaceFit { heights: _, largest, at, rms, gradient, samples: _ } = fit;
-        Self { max_error: *largest, rms_error: *rms, gradient_error: *gradient, worst: (*at).into() }
+        Self {
+            max_error: *largest,
+            rms_error: *rms,
+            gradient_error: *gradient,
+            worst: (*at).into(),
+            missing_samples: count.missing,
+            missing_share: count.missing_share(),
+        }
     }
 }
 

@@ -13,6 +13,8 @@ use super::requested_files::{RequestedFiles, write_files};
 use super::summary::Summary;
 use super::terminal::Terminal;
 use meshbrush_core::layers::SurfaceNorm;
+use meshbrush_core::surface::SampleCount;
+use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
 use meshbrush_mesh::text::Grouped;
 
@@ -119,13 +121,26 @@ fn note_far_from_surface(
     let without = fit.heights.iter().filter(|height| height.is_none()).count();
     if without > 0 {
         terminal.note(&format!(
-            "{} of {} nodes are more than 64 pixels from every value of the surface; they have the height 0 in files.",
+            "{} of {} nodes are more than 64 pixels from every value of the surface; in files they have the mean \
+             height of the nodes around them.",
             Grouped(without),
             Grouped(fit.heights.len())
         ));
     }
-    let asked = |norm| finished.built().surface.as_ref().and_then(|rule| rule.error_of(norm));
-    if asked(SurfaceNorm::Largest).is_some_and(|asked| fit.largest > asked) {
+    let rule = finished.built().surface.as_ref();
+    if let Some(count) = rule.map(|rule| rule.samples().count()).filter(|count| count.missing > 0) {
+        let SampleCount { known, missing } = count;
+        terminal.note(&format!(
+            "{} of {} samples of the surface in the domain, {:.2} %, have no value: they are left out. --outside-nodata \
+             takes their area out of the domain.",
+            Grouped(missing),
+            Grouped(known + missing),
+            100.0 * count.missing_share()
+        ));
+    }
+    let asked = |norm| rule.and_then(|rule| rule.error_of(norm));
+    if asked(SurfaceNorm::Largest).is_some() && rule.is_some_and(|rule| fit.largest > rule.largest_allowed())
+    {
         let reason = match extract.is_patched() {
             true => "nodes were moved onto the outline, or the surface jumps",
             false => "the surface jumps there, and no mesh is closer",
@@ -197,6 +212,10 @@ fn note_without_effect(typed: &MeshArguments, input: &Input, outputs: &[Output],
     }
     if typed.format.is_some() && !outputs.iter().any(Output::is_named) {
         notes.push("--format changes nothing: the endings of the files (-o) choose their formats.".into());
+    }
+    let has_heights = |output: &Output| output.third_coordinate() != ThirdCoordinate::None;
+    if typed.flat && !outputs.iter().any(has_heights) {
+        notes.push("--flat changes nothing: no file with heights is written (-o).".into());
     }
     if typed.binary && !outputs.iter().any(Output::is_binary) {
         notes.push(

@@ -1,6 +1,6 @@
 //! The options on what to mesh, as the tables of settings.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec2;
 
@@ -30,12 +30,14 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
         )));
     }
     let layers = layers(typed)?;
+    let region = region(typed, &layers)?;
     let projection = projection(typed)?;
     let settings = SavedSettings {
         domain: SavedDomain {
             bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
             inside: typed.inside.clone(),
-            region: typed.region.clone(),
+            region,
+            outside_nodata: typed.water.outside_nodata,
             contour: typed.water.contour,
             positive: typed.water.contour.and(typed.water.depth_positive).map(Into::into),
             smallest_island: typed.water.smallest_island,
@@ -85,6 +87,17 @@ fn value(length: &Option<Length>) -> Option<f64> {
     length.as_ref().map(|length| length.value)
 }
 
+/// Returns the file of the region: with --outside-nodata alone, the grid of the highest surface.
+fn region(typed: &InputArguments, layers: &[(String, SavedLayer)]) -> Result<Option<PathBuf>, Failure> {
+    if typed.region.is_some() || !typed.water.outside_nodata || typed.recipe.is_some() {
+        return Ok(typed.region.clone());
+    }
+    let mut surfaces = layers.iter().rev().filter(|(_, layer)| layer.kind == SavedKind::Surface);
+    let file = surfaces.find_map(|(_, layer)| layer.file.clone());
+    let problem = "--outside-nodata needs a grid whose values make the domain: name it with --region, or with --surface";
+    file.map(Some).ok_or_else(|| Failure::Usage(format!("{problem}.")))
+}
+
 /// Returns the layers of the options, each of which takes the finest, from the bottom of the stack to its
 /// top, each with its option as typed.
 fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> {
@@ -103,9 +116,11 @@ fn layers(typed: &InputArguments) -> Result<Vec<(String, SavedLayer)>, Failure> 
         let layer = SavedLayer { file: Some(path.to_owned()), ..SavedLayer::of_kind(kind) };
         (format!("{option} {}", path.display()), layer)
     };
-    for (option, paths, quantity) in
-        [("--target-raster", &typed.target_raster, diameter), ("--risk-raster", &typed.risk_raster, risk)]
-    {
+    for (option, paths, quantity) in [
+        ("--target-raster", &typed.target_raster, diameter),
+        ("--risk-raster", &typed.risk_raster, risk),
+        ("--error-raster", &typed.surfaces.error_raster, SavedQuantity::Error),
+    ] {
         layers.extend(paths.iter().map(|path| {
             let (option, layer) = of_file(option, SavedKind::Raster, path);
             (option, SavedLayer { read_as: Some(quantity), ..layer })
@@ -197,6 +212,7 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
             "contour" => "--contour".to_owned(),
             "smallest_island" => "--smallest-island".to_owned(),
             "smallest_inlet" => "--smallest-inlet".to_owned(),
+            "outside_nodata" => "--outside-nodata".to_owned(),
             "boundary_diameter" => length("--boundary-diameter", typed.boundary_diameter.as_ref()),
             "spacing" => length("--spacing", typed.spacing.as_ref()),
             "h_min" => length("--h-min", typed.h_min.as_ref()),

@@ -9,7 +9,7 @@ use super::build::FinishedMesh;
 use super::failure::Failure;
 use super::space_look::RequestedSpace;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{KeyFault, MeshData, Meter, obstacle};
+use meshbrush_io::io::{KeyFault, MeshData, Meter, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::{Grouped, Number};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
@@ -102,6 +102,11 @@ impl Output {
     /// Returns whether h̄ at the nodes is written.
     pub fn has_targets(&self) -> bool {
         self.format.has_targets()
+    }
+
+    /// Returns what the third coordinate of nodes is.
+    pub fn third_coordinate(&self) -> ThirdCoordinate {
+        self.format.third_coordinate()
     }
 
     /// Returns whether it is a picture.

@@ -14,8 +14,11 @@ use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_io::io::recipe::Recipe;
 use meshbrush_io::io::settings::SavedOutput;
-use meshbrush_io::io::{DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE};
+use meshbrush_io::io::{
+    DEPTH, Interruption, KeyFault, MeshData, Meter, NodeValues, Provenance, SURFACE, ThirdCoordinate,
+};
 use meshbrush_mesh::mesh::Extract;
+use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::{ExportFormat, Look, NO_SVG_IN_SPACE};
 
 /// Files with one look and the same values at the nodes.
@@ -25,6 +28,8 @@ pub struct RequestedFiles {
     pub outputs: Vec<Output>,
     look: RequestedLook,
     quantities: Vec<NamedQuantity>,
+    /// Whether the third coordinate is 0, and not the height of a surface.
+    is_flat: bool,
 }
 
 impl RequestedFiles {
@@ -49,7 +54,7 @@ impl RequestedFiles {
         if look.is_in_space() && outputs.iter().any(Output::is_vector_picture) {
             return Err(Failure::Usage(format!("--view space: {NO_SVG_IN_SPACE}.")));
         }
-        Ok(Self { outputs, look, quantities })
+        Ok(Self { outputs, look, quantities, is_flat: typed.flat })
     }
 
     /// Returns the files that a recipe requests, in its order.
@@ -84,7 +89,7 @@ impl RequestedFiles {
             let fault = KeyFault::value("quantities", error.to_string()).at(index);
             KeyFault { pointer, ..fault }
         })?;
-        Ok(Self { outputs: vec![file], look, quantities })
+        Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat })
     }
 
     /// Returns whether a file has values at the nodes.
@@ -99,6 +104,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
         file: _,
         binary,
         quantities,
+        flat,
         size,
         edges,
         colormap,
@@ -111,6 +117,10 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
     if *binary && !output.is_binary() {
         let sentence = "only .msh has a text form and a binary form; leave it out.";
         return Err(KeyFault::key("binary", sentence));
+    }
+    if *flat && output.third_coordinate() == ThirdCoordinate::None {
+        let sentence = "the files of this format have no height of a surface; leave it out.";
+        return Err(KeyFault::key("flat", sentence));
     }
     if !quantities.is_empty() && !output.wants_node_data() {
         let sentence = "this format holds no values at the nodes; leave it out, or take another format.";
@@ -175,7 +185,7 @@ pub fn write_files(
         false => Vec::new(),
     };
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
-    let (mesh, provenance) = (finished.mesh(), &details.provenance);
+    let provenance = &details.provenance;
     let target_diameter = &target_diameter[..];
     let exported = ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
     let placed = exported.in_coordinates()?;
@@ -183,10 +193,10 @@ pub fn write_files(
     for files in requested {
         let look = files.look_for(finished, extract)?;
         let quantities = files.values_at_nodes(&exported, Vec::new())?;
-        let data = exported.data(&quantities);
+        let data = exported.data(&quantities, files.is_flat);
         for output in &files.outputs {
             let meter = interruption.meter();
-            let write = || output.write(mesh, placed, &data, &look, &meter);
+            let write = || exported.write(output, placed, &data, &look, &meter);
             let written = terminal.while_metered(&format!("writing {}", output.name()), &meter, write);
             interruption.end_program();
             for path in written? {
@@ -230,13 +240,12 @@ impl RequestedFiles {
         values: Vec<NodeValues>,
         meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
-        let mesh = exported.finished.mesh();
         let placed = exported.in_coordinates()?;
         let placed = placed.as_ref().unwrap_or(exported.extract);
         let quantities = self.values_at_nodes(exported, values)?;
         let look = self.look_for(exported.finished, exported.extract)?;
-        let data = exported.data(&quantities);
-        let write = |output: &Output| output.write(mesh, placed, &data, &look, meter);
+        let data = exported.data(&quantities, self.is_flat);
+        let write = |output: &Output| exported.write(output, placed, &data, &look, meter);
         Ok(self.outputs.iter().map(write).collect::<Result<Vec<_>, _>>()?.concat())
     }
 
@@ -255,9 +264,7 @@ impl RequestedFiles {
         }
         let details = exported.details;
         let depths = details.depths.as_ref().map(|depths| (DEPTH, depths.depths.clone()));
-        // Far from every sample a surface has no height: 0 takes its place.
-        let height = |height: &Option<f64>| height.unwrap_or(0.0);
-        let heights = details.surface.as_ref().map(|fit| (SURFACE, fit.heights.iter().map(height).collect()));
+        let heights = details.heights.as_ref().map(|heights| (SURFACE, heights.clone()));
         for (name, of_layers) in depths.into_iter().chain(heights) {
             if !values.iter().any(|values| values.name == name) {
                 values.push(NodeValues { name: name.into(), values: of_layers });
@@ -268,10 +275,35 @@ impl RequestedFiles {
 }
 
 impl ExportedMesh<'_> {
-    fn data<'a>(&'a self, quantities: &'a [NodeValues]) -> MeshData<'a> {
+    /// Writes a file with the nodes and triangles as they are `placed`.
+    ///
+    /// A model in space with heights is placed in the plane of a projection instead of in degrees: its
+    /// coordinates are lengths.
+    fn write(
+        &self,
+        output: &Output,
+        placed: &Extract,
+        data: &MeshData,
+        look: &Look,
+        meter: &Meter,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let mesh = self.finished.mesh();
+        let is_model = output.third_coordinate() == ThirdCoordinate::Model && data.heights.is_some();
+        match self.finished.domain().projection {
+            Some(plane) if is_model && data.provenance.unit() == LengthUnit::Degree => {
+                let provenance = &data.provenance.clone().in_plane(&plane);
+                output.write(mesh, self.extract, &MeshData { provenance, ..*data }, look, meter)
+            }
+            _ => output.write(mesh, placed, data, look, meter),
+        }
+    }
+
+    fn data<'a>(&'a self, quantities: &'a [NodeValues], is_flat: bool) -> MeshData<'a> {
         let Self { details, provenance, target_diameter, .. } = *self;
         let MeshDetails { boundary, parts, .. } = details;
-        MeshData { target_diameter, quantities, boundary, parts, provenance }
+        let surface = quantities.iter().find(|values| values.name == SURFACE && !is_flat);
+        let heights = surface.map(|surface| &*surface.values);
+        MeshData { target_diameter, quantities, heights, boundary, parts, provenance }
     }
 
     /// Returns the nodes and triangles with other coordinates, if these are not those of the mesh.

@@ -305,7 +305,10 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
-            surface: fit.as_ref().map(SurfaceSummary::from),
+            surface: fit
+                .as_ref()
+                .zip(finished.built().surface.as_ref())
+                .map(|(fit, rule)| SurfaceSummary::new(fit, rule.samples().count())),
             straits: details.and_then(|details| details.straits.clone()),
             spacing: mesh.lattice().spacing(),
             rule: if finished.rule() == RefinementRule::Vertex { "vertex" } else { "area" },
@@ -330,7 +333,8 @@ impl Summary {
         if let Some(outline) = &self.outline {
             text.insert_str(text.len() - 1, &outline.for_people(self.area));
         }
-        if let Some(SurfaceSummary { max_error, rms_error, gradient_error, worst: [x, y] }) = self.surface {
+        if let Some(SurfaceSummary { max_error, rms_error, gradient_error, worst: [x, y], .. }) = self.surface
+        {
             let line = format!(
                 "at most {} from the surface, at {}, {}; root mean square {}, of the gradient {}\n",
                 short(max_error),

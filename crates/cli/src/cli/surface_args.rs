@@ -41,6 +41,13 @@ pub struct SurfaceArguments {
     )]
     pub max_error: Option<f64>,
 
+    /// Largest errors by place, in the unit of the surface: a grid, which counts in place of --max-error
+    /// where it has a value; may be repeated, the last that has a value at a place counts
+    ///
+    /// Samples with such an error meet it with --at-most, too.
+    #[arg(long, value_name = "FILE", requires = "surface")]
+    pub error_raster: Vec<PathBuf>,
+
     /// Largest number of triangles: the mesh has the least error that is possible with them
     #[arg(long, value_name = "N", requires = "surface", group = "goal")]
     pub at_most: Option<usize>,

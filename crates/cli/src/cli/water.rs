@@ -12,6 +12,7 @@ const TIDE: f64 = 44_712.0;
 
 /// Depths of water and straits, and the sizes that they ask for.
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("grid_region").multiple(true).args(["region", "outside_nodata"]))]
 #[command(group = ArgGroup::new("depths").multiple(true).args(["depth", "contour"]))]
 pub struct WaterArguments {
     /// Where --region is a grid: the domain is where the depth is more than this, in metres [default: 0, the
@@ -23,7 +24,7 @@ pub struct WaterArguments {
     /// [default: none are]
     ///
     /// In square metres where the grid is in longitudes and latitudes, otherwise in its unit.
-    #[arg(long, value_name = "AREA", requires = "region", allow_hyphen_values = true)]
+    #[arg(long, value_name = "AREA", requires = "grid_region", allow_hyphen_values = true)]
     pub smallest_island: Option<f64>,
 
     /// Width of the narrowest inlet of --contour; narrower ones are closed [default: none are]
@@ -31,8 +32,15 @@ pub struct WaterArguments {
     /// Water stays where a disc of this diameter and one pixel, around the centre of a pixel, has no centre
     /// of a pixel of land in it. In metres where the grid is in longitudes and latitudes, otherwise in its
     /// unit.
-    #[arg(long, value_name = "WIDTH", requires = "region", allow_hyphen_values = true)]
+    #[arg(long, value_name = "WIDTH", requires = "grid_region", allow_hyphen_values = true)]
     pub smallest_inlet: Option<f64>,
+
+    /// The domain is where the grid of --region has values, or that of --surface where there is no region
+    ///
+    /// Its outline runs halfway between the centre of a pixel with a value and one without. With
+    /// --smallest-island smaller gaps belong to the domain, and smaller parts do not.
+    #[arg(long, conflicts_with_all = ["contour", "domain", "inside", "project"])]
+    pub outside_nodata: bool,
 
     /// Depths of water: a grid of heights in metres, for the nodes of files and the options below; may be
     /// repeated, the first that has a value at a place counts

@@ -70,14 +70,16 @@ impl Approximation {
         budget: usize,
     ) -> Result<Progress, RefineError> {
         let next = match &mut self.step {
-            Step::Sample(sampling) => match sampling.advance(&built.domain, budget) {
-                Progress::More => None,
-                Progress::Done => {
-                    let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
-                    let goals = rule.goals().into();
-                    Some(self.refine(rule, goals, built))
+            Step::Sample(sampling) => {
+                match sampling.advance(&built.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
+                    Progress::More => None,
+                    Progress::Done => {
+                        let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
+                        let goals = rule.goals().into();
+                        Some(self.refine(rule, goals, built))
+                    }
                 }
-            },
+            }
             Step::Refine(work) => {
                 if work.advance(built, paint, budget)? == Progress::More {
                     return Ok(Progress::More);

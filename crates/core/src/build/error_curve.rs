@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::search::Search;
 use super::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts};
-use crate::layers::{LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
+use crate::layers::{Layer, LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
 use crate::mesh::{Element, Mesh, Progress, Refiner, TriangleId};
 use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSampling};
 
@@ -120,10 +120,12 @@ impl CurveTracing {
                 Progress::More => Step::Build(builder),
                 Progress::Done => self.begin_sampling(builder.finish()),
             },
-            Step::Sample(mut work) => match work.1.advance(&work.0.domain, budget) {
-                Progress::More => Step::Sample(work),
-                Progress::Done => self.begin_order(*work),
-            },
+            Step::Sample(mut work) => {
+                match work.1.advance(&work.0.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
+                    Progress::More => Step::Sample(work),
+                    Progress::Done => self.begin_order(*work),
+                }
+            }
             Step::Order(mut work) => match work.1.advance(&work.0, paint, budget)? {
                 Progress::More => Step::Order(work),
                 Progress::Done => self.begin_levels(*work)?,
@@ -146,9 +148,11 @@ impl CurveTracing {
     fn begin_order(&mut self, (built, mut sampling): (BuiltMesh, SurfaceSampling)) -> Step {
         let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
         let norm = self.curves.norm;
-        self.curves.samples = rule.samples().count();
-        let is_other = |kind: &LayerKind| !matches!(kind, LayerKind::Surface(_));
-        let has_others = self.spec.field.layers.iter().any(|layer| layer.visible && is_other(&layer.kind));
+        self.curves.samples = rule.samples().count().known;
+        let asks = |layer: &Layer| {
+            layer.visible && !layer.is_of_errors() && !matches!(layer.kind, LayerKind::Surface(_))
+        };
+        let has_others = self.spec.field.layers.iter().any(asks);
         if has_others {
             self.curves.others = Some(point_of(&built.mesh, &built, &rule, norm));
         }

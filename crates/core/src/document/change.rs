@@ -5,7 +5,7 @@
 use super::Settings;
 use crate::domain::Domain;
 use crate::field::RefinementRule;
-use crate::layers::{Circumstances, Layer, Mask, PaintLayers, Surface};
+use crate::layers::{Circumstances, Layer, LayerId, LayerKind, Mask, PaintLayers, Surface};
 
 /// The work that brings the mesh of some settings up to date with others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,12 +105,21 @@ impl Settings {
     /// Returns whether coarsening would leave triangles behind because of surfaces.
     fn surfaces_need_another_mesh(&self, old: &Self, paint: &PaintLayers) -> bool {
         let is_same = || self.domain == old.domain && self.has_same_field(old, paint);
-        !self.surfaces_asked().eq(old.surfaces_asked()) || (self.has_surface() && !is_same())
+        let has_other_errors = || !self.errors_asked().eq(old.errors_asked());
+        !self.surfaces_asked().eq(old.surfaces_asked())
+            || (self.has_surface() && (has_other_errors() || !is_same()))
     }
 
     /// Returns what matters of the visible layers of surfaces, from the bottom to the top.
     fn surfaces_asked(&self) -> impl Iterator<Item = (Option<&Mask>, &Surface)> {
         self.surfaces().map(|(layer, surface)| (layer.mask.as_ref(), surface))
+    }
+
+    /// Returns what matters of the visible layers of errors, from the bottom to the top. Paint belongs to a
+    /// layer by its identifier.
+    fn errors_asked(&self) -> impl Iterator<Item = (LayerId, Option<&Mask>, &LayerKind)> {
+        let asking = self.layers.iter().filter(|layer| layer.visible && layer.is_of_errors());
+        asking.map(|layer| (layer.id, layer.mask.as_ref(), &layer.kind))
     }
 
     /// Returns whether some visible layer is of a sort.

@@ -39,6 +39,7 @@ fn noun(quantity: Option<Quantity>) -> &'static str {
     match quantity {
         Some(Quantity::Risk) => "risk",
         Some(Quantity::Diameter) => "diameters",
+        Some(Quantity::Error) => "errors",
         None => "risk or diameters",
     }
 }
@@ -66,7 +67,8 @@ impl Settings {
                 && raster.blank() != quantity.blank()
             {
                 let other = match quantity {
-                    Quantity::Risk => Quantity::Diameter,
+                    _ if raster.blank() == Quantity::Error.blank() => Quantity::Error,
+                    Quantity::Risk | Quantity::Error => Quantity::Diameter,
                     Quantity::Diameter => Quantity::Risk,
                 };
                 let [is, read_as] = [other, quantity].map(|quantity| noun(Some(quantity)));
@@ -129,6 +131,7 @@ impl Document {
         let wanted = match medium {
             Medium::Risk(_) => Some(Quantity::Risk),
             Medium::Diameter(..) => Some(Quantity::Diameter),
+            Medium::Error(_) => Some(Quantity::Error),
             Medium::Eraser => None,
         };
         let takes = |layer: &&Layer| match (layer.paints(), wanted) {

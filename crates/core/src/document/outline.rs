@@ -8,6 +8,7 @@ use crate::domain::{
 };
 use crate::geometry::{GridError, Rect};
 use crate::layers::Depths;
+use crate::raster::Raster;
 use crate::text::{LengthUnit, Number};
 
 /// Why polygons cannot be added to a document.
@@ -88,12 +89,31 @@ impl Settings {
     /// # Errors
     /// Fails when there is no water, the depths lie outside the bounds, or need too large a coarse grid.
     pub fn with_contour(&self, depths: &Depths, contour: &DepthContour) -> Result<Setting, OutlineError> {
-        let (before, raster) = (&self.domain, depths.source().raster.raster());
-        let lengths = match (self.unit, before.projection) {
+        let raster = depths.source().raster.raster();
+        let depth_of = |value| depths.sizes().depth_of(value);
+        self.with_polygons_on(raster, contour.polygons(raster, self.pixel_lengths(), depth_of)?)
+    }
+
+    /// Returns the setting that makes the part of a raster that has values the domain, within the rectangle
+    /// of the document.
+    ///
+    /// # Errors
+    /// Fails when no pixel has a value, when the raster is outside the document, and when the polygons are
+    /// too many.
+    pub fn with_values_of(&self, raster: &Raster) -> Result<Setting, OutlineError> {
+        let polygons = DepthContour::SHORE.polygons_of_values(raster, self.pixel_lengths())?;
+        self.with_polygons_on(raster, polygons)
+    }
+
+    fn pixel_lengths(&self) -> PixelLengths {
+        match (self.unit, self.domain.projection) {
             (LengthUnit::Degree, None) => PixelLengths::Degrees,
             _ => PixelLengths::Plane,
-        };
-        let polygons = contour.polygons(raster, lengths, |value| depths.sizes().depth_of(value))?;
+        }
+    }
+
+    fn with_polygons_on(&self, raster: &Raster, polygons: Vec<Polygon>) -> Result<Setting, OutlineError> {
+        let before = &self.domain;
         let bounds = before.bounds.intersection(&raster.bounds()).filter(Rect::is_proper);
         let outside = OutlineError::Outside { outline: raster.bounds(), document: before.bounds };
         let bounds = bounds.ok_or(outside)?;

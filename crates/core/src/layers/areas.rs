@@ -5,7 +5,7 @@ use super::engine::KnownParts;
 use super::engine::cells::Cells;
 use super::extent::joined;
 use super::reach::Reach;
-use super::{Combine, LayerId, PaintLayers, SettledSquares, SizeField};
+use super::{Combine, Layer, LayerId, PaintLayers, Quantity, SettledSquares, SizeField};
 use crate::geometry::{LatticeRect, Rect};
 use crate::mesh::{ChangedArea, Falloff, TargetChange};
 use crate::raster::ValueRange;
@@ -57,6 +57,11 @@ fn near_changes_joined(painted: &[PaintChange]) -> Vec<PaintChange> {
             .flat_map(move |all| rects.clone().into_iter().map(move |area| PaintChange { area, ..all }))
     };
     groups.into_iter().flat_map(of_group).collect()
+}
+
+/// Returns whether diameters follow from what is painted on a layer.
+fn asks_for_diameters(layer: &Layer) -> bool {
+    layer.paints().is_some_and(|quantity| quantity != Quantity::Error)
 }
 
 impl SizeField {
@@ -140,7 +145,7 @@ impl SizeField {
         let PaintChange { layer, area, before, change } = painted;
         let stack = self.spec().layers.iter();
         let Some(layer) =
-            stack.filter(|other| other.visible && other.paints().is_some()).find(|l| l.id == *layer)
+            stack.filter(|other| other.visible && asks_for_diameters(other)).find(|l| l.id == *layer)
         else {
             return Vec::new();
         };

@@ -376,7 +376,7 @@ fn changed_threats<'a>(new: &'a Threats, old: &'a Threats) -> Vec<(Option<&'a Th
 /// Returns the direction of a change of the values of a layer, `None` where they are equal. The transfer
 /// curve, the outline, threats and paint are not looked at here.
 fn values_change(new: &LayerKind, old: &LayerKind, combine: Combine) -> Option<TargetChange> {
-    if new == old {
+    if new == old || (new.is_of_errors() && old.is_of_errors()) {
         return None;
     }
     match new {

@@ -116,6 +116,7 @@ impl Layer {
 
     fn extent_of_kind(&self, context: &ExtentContext) -> Extent {
         match &self.kind {
+            _ if self.is_of_errors() => Extent::Within(Vec::new()),
             LayerKind::Paint(_) => {
                 let raster = context.paint.get(self.id);
                 let tiles = raster

@@ -6,7 +6,7 @@ use super::{
     Depths, FeatureSize, Mask, PaintLayers, Shapes, Straits, Surface, SurfaceSource, Threats, ValueCurve,
 };
 use crate::domain::PieceChoice;
-use crate::field::Formula;
+use crate::field::{Formula, f32_not_below};
 use crate::raster::{Raster, RasterPyramid};
 
 /// Identifies a layer within a document, as long as the document exists.
@@ -55,6 +55,9 @@ pub enum Quantity {
     Risk,
     /// Target diameter in world units.
     Diameter,
+    /// The largest error of a mesh from surfaces, in their unit. It asks for no diameter: at a sample of a
+    /// surface it takes the place of the error that the surface allows.
+    Error,
 }
 
 impl Quantity {
@@ -63,6 +66,7 @@ impl Quantity {
         match self {
             Self::Risk => 0.0,
             Self::Diameter => f32::INFINITY,
+            Self::Error => f32::MAX,
         }
     }
 }
@@ -190,6 +194,8 @@ pub enum RasterReading {
     Risk,
     /// Target diameter in world units.
     Diameter,
+    /// The largest error from surfaces, in their unit.
+    Error,
     /// The curve gives the target diameter for a value.
     Curve(Arc<ValueCurve>),
 }
@@ -234,6 +240,33 @@ impl Layer {
         }
     }
 
+    /// Returns whether the layer says how large errors from surfaces may be.
+    pub fn is_of_errors(&self) -> bool {
+        self.kind.is_of_errors()
+    }
+
+    /// Returns the largest error from surfaces that the layer allows at a point in world units; `None` where
+    /// it says nothing: it is of something else, its mask ends, nothing is painted, or its number is not
+    /// positive and finite.
+    pub fn error_at(&self, paint: &PaintLayers, point: DVec2) -> Option<f64> {
+        if self.mask.as_ref().is_some_and(|mask| !mask.contains(point)) {
+            return None;
+        }
+        let error = match &self.kind {
+            LayerKind::Paint(Quantity::Error) => {
+                let error = paint.get(self.id)?.sample(point);
+                f64::from(if error == Quantity::Error.blank() { f32::INFINITY } else { error })
+            }
+            LayerKind::Formula { quantity: Quantity::Error, formula } => formula.eval(point.x, point.y),
+            LayerKind::Raster { source, reading: RasterReading::Error } => {
+                f64::from(source.raster.sample(point)?)
+            }
+            _ => return None,
+        };
+        // As paint has it, so that all layers agree.
+        (error > 0.0 && error.is_finite()).then(|| f64::from(f32_not_below(error)))
+    }
+
     /// Returns the data that other layers may share, its mask among them: the address of each and its size in
     /// bytes.
     pub(crate) fn shared_data(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
@@ -265,6 +298,15 @@ impl LayerKind {
     /// Returns whether it is a formula that uses the depth of the water.
     pub fn uses_depth(&self) -> bool {
         matches!(self, Self::Formula { formula, .. } if formula.uses_depth())
+    }
+
+    /// Returns whether it says how large errors from surfaces may be. Then it asks for no diameter.
+    pub fn is_of_errors(&self) -> bool {
+        match self {
+            Self::Paint(quantity) | Self::Formula { quantity, .. } => *quantity == Quantity::Error,
+            Self::Raster { reading, .. } => *reading == RasterReading::Error,
+            _ => false,
+        }
     }
 
     /// Returns whether it changes with the names and types of the pieces of the boundary.
@@ -309,6 +351,7 @@ impl LayerKind {
         match self {
             Self::Paint(Quantity::Risk) => "Painted risk",
             Self::Paint(Quantity::Diameter) => "Painted diameter",
+            Self::Paint(Quantity::Error) => "Painted error",
             Self::Formula { .. } => "Formula",
             Self::Raster { .. } => "Raster",
             Self::Threats(_) => "Threats",
@@ -343,7 +386,7 @@ impl LayerKind {
     pub(crate) fn shared_data(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let curve = |reading: &RasterReading| match reading {
             RasterReading::Curve(curve) => Some((Arc::as_ptr(curve).addr(), size_of_val(curve.knots()))),
-            RasterReading::Risk | RasterReading::Diameter => None,
+            RasterReading::Risk | RasterReading::Diameter | RasterReading::Error => None,
         };
         let raster =
             |source: &RasterSource| Some((Arc::as_ptr(&source.raster).addr(), source.raster.bytes()));

@@ -26,6 +26,12 @@ impl PaintLayers {
         &BLANK
     }
 
+    /// Returns the pixels of some layers alone. They are shared.
+    pub fn of_layers(&self, ids: impl IntoIterator<Item = LayerId>) -> Self {
+        let pixels = |id| Some((id, self.rasters.get(&id)?.clone()));
+        Self { rasters: ids.into_iter().filter_map(pixels).collect() }
+    }
+
     /// Returns the pixels of a layer, if it has any.
     #[inline]
     pub fn get(&self, id: LayerId) -> Option<&TiledRaster> {

@@ -2,6 +2,7 @@ use glam::{DVec2, dvec2};
 
 use crate::field::f32_not_below;
 use crate::geometry::nearest_share;
+use crate::layers::Quantity;
 use crate::mesh::TargetChange;
 
 /// The effect of a brush on the pixels under it.
@@ -11,7 +12,10 @@ pub enum Medium {
     Risk(f64),
     /// Changes the target diameter to this value, in world units, if the change is of the given kind.
     Diameter(f64, DiameterChange),
-    /// Removes risk and target diameter.
+    /// Sets the largest error from surfaces to this value, in their unit, where the brush covers a pixel by
+    /// half or more.
+    Error(f64),
+    /// Removes risk, target diameter and error.
     Eraser,
 }
 
@@ -24,7 +28,7 @@ impl Medium {
             Self::Diameter(target, DiameterChange::Finer) if target <= h_max => TargetChange::Finer,
             Self::Risk(aim) if aim <= 0.0 => TargetChange::Coarser,
             Self::Diameter(_, DiameterChange::Coarser) | Self::Eraser => TargetChange::Coarser,
-            Self::Risk(_) | Self::Diameter(..) => TargetChange::Any,
+            Self::Risk(_) | Self::Diameter(..) | Self::Error(_) => TargetChange::Any,
         }
     }
 }
@@ -81,16 +85,27 @@ impl Brush {
     }
 
     /// Returns the new value of a pixel from the old one, in a raster whose blank pixels have the value
-    /// `blank`: 0 in a raster of risks, infinite in one of diameters. `coverage` is the coverage by the
-    /// stroke, 0 to 1; `h_max` is the largest target diameter, in world units. A brush for the other kind of
-    /// raster changes nothing.
+    /// `blank`: 0 in a raster of risks, infinite in one of diameters, `f32::MAX` in one of errors.
+    /// `coverage` is the coverage by the stroke, 0 to 1; `h_max` is the largest target diameter, in world
+    /// units. A brush for another kind of raster changes nothing.
     pub(super) fn painted_value(&self, coverage: f32, old: f32, blank: f32, h_max: f64) -> f32 {
         let amount = f64::from(coverage) * self.strength;
-        match (self.medium, blank.is_infinite()) {
-            (Medium::Risk(aim), false) => moved_risk(old, aim, amount),
-            (Medium::Diameter(target, change), true) => changed_diameter(old, target, change, amount, h_max),
-            (Medium::Eraser, false) => moved_risk(old, 0.0, amount),
-            (Medium::Eraser, true) => raised_diameter(old, h_max, amount, h_max),
+        let is_of = |quantity: Quantity| blank == quantity.blank();
+        match self.medium {
+            Medium::Risk(aim) if is_of(Quantity::Risk) => moved_risk(old, aim, amount),
+            Medium::Diameter(target, change) if is_of(Quantity::Diameter) => {
+                changed_diameter(old, target, change, amount, h_max)
+            }
+            Medium::Error(error) if is_of(Quantity::Error) && amount >= 0.5 => f32_not_below(error),
+            Medium::Eraser if is_of(Quantity::Error) => {
+                if amount >= 0.5 {
+                    blank
+                } else {
+                    old
+                }
+            }
+            Medium::Eraser if is_of(Quantity::Risk) => moved_risk(old, 0.0, amount),
+            Medium::Eraser => raised_diameter(old, h_max, amount, h_max),
             _ => old,
         }
     }

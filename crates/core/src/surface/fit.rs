@@ -1,11 +1,13 @@
 //! How far a mesh is from a surface.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
 use super::samples::SurfaceSamples;
 use crate::layers::SurfaceNorm;
-use crate::mesh::MeshView;
+use crate::mesh::{MeshView, Triangle};
 
 /// Triangles that a thread takes at a time.
 const GRAIN: usize = 256;
@@ -67,6 +69,42 @@ impl SurfaceFit {
     }
 }
 
+impl SurfaceFit {
+    /// Returns a height for each node of the mesh, as [`SurfaceSamples::filled_heights`].
+    pub fn filled_heights(&self, mesh: MeshView) -> Vec<f64> {
+        filled(&self.heights, mesh)
+    }
+}
+
+/// Returns the heights of nodes: where there is none, the mean of the nodes around it that have one, from
+/// node to node; 0 without any.
+fn filled(heights: &[Option<f64>], mesh: MeshView) -> Vec<f64> {
+    let mut known = heights.to_vec();
+    let lacks = |known: &[Option<f64>], triangle: &Triangle| {
+        triangle.vertices.iter().any(|node| known[node.index()].is_none())
+    };
+    let inside = mesh.triangles().iter().filter(|triangle| !triangle.is_outside());
+    let mut open: Vec<&Triangle> = inside.filter(|triangle| lacks(&known, triangle)).collect();
+    while !open.is_empty() {
+        let mut sums: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+        for triangle in &open {
+            let corners = triangle.vertices.map(|node| node.index());
+            let around = corners.iter().filter_map(|&node| known[node]);
+            let (sum, count) = around.fold((0.0, 0.0), |(sum, count), height| (sum + height, count + 1.0));
+            for node in corners.into_iter().filter(|&node| count > 0.0 && known[node].is_none()) {
+                let of_node = sums.entry(node).or_default();
+                *of_node = (of_node.0 + sum, of_node.1 + count);
+            }
+        }
+        if sums.is_empty() {
+            break;
+        }
+        sums.into_iter().for_each(|(node, (sum, count))| known[node] = Some(sum / count));
+        open.retain(|triangle| lacks(&known, triangle));
+    }
+    known.into_iter().map(|height| height.unwrap_or(0.0)).collect()
+}
+
 fn places(mesh: MeshView) -> Vec<DVec2> {
     mesh.nodes().par_iter().map(|&node| mesh.lattice().world_from_lattice(node)).collect()
 }
@@ -75,6 +113,12 @@ impl SurfaceSamples {
     /// Returns the height at each node of a mesh, as [`SurfaceFit::heights`].
     pub fn heights_at_nodes(&self, mesh: MeshView) -> Vec<Option<f64>> {
         self.heights(&places(mesh))
+    }
+
+    /// Returns a height for each node of a mesh: where the surface has none, the mean of the nodes around it
+    /// that have one, from node to node; 0 without any.
+    pub fn filled_heights(&self, mesh: MeshView) -> Vec<f64> {
+        filled(&self.heights_at_nodes(mesh), mesh)
     }
 
     fn heights(&self, places: &[DVec2]) -> Vec<Option<f64>> {

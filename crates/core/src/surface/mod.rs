@@ -16,10 +16,14 @@
 //!    6  2  1 4
 //! ```
 //!
+//! Layers of errors, such as paint, give samples another ε. It stays that of a sample, so that all of this
+//! holds with "a sample of the triangle differs by more than its ε" in place of "the error exceeds ε".
+//!
 //! The error is not monotone: a triangle can meet ε while its children do not. So a mesh for another ε, or
 //! after an edit, is made from the top of the bisection tree, and not by coarsening the former one.
 
 mod alignment;
+mod errors;
 mod fit;
 mod heights;
 mod nodes;
@@ -37,5 +41,5 @@ pub use heights::HeightSource;
 pub use nodes::SurfaceNodes;
 pub use queue::{CurvePoint, ErrorQueue, QueueGoal};
 pub use rule::{SurfaceDemand, SurfaceRule};
-pub use samples::SurfaceSamples;
+pub use samples::{SampleCount, SurfaceSamples};
 pub use sampling::SurfaceSampling;

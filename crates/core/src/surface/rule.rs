@@ -44,7 +44,8 @@ pub struct SurfaceDemand {
     pub error: f64,
     /// The place of the largest difference, in world units.
     pub at: DVec2,
-    /// The largest difference that the layer allows, or the error of the whole mesh.
+    /// The largest difference that is allowed there, by the layer or by one of errors; or the error of the
+    /// whole mesh.
     pub most: f64,
 }
 
@@ -120,13 +121,29 @@ impl SurfaceRule {
         self.summed.iter().find(|(one, _)| *one == norm).map(|(_, error)| *error)
     }
 
-    /// Returns the height of the surface at a point in world units, and the largest difference that its layer
-    /// allows, which is infinite where its error is another one; `None` where no layer that covers it has a
+    /// Returns the largest difference that is allowed anywhere: by the layers of surfaces, and by layers of
+    /// errors.
+    pub fn largest_allowed(&self) -> f64 {
+        let of_layers = self.samples.layers.iter().flat_map(|layer| layer.errors.iter().flatten());
+        let of_layers = of_layers.filter(|error| !error.is_nan()).map(|&error| f64::from(error));
+        self.errors.iter().copied().chain(of_layers).fold(0.0, f64::max)
+    }
+
+    /// Returns whether layers of errors give samples an error in place of that of their surface.
+    pub fn has_errors_of_layers(&self) -> bool {
+        self.samples.layers.iter().any(|layer| layer.errors.is_some())
+    }
+
+    /// Returns the height of the surface at a point in world units, and the largest difference that layers of
+    /// errors, or else the layer of the surface, allow there; `None` where no layer that covers it has a
+    /// value. It is infinite where nothing but an error of the whole mesh is asked for.
     /// value.
     pub fn allowed_at(&self, point: DVec2) -> Option<(f64, f64)> {
         let layers = self.samples.layers.iter().zip(&self.errors);
         let mut covering = layers.filter(|(layer, _)| layer.covers(point));
-        covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))
+        let (height, own) =
+            covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))?;
+        Some((height, self.samples.errors.at(point).unwrap_or(own)))
     }
 
     /// Returns the largest error by a norm that the mesh was made for, if a layer has this norm.
@@ -157,38 +174,54 @@ impl SurfaceRule {
     pub fn demand_in(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<SurfaceDemand> {
         let triangle = SurfaceTriangle::of(corners, lattice, &self.samples);
         let heights = triangle.heights?;
-        let layers = || self.samples.layers.iter();
-        let by_difference = self.layer_exceeded(&triangle);
-        let by_sum =
-            || layers().find(|one| one.norm != SurfaceNorm::Largest && one.has_sample(triangle.corners));
-        let layer = match by_difference {
-            Some(layer) => layer,
-            None => by_sum().filter(|_| self.is_bisected(corners))?,
-        };
-        let most = self.errors().find(|(id, _)| *id == layer.id)?.1;
-        let mut demand =
-            SurfaceDemand { layer: layer.id, norm: layer.norm, error: 0.0, at: triangle.corners[0], most };
-        layer.each(triangle.corners, heights, |at, difference| {
-            if difference.abs() > demand.error {
-                (demand.error, demand.at) = (difference.abs(), at);
-            }
-        });
-        if layer.norm != SurfaceNorm::Largest {
-            let squares = layer.squares(triangle.corners, heights, layer.norm);
-            demand.error = libm::sqrt(squares / triangle.area());
+        if let Some((layer, own)) = self.layer_exceeded(&triangle) {
+            return Some(self.demand_of_difference(layer, own, &triangle, heights));
         }
-        Some(demand)
+        if !self.is_bisected(corners) {
+            return None;
+        }
+        let is_summed = |layer: &&LayerSamples| layer.norm != SurfaceNorm::Largest;
+        let mut summed = self.samples.layers.iter().filter(is_summed);
+        let layer = summed.find(|layer| layer.has_sample(triangle.corners))?;
+        let squares = layer.squares(triangle.corners, heights, layer.norm);
+        let most = self.summed_error(layer.norm)?;
+        let largest = self.demand_of_difference(layer, f64::INFINITY, &triangle, heights);
+        Some(SurfaceDemand { error: libm::sqrt(squares / triangle.area()), most, ..largest })
     }
 
-    /// Returns a layer whose largest difference a triangle exceeds.
-    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<&LayerSamples> {
+    /// Returns the demand of the sample that exceeds what is allowed by the largest factor; where nothing is
+    /// allowed or forbidden, by the largest difference.
+    fn demand_of_difference(
+        &self,
+        layer: &LayerSamples,
+        own: f64,
+        triangle: &SurfaceTriangle,
+        heights: [f64; 3],
+    ) -> SurfaceDemand {
+        let (mut largest, mut at) = ([0.0; 3], triangle.corners[0]);
+        layer.each(triangle.corners, heights, |place, difference| {
+            let (error, most) = (difference.abs(), self.samples.errors.at(place).unwrap_or(own));
+            let factor = if most.is_finite() { error / most } else { 0.0 };
+            if [factor, error] > [largest[0], largest[1]] {
+                (largest, at) = ([factor, error, most], place);
+            }
+        });
+        let [_, error, most] = largest;
+        SurfaceDemand { layer: layer.id, norm: layer.norm, error, at, most }
+    }
+
+    /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it, with
+    /// the difference that the layer allows.
+    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, f64)> {
         let layers = self.samples.layers.iter().zip(&self.errors);
-        let mut asking = layers.filter(|(layer, error)| error.is_finite() && layer.may_ask(triangle));
+        let asks = |layer: &LayerSamples, error: f64| error.is_finite() || layer.errors.is_some();
+        let mut asking = layers.filter(|(layer, error)| asks(layer, **error) && layer.may_ask(triangle));
         let exceeded = asking.find(|(layer, error)| match triangle.heights {
             Some(heights) => layer.exceeds(triangle.corners, heights, **error),
-            None => layer.has_sample(triangle.corners),
+            None if error.is_finite() => layer.has_sample(triangle.corners),
+            None => layer.has_sample_of_layers(triangle.corners),
         });
-        exceeded.map(|(layer, _)| layer)
+        exceeded.map(|(layer, &error)| (layer, error))
     }
 
     /// Returns what a norm says about a triangle of the domain. `nodes` keeps the heights at nodes.

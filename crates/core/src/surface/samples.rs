@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::errors::ErrorLayers;
 use crate::layers::{LayerId, Mask, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use crate::raster::RasterPyramid;
 
@@ -16,6 +17,54 @@ const FARTHEST_PIXEL: u32 = 64;
 pub struct SurfaceSamples {
     /// From the top to the bottom.
     pub(super) layers: Vec<LayerSamples>,
+    pub(super) count: SampleCount,
+    /// The least and the greatest value of a sample in the domain.
+    pub(super) range: Option<[f64; 2]>,
+    pub(super) errors: ErrorLayers,
+}
+
+/// How many samples of the layers are in the domain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SampleCount {
+    /// Those with a value.
+    pub known: usize,
+    /// Those at which no layer has a value. There the mesh is not refined.
+    pub missing: usize,
+}
+
+impl SampleCount {
+    /// Returns the share of samples without a value, 0 to 1.
+    pub fn missing_share(self) -> f64 {
+        self.missing as f64 / (self.known + self.missing).max(1) as f64
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self { known: self.known + other.known, missing: self.missing + other.missing }
+    }
+}
+
+/// Figures of some samples: how many there are, and the least and the greatest value.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct SampleFigures {
+    pub(super) count: SampleCount,
+    pub(super) range: Option<[f64; 2]>,
+}
+
+impl SampleFigures {
+    /// Adds a sample with a value.
+    pub(super) fn add_known(&mut self, value: f64) {
+        self.count.known += 1;
+        self.range = joined(self.range, Some([value; 2]));
+    }
+
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { count: self.count.plus(other.count), range: joined(self.range, other.range) }
+    }
+}
+
+fn joined(a: Option<[f64; 2]>, b: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    let both = a.zip(b).map(|(a, b)| [a[0].min(b[0]), a[1].max(b[1])]);
+    both.or(a).or(b)
 }
 
 /// The samples of one layer.
@@ -34,6 +83,9 @@ pub(super) struct LayerSamples {
     pub(super) values: SampleValues,
     /// The areas that the samples stand for, in square world units: those of values, and those of gradients.
     pub(super) areas: [f64; 2],
+    /// The largest error at each sample by layers of errors, NaN where they say none; `None` where they say
+    /// none anywhere.
+    pub(super) errors: Option<Vec<f32>>,
 }
 
 /// The places of samples: `first + step * (column, row)`.
@@ -92,6 +144,16 @@ impl SurfaceSamples {
         heights(true).next().or_else(|| heights(false).next()).or_else(|| self.nearest(point))
     }
 
+    /// Returns the least and the greatest value of the samples in the domain; `None` without any.
+    pub fn height_range(&self) -> Option<[f64; 2]> {
+        self.range
+    }
+
+    /// Returns how many samples are in the domain, with a value and without.
+    pub fn count(&self) -> SampleCount {
+        self.count
+    }
+
     /// Returns the value of the nearest pixel of any layer.
     fn nearest(&self, point: DVec2) -> Option<f64> {
         let rasters = self.layers.iter().filter_map(|layer| layer.source.raster());
@@ -115,25 +177,60 @@ impl LayerSamples {
         self.mask.as_ref().is_none_or(|mask| mask.contains(point))
     }
 
-    /// Returns whether a sample in a closed triangle, given by its corners in world units, is farther than
-    /// `error` from the plane with these heights at the corners.
+    /// Returns whether a sample in a closed triangle, given by its corners in world units, is farther from
+    /// the plane with these heights at the corners than layers of errors allow there, or than `error` where
+    /// they say nothing.
     pub(super) fn exceeds(&self, corners: [DVec2; 3], heights: [f64; 3], error: f64) -> bool {
+        self.is_beyond(corners, heights, error, f64::from)
+    }
+
+    /// Returns whether a sample in a closed triangle is farther from a plane than `error`, or than
+    /// `of_layers` of the error that layers of errors allow there.
+    fn is_beyond(
+        &self,
+        corners: [DVec2; 3],
+        heights: [f64; 3],
+        error: f64,
+        of_layers: impl Fn(f32) -> f64 + Copy,
+    ) -> bool {
         let plane = self.grid.plane(corners, heights);
-        plane.rows(&self.grid).any(|row| match &self.values {
-            SampleValues::Pixels(raster) => row.exceeds(raster.raster().row(row.row, row.columns()), error),
-            SampleValues::Singles(values) => row.exceeds(&values[self.grid.places(&row)], error),
-            SampleValues::Doubles(values) => row.exceeds(&values[self.grid.places(&row)], error),
+        let most = |most: f32| if most.is_nan() { error } else { of_layers(most) };
+        plane.rows(&self.grid).any(|row| match (&self.values, self.errors_in(&row)) {
+            (SampleValues::Pixels(raster), None) => {
+                row.exceeds(raster.raster().row(row.row, row.columns()), error)
+            }
+            (SampleValues::Singles(values), None) => row.exceeds(&values[self.grid.places(&row)], error),
+            (SampleValues::Doubles(values), None) => row.exceeds(&values[self.grid.places(&row)], error),
+            (SampleValues::Pixels(raster), Some(errors)) => {
+                row.exceeds_each(raster.raster().row(row.row, row.columns()), errors, most)
+            }
+            (SampleValues::Singles(values), Some(errors)) => {
+                row.exceeds_each(&values[self.grid.places(&row)], errors, most)
+            }
+            (SampleValues::Doubles(values), Some(errors)) => {
+                row.exceeds_each(&values[self.grid.places(&row)], errors, most)
+            }
         })
     }
 
+    /// Returns the errors that layers of errors allow at the samples of a row, if they say any.
+    fn errors_in(&self, row: &SampleRow) -> Option<&[f32]> {
+        self.errors.as_ref().map(|errors| &errors[self.grid.places(row)])
+    }
+
     /// Returns the largest difference of a sample in a closed triangle from the plane with these heights at
-    /// the corners; 0 without samples.
+    /// the corners; 0 without samples. Samples with an error by layers of errors do not count.
     pub(super) fn error(&self, corners: [DVec2; 3], heights: [f64; 3]) -> f64 {
         let plane = self.grid.plane(corners, heights);
-        plane.rows(&self.grid).fold(0.0, |error, row| match &self.values {
-            SampleValues::Pixels(raster) => row.error(raster.raster().row(row.row, row.columns()), error),
-            SampleValues::Singles(values) => row.error(&values[self.grid.places(&row)], error),
-            SampleValues::Doubles(values) => row.error(&values[self.grid.places(&row)], error),
+        plane.rows(&self.grid).fold(0.0, |error, row| {
+            let errors = self.errors_in(&row);
+            match &self.values {
+                SampleValues::Pixels(raster) => {
+                    row.error(raster.raster().row(row.row, row.columns()), errors, error)
+                }
+                SampleValues::Singles(values) => row.error(&values[self.grid.places(&row)], errors, error),
+                SampleValues::Doubles(values) => row.error(&values[self.grid.places(&row)], errors, error),
+            }
         })
     }
 
@@ -153,7 +250,12 @@ impl LayerSamples {
 
     /// Returns whether a closed triangle, given by its corners in world units, has a sample.
     pub(super) fn has_sample(&self, corners: [DVec2; 3]) -> bool {
-        self.exceeds(corners, [0.0; 3], -1.0)
+        self.is_beyond(corners, [0.0; 3], -1.0, |_| -1.0)
+    }
+
+    /// Returns whether a closed triangle has a sample for which layers of errors say an error.
+    pub(super) fn has_sample_of_layers(&self, corners: [DVec2; 3]) -> bool {
+        self.errors.is_some() && self.is_beyond(corners, [0.0; 3], f64::INFINITY, |_| -1.0)
     }
 }
 
@@ -265,11 +367,27 @@ impl SampleRow {
         values.iter().enumerate().any(|(n, &value)| (value.into() - self.height(n)).abs() > error)
     }
 
+    /// Returns whether a sample is farther from the plane than `most` of its number in `errors`.
     #[inline]
-    fn error<V: Copy + Into<f64>>(&self, values: &[V], least: f64) -> f64 {
+    fn exceeds_each<V: Copy + Into<f64>>(
+        &self,
+        values: &[V],
+        errors: &[f32],
+        most: impl Fn(f32) -> f64,
+    ) -> bool {
+        let samples = values.iter().zip(errors).enumerate();
+        let mut beyond =
+            samples.map(|(n, (&value, &error))| (value.into() - self.height(n)).abs() > most(error));
+        beyond.any(|is_beyond| is_beyond)
+    }
+
+    /// Samples with a number in `errors` do not count.
+    #[inline]
+    fn error<V: Copy + Into<f64>>(&self, values: &[V], errors: Option<&[f32]>, least: f64) -> f64 {
+        let counts = |n: usize| errors.is_none_or(|errors| errors[n].is_nan());
         values.iter().enumerate().fold(least, |error, (n, &value)| {
             let difference = (value.into() - self.height(n)).abs();
-            if difference > error { difference } else { error }
+            if difference > error && counts(n) { difference } else { error }
         })
     }
 }

@@ -6,10 +6,11 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::samples::{LayerSamples, SampleGrid, SampleValues, SurfaceSamples};
+use super::errors::ErrorLayers;
+use super::samples::{LayerSamples, SampleFigures, SampleGrid, SampleValues, SurfaceSamples};
 use crate::domain::DomainOnLattice;
 use crate::geometry::{Lattice, Rect};
-use crate::layers::{Layer, LayerKind, SurfaceSource};
+use crate::layers::{Layer, LayerKind, PaintLayers, SurfaceSource};
 use crate::mesh::Progress;
 use crate::raster::Raster;
 
@@ -21,6 +22,8 @@ const STEPS_OF_FORMULA: u32 = 1024;
 #[derive(Clone, Debug)]
 pub struct SurfaceSampling {
     found: SurfaceSamples,
+    /// The layers of errors, until the first slice has their pixels.
+    of_errors: Option<Vec<Layer>>,
     /// The layer that is next.
     layer: usize,
     /// The row that is next.
@@ -33,15 +36,20 @@ impl SurfaceSampling {
     /// Returns the work for the layers of surfaces of a stack, from the bottom to the top, on a lattice;
     /// `None` if no visible layer is one.
     pub fn new(layers: &[Layer], lattice: &Lattice) -> Option<Self> {
+        let of_errors = layers.iter().filter(|layer| layer.is_of_errors()).cloned().collect();
         let visible = layers.iter().rev().filter(|layer| layer.visible);
         let layers: Vec<LayerSamples> =
             visible.filter_map(|layer| LayerSamples::of(layer, lattice)).collect();
-        let found = SurfaceSamples { layers };
-        (!found.layers.is_empty()).then_some(Self { found, layer: 0, row: 0, bounds: lattice.bounds() })
+        let found = SurfaceSamples { layers, ..SurfaceSamples::default() };
+        let (of_errors, bounds) = (Some(of_errors), lattice.bounds());
+        (!found.layers.is_empty()).then_some(Self { found, of_errors, layer: 0, row: 0, bounds })
     }
 
-    /// One slice of work: about `budget` samples.
-    pub fn advance(&mut self, domain: &DomainOnLattice, budget: usize) -> Progress {
+    /// One slice of work: about `budget` samples. The pixels of the first slice count in all.
+    pub fn advance(&mut self, domain: &DomainOnLattice, paint: &PaintLayers, budget: usize) -> Progress {
+        if let Some(of_errors) = self.of_errors.take() {
+            self.found.errors = ErrorLayers::new(&of_errors, paint);
+        }
         let Some(layer) = self.found.layers.get(self.layer) else { return Progress::Done };
         let [columns, rows] = layer.grid.size;
         let count = (budget / columns.max(1) as usize).clamp(1, rows as usize) as u32;
@@ -55,10 +63,14 @@ impl SurfaceSampling {
             }
             SurfaceSource::Formula(_) => Some(SampleValues::Doubles(self.heights(domain, range.clone()))),
         };
-        self.row = if new.is_some() { range.end } else { rows };
+        self.row = range.end;
         if let Some(new) = new {
             self.found.layers[self.layer].values.append(new);
         }
+        let before = SampleFigures { count: self.found.count, range: self.found.range };
+        let figures = before.plus(self.figures(domain, range.clone()));
+        (self.found.count, self.found.range) = (figures.count, figures.range);
+        self.find_errors(range);
         if self.row >= rows {
             self.found.layers[self.layer].measure(&self.bounds);
             (self.layer, self.row) = (self.layer + 1, 0);
@@ -95,6 +107,45 @@ impl SurfaceSampling {
             },
         );
         counting.collect()
+    }
+
+    /// Finds the errors that layers of errors allow at the samples of some rows.
+    fn find_errors(&mut self, rows: Range<u32>) {
+        if self.found.errors.is_empty() {
+            return;
+        }
+        let (layer, errors) = (&self.found.layers[self.layer], &self.found.errors);
+        let is_last = rows.end == layer.grid.size[1];
+        let new =
+            layer.grid.each_place(rows, |place| errors.at(place).map_or(f32::NAN, |error| error as f32));
+        let layer = &mut self.found.layers[self.layer];
+        let all = layer.errors.get_or_insert_default();
+        all.extend(new);
+        if is_last && all.iter().all(|error| error.is_nan()) {
+            layer.errors = None;
+        }
+    }
+
+    /// Returns the figures of the samples of some rows that were found.
+    fn figures(&self, domain: &DomainOnLattice, rows: Range<u32>) -> SampleFigures {
+        let (layers, layer) = (&self.found.layers, &self.found.layers[self.layer]);
+        let counts = self.counts(domain);
+        let has_value =
+            |place| layers.iter().any(|layer| layer.covers(place) && layer.source.height_at(place).is_some());
+        let of_row = |row: u32| {
+            let mut figures = SampleFigures::default();
+            for column in 0..layer.grid.size[0] {
+                let place = layer.grid.place(column, row);
+                let value = layer.values.get(column, row, &layer.grid);
+                if value.is_nan() {
+                    figures.count.missing += usize::from(counts(place) && !has_value(place));
+                } else if domain.contains(place) {
+                    figures.add_known(value);
+                }
+            }
+            figures
+        };
+        rows.into_par_iter().map(of_row).reduce(SampleFigures::default, SampleFigures::plus)
     }
 
     /// Returns the condition for a sample of the layer that is next: it is in the domain, the layer covers
@@ -138,6 +189,7 @@ impl LayerSamples {
             grid,
             values,
             areas: [0.0; 2],
+            errors: None,
         })
     }
 }

@@ -14,12 +14,6 @@ impl SurfaceSamples {
         self.layers.iter().map(|layer| layer.areas[usize::from(norm == SurfaceNorm::Gradient)]).sum()
     }
 
-    /// Returns the number of samples that count.
-    pub(crate) fn count(&self) -> usize {
-        let of_layer = |layer: &LayerSamples| layer.areas[0] / (layer.grid.step.x * layer.grid.step.y);
-        self.layers.iter().map(|layer| libm::round(of_layer(layer)) as usize).sum()
-    }
-
     /// Returns the root of a mean: of the sum of the squares over triangles.
     pub(crate) fn root_of_mean(&self, squares: f64, norm: SurfaceNorm) -> f64 {
         let area = self.area(norm);

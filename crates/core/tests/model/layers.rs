@@ -41,7 +41,7 @@ fn combine(random: &mut Rng) -> Combine {
 fn value(random: &mut Rng, quantity: Quantity) -> f32 {
     match quantity {
         Quantity::Risk => random.u32(..=64) as f32 / 64.0,
-        Quantity::Diameter => random.u32(1..200) as f32 / 256.0,
+        Quantity::Diameter | Quantity::Error => random.u32(1..200) as f32 / 256.0,
     }
 }
 
@@ -54,6 +54,7 @@ fn reading(quantity: Quantity, transfer: Transfer, nothing: Option<f64>) -> impl
     move |value| match quantity {
         _ if value.is_nan() => f64::INFINITY,
         Quantity::Diameter => value,
+        Quantity::Error => f64::INFINITY,
         Quantity::Risk if Some(value) == nothing => f64::INFINITY,
         Quantity::Risk if value <= 0.0 => transfer.h_max,
         Quantity::Risk if value >= 1.0 => transfer.h_risk,

@@ -15,7 +15,7 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, StringKind};
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
@@ -27,6 +27,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "ADCIRC (fort.14): open boundaries, land and islands",
     size: SIZE,
     has_targets: false,
+    third: ThirdCoordinate::None,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

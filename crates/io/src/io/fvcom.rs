@@ -9,7 +9,7 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
@@ -21,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "FVCOM: three files, mesh, depths and open boundary",
     size: TypicalSize { bytes: 48.0, bytes_per_digit: 5.0 },
     has_targets: false,
+    third: ThirdCoordinate::None,
     beside: &[
         ("_dep.dat", |out, mesh, data, meter| write_depths(&mut meter.count(out), mesh, data)),
         ("_obc.dat", |out, mesh, data, meter| write_open_boundary(&mut meter.count(out), mesh, data)),

@@ -8,7 +8,7 @@
 use std::io::{self, Write};
 
 use super::fort14::{self, Dialect, number_of_land, write_dialect};
-use super::{FormatSpec, MeshData};
+use super::{FormatSpec, MeshData, ThirdCoordinate};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
@@ -21,6 +21,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "SCHISM (hgrid.gr3): open boundaries, land and islands",
     size: fort14::SIZE,
     has_targets: false,
+    third: ThirdCoordinate::None,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,
@@ -34,6 +35,7 @@ pub static FORMAT_IN_DEGREES: FormatSpec = FormatSpec {
     purpose: "SCHISM (hgrid.ll): the same in degrees",
     size: fort14::SIZE,
     has_targets: false,
+    third: ThirdCoordinate::None,
     beside: &[],
     write: |out, mesh, data, meter| write_in_degrees(&mut meter.count(out), mesh, data),
     write_binary: None,

@@ -30,12 +30,25 @@ pub struct FormatSpec {
     pub size: TypicalSize,
     /// Whether h̄ at the nodes is in its files: [`MeshData::target_diameter`].
     pub has_targets: bool,
+    /// What the third coordinate of its nodes is.
+    pub third: ThirdCoordinate,
     /// The further files of the format: their extensions, or what takes the place of `tail`, and writers.
     pub beside: &'static [(&'static str, WriteMesh)],
     /// Writes a mesh.
     pub write: WriteMesh,
     /// Writes a mesh in binary form, if the format has a form of either kind.
     pub write_binary: Option<WriteMesh>,
+}
+
+/// The third coordinate of nodes in the files of a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ThirdCoordinate {
+    /// There is none, or it is a depth for a solver.
+    None,
+    /// The height of a surface, [`MeshData::heights`].
+    Height,
+    /// The height of a surface, in a format of models in space, where all coordinates are lengths.
+    Model,
 }
 
 /// How long the files of a format are, all together, as measured on graded meshes and coasts.
@@ -59,6 +72,11 @@ impl MeshFormat {
     /// Returns whether h̄ at the nodes is in its files; the others are written without reading it.
     pub fn has_targets(self) -> bool {
         self.spec.has_targets
+    }
+
+    /// Returns what the third coordinate of its nodes is.
+    pub fn third_coordinate(self) -> ThirdCoordinate {
+        self.spec.third
     }
 
     /// Returns the binary form of a format that is text otherwise, if there is one: of `.msh`.

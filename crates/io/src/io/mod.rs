@@ -7,6 +7,8 @@
 //! - nodes and triangles are in the order of the extract, unless the format says otherwise;
 //! - a triangle's vertices run anticlockwise, the first two being the ends of its bisection edge;
 //! - coordinates and h̄ are in world units; a number is the shortest text that reads back as the same f64;
+//! - the third coordinate of a node is the height of a surface, [`MeshData::heights`], or 0, where a format
+//!   has one that is no depth;
 //! - numbers of nodes and triangles start at zero, except in `.msh`, `.obj`, `.2dm` and the formats of
 //!   coastal solvers, which start at one.
 //!
@@ -39,6 +41,7 @@ mod meter;
 pub mod mike;
 pub mod geojson;
 pub mod geotiff;
+pub mod glb;
 pub mod gpkg;
 pub mod gpx;
 pub mod journal;
@@ -55,6 +58,7 @@ pub mod npy;
 pub mod obj;
 mod parallel_rows;
 pub mod path;
+pub mod ply;
 pub mod png;
 pub mod points;
 mod positions;
@@ -98,7 +102,7 @@ pub use fault::{KeyFault, Mark, Step};
 pub use folder::{FolderEntry, FolderListing, MOST_ENTRIES, is_folder, list_folder, resolve};
 pub use given::{Given, GivenGrid};
 pub use interrupt::Interruption;
-pub use mesh_file::{FormatSpec, MeshFormat, TypicalSize};
+pub use mesh_file::{FormatSpec, MeshFormat, ThirdCoordinate, TypicalSize};
 use meshbrush_core::domain::MeshBoundary;
 pub use meshbrush_mesh::text::Number;
 pub use meter::{Cancelled, Counted, Meter};
@@ -112,11 +116,13 @@ pub use text_file::read_text;
 pub use values::TextValue;
 
 /// The formats of meshes. A new one is a module and an entry here.
-static MESH_FORMATS: [&FormatSpec; 15] = [
+static MESH_FORMATS: [&FormatSpec; 17] = [
     &vtu::FORMAT,
     &msh::FORMAT,
     &obj::FORMAT,
     &stl::FORMAT,
+    &ply::FORMAT,
+    &glb::FORMAT,
     &node::FORMAT,
     &sms::FORMAT,
     &csv::FORMAT,
@@ -147,6 +153,8 @@ pub struct MeshData<'a> {
     pub target_diameter: &'a [f64],
     /// Further values at the nodes, in the same order.
     pub quantities: &'a [NodeValues],
+    /// The height of each node above the plane, in the same order, for formats with a third coordinate.
+    pub heights: Option<&'a [f64]>,
     /// The boundary in named pieces.
     pub boundary: &'a MeshBoundary,
     /// The number of each triangle's part, from 0 for the largest: [`Extract::part_numbers`].
@@ -177,6 +185,11 @@ impl MeshData<'_> {
     /// name `depth`. Without it they have depth 0 everywhere; h̄ is a length of triangles and no depth.
     pub fn depths(&self) -> Option<&[f64]> {
         self.quantities.iter().find(|quantity| quantity.name == DEPTH).map(|depth| &*depth.values)
+    }
+
+    /// The third coordinate of a node: the height of the surface, 0 without one.
+    fn height(&self, node: usize) -> f64 {
+        self.heights.map_or(0.0, |heights| heights[node])
     }
 
     /// The depth at a node, positive downwards; 0 without depths.

@@ -1,16 +1,17 @@
 //! `.msh`: Gmsh 4.1, as text or in binary form, with the physical groups that solvers need.
 //!
-//! The triangles are the physical surface `domain` (1). Each piece of the boundary that has edges in the mesh
-//! is a physical curve with the name and the marker of the piece, with the domain on the left. h̄ and the
-//! quantities are node data; `level` and `part` (the number of the connected part, from 0 for the largest)
-//! are element data. Tags count from one, triangles first: the tag of a triangle is its id plus one.
+//! z is the height of the surface, or 0 without one. The triangles are the physical surface `domain` (1).
+//! Each piece of the boundary that has edges in the mesh is a physical curve with the name and the marker of
+//! the piece, with the domain on the left. h̄ and the quantities are node data; `level` and `part` (the
+//! number of the connected part, from 0 for the largest) are element data. Tags count from one, triangles
+//! first: the tag of a triangle is its id plus one.
 //!
 //! Both forms hold the same numbers. The binary one is quicker to write and to read, and not smaller. It is
 //! little-endian on every machine.
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{BoundaryEdge, Extract, NodeId, TriangleId};
 
@@ -22,6 +23,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Gmsh 4.1: with h̄ and the boundary as named groups",
     size: TypicalSize { bytes: 65.0, bytes_per_digit: 5.5 },
     has_targets: true,
+    third: ThirdCoordinate::Height,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: Some(|out, mesh, data, meter| write_binary(&mut meter.count(out), mesh, data)),
@@ -69,8 +71,8 @@ impl<W: Write> Writer<'_, W> {
         let curves = Curve::all(mesh, data);
         self.write_head(data)?;
         self.write_names(data, &curves)?;
-        self.write_entities(mesh, &curves)?;
-        self.write_nodes(mesh)?;
+        self.write_entities(mesh, data, &curves)?;
+        self.write_nodes(mesh, data)?;
         self.write_elements(mesh, &curves)?;
         for (name, values) in data.node_values() {
             self.write_values("NodeData", name, values.len(), |node| values[node])?;
@@ -110,21 +112,21 @@ impl<W: Write> Writer<'_, W> {
     }
 
     /// A curve for each piece, and the surface that they bound: tag, bounds, physical group, boundary.
-    fn write_entities(&mut self, mesh: &Extract, curves: &[Curve]) -> io::Result<()> {
+    fn write_entities(&mut self, mesh: &Extract, data: &MeshData, curves: &[Curve]) -> io::Result<()> {
         writeln!(self.out, "$Entities")?;
         self.row(&[Size(0), Size(curves.len()), Size(1), Size(0)])?;
         for curve in curves {
             let group = [Size(1), Int(curve.tag()), Size(0)];
-            self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds)[..], &group].concat())?;
+            self.row(&[&[Int(curve.tag())], &box_values(&curve.bounds, curve.heights)[..], &group].concat())?;
         }
         let boundary: Vec<Value> = curves.iter().map(|curve| Int(curve.tag())).collect();
         let group = [Size(1), Int(SURFACE), Size(curves.len())];
-        let bounds = box_values(&mesh.lattice().bounds());
+        let bounds = box_values(&mesh.lattice().bounds(), height_range(data, 0..mesh.nodes().len()));
         self.row(&[&[Int(SURFACE)], &bounds[..], &group, &boundary].concat())?;
         self.end("Entities")
     }
 
-    fn write_nodes(&mut self, mesh: &Extract) -> io::Result<()> {
+    fn write_nodes(&mut self, mesh: &Extract, data: &MeshData) -> io::Result<()> {
         let count = mesh.nodes().len();
         writeln!(self.out, "$Nodes")?;
         self.row(&[Size(1), Size(count), Size(1), Size(count)])?;
@@ -132,7 +134,7 @@ impl<W: Write> Writer<'_, W> {
         self.rows(count, |node| [Size(node + 1)])?;
         self.rows(count, |node| {
             let p = mesh.world(NodeId::from_index(node));
-            [Real(p.x), Real(p.y), Real(0.0)]
+            [Real(p.x), Real(p.y), Real(data.height(node))]
         })?;
         self.end("Nodes")
     }
@@ -219,6 +221,8 @@ struct Curve {
     piece: usize,
     edges: Vec<BoundaryEdge>,
     bounds: Rect,
+    /// The least and the greatest height.
+    heights: [f64; 2],
 }
 
 impl Curve {
@@ -230,9 +234,10 @@ impl Curve {
         }
         let curve = |(piece, edges): (usize, Vec<BoundaryEdge>)| {
             let nodes = edges.iter().flat_map(|edge| edge.ends);
+            let heights = height_range(data, nodes.clone());
             let points = nodes.map(|node| mesh.world(NodeId::from_index(node)));
             let bounds = points.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))?;
-            Some(Self { piece, edges, bounds })
+            Some(Self { piece, edges, bounds, heights })
         };
         edges.into_iter().enumerate().filter_map(curve).collect()
     }
@@ -242,8 +247,14 @@ impl Curve {
     }
 }
 
-/// Returns the lower and the upper corner of a box that is flat.
-fn box_values(bounds: &Rect) -> [Value; 6] {
+/// Returns the least and the greatest height of some nodes.
+fn height_range(data: &MeshData, nodes: impl Iterator<Item = usize>) -> [f64; 2] {
+    let heights = nodes.map(|node| data.height(node));
+    heights.map(|height| [height; 2]).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
+}
+
+/// Returns the lower and the upper corner of a box.
+fn box_values(bounds: &Rect, [lowest, highest]: [f64; 2]) -> [Value; 6] {
     let Rect { min, max } = bounds;
-    [Real(min.x), Real(min.y), Real(0.0), Real(max.x), Real(max.y), Real(0.0)]
+    [Real(min.x), Real(min.y), Real(lowest), Real(max.x), Real(max.y), Real(highest)]
 }

@@ -11,7 +11,7 @@
 use std::io::{self, Write};
 
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
@@ -22,6 +22,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Triangle: four files, nodes, elements, neighbours and edges",
     size: TypicalSize { bytes: 93.0, bytes_per_digit: 13.0 },
     has_targets: true,
+    third: ThirdCoordinate::None,
     beside: &[
         ("ele", |out, mesh, data, meter| write_elements(&mut meter.count(out), mesh, data)),
         ("neigh", |out, mesh, data, meter| write_neighbours(&mut meter.count(out), mesh, data)),

@@ -1,11 +1,12 @@
-//! `.obj`: Wavefront, for modelling and drawing programs. The mesh lies in the plane z = 0, facing up.
+//! `.obj`: Wavefront, for modelling and drawing programs. z is the height of the surface, or 0 without one;
+//! triangles face up.
 //!
 //! Triangles are grouped by level (`g level_3`), within a group in the order of the mesh. h̄ is the texture
 //! coordinate u of a node. Numbers start at one. The format has no place for further quantities.
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Wavefront.
@@ -16,6 +17,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Blender and other 3D programs: a group for each level",
     size: TypicalSize { bytes: 58.0, bytes_per_digit: 3.5 },
     has_targets: true,
+    third: ThirdCoordinate::Model,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,
@@ -31,7 +33,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     writeln!(out, "# texture coordinate u: target diameter; groups: level")?;
     write_rows(out, mesh.nodes().len(), |out, node| {
         let p = mesh.world(NodeId::from_index(node));
-        writeln!(out, "v {} {} 0", Number(p.x), Number(p.y))
+        writeln!(out, "v {} {} {}", Number(p.x), Number(p.y), Number(data.height(node)))
     })?;
     write_rows(out, data.target_diameter.len(), |out, node| {
         writeln!(out, "vt {} 0", Number(data.target_diameter[node]))

@@ -65,6 +65,14 @@ impl Provenance {
         self
     }
 
+    /// Says that coordinates are those of the plane of a projection, in metres.
+    #[must_use]
+    pub fn in_plane(mut self, plane: &Projection) -> Self {
+        self.lines.retain(|(key, _)| !matches!(*key, "coordinates" | "unit"));
+        self.lines.push(("coordinates", format!("x, y in {plane}")));
+        self.with_unit(LengthUnit::Metre)
+    }
+
     /// Returns the unit of coordinates.
     pub fn unit(&self) -> LengthUnit {
         self.unit

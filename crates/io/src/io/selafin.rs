@@ -14,7 +14,7 @@
 use std::io::{self, Write};
 
 use super::boundary_strings::{BoundaryString, BoundaryStrings, LAND};
-use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_core::domain::BoundaryType;
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::Grouped;
@@ -27,6 +27,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "TELEMAC (SELAFIN): two files, mesh and boundary conditions",
     size: TypicalSize { bytes: 33.0, bytes_per_digit: 0.0 },
     has_targets: false,
+    third: ThirdCoordinate::None,
     beside: &[("cli", |out, mesh, data, meter| write_conditions(&mut meter.count(out), mesh, data))],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,

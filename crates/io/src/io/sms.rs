@@ -1,7 +1,7 @@
 //! `.2dm`: the mesh format of SMS, read by TUFLOW, BASEMENT, QGIS and other programs for hydraulics.
 //!
-//! z is the first quantity, usually the height of the ground, and 0 without quantities. All elements have
-//! material 1: a solver needs a description of each material, so levels are not written as materials.
+//! z is the first quantity, such as a depth, else the height of the surface, and 0 without both. All elements
+//! have material 1: a solver needs a description of each material, so levels are not written as materials.
 //!
 //! Nodestrings are the pieces of the boundary with the domain on the left. One of a whole ring ends with its
 //! first node. A piece that is interrupted in the mesh has several nodestrings. The format has no place for
@@ -9,7 +9,7 @@
 
 use std::io::{self, Write};
 
-use super::{FormatSpec, MeshData, Number, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, Number, SURFACE, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// SMS.
@@ -20,6 +20,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "SMS, TUFLOW, BASEMENT, QGIS: the boundary as nodestrings",
     size: TypicalSize { bytes: 44.0, bytes_per_digit: 4.5 },
     has_targets: false,
+    third: ThirdCoordinate::Height,
     beside: &[],
     write: |out, mesh, data, meter| write(&mut meter.count(out), mesh, data),
     write_binary: None,
@@ -39,9 +40,10 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
         let [a, b, c] = mesh.cell(TriangleId::from_index(id)).corners.map(|node| node + 1);
         writeln!(out, "E3T {} {a} {b} {c} 1", id + 1)
     })?;
+    let quantity = data.quantities.iter().find(|quantity| quantity.name != SURFACE);
     write_rows(out, mesh.nodes().len(), |out, node| {
         let p = mesh.world(NodeId::from_index(node));
-        let z = data.quantities.first().map_or(0.0, |quantity| quantity.values[node]);
+        let z = quantity.map_or_else(|| data.height(node), |quantity| quantity.values[node]);
         writeln!(out, "ND {} {} {} {}", node + 1, Number(p.x), Number(p.y), Number(z))
     })?;
     let runs = data.boundary.runs(mesh);

@@ -1,14 +1,14 @@
-//! `.stl` in binary form, for printing and for programs that read only this. The mesh lies in the plane z =
-//! 0, facing up.
+//! `.stl` in binary form, for printing and for programs that read only this. z is the height of the surface,
+//! or 0 without one; triangles face up.
 //!
 //! The format has triangles only: no shared nodes, no level, no h̄. Its numbers have seven digits; a mesh
 //! with triangles too small for that is refused.
 
 use std::io::{self, Write};
 
-use glam::Vec2;
+use glam::Vec3;
 
-use super::{FormatSpec, MeshData, TypicalSize, write_rows};
+use super::{FormatSpec, MeshData, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 
 /// Triangles without shared nodes.
@@ -19,6 +19,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "CAD and 3D printing: triangles only, without h̄",
     size: TypicalSize { bytes: 50.0, bytes_per_digit: 0.0 },
     has_targets: false,
+    third: ThirdCoordinate::Model,
     beside: &[],
     write: |out, mesh, data, meter| {
         meter.expect(bytes(mesh));
@@ -48,22 +49,23 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     out.write_all(&count.to_le_bytes())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
         let corners = mesh.cell(TriangleId::from_index(id)).corners;
-        write_triangle(out, corners.map(|node| mesh.world(NodeId::from_index(node)).as_vec2()))
+        let place = |node: usize| mesh.world(NodeId::from_index(node)).extend(data.height(node)).as_vec3();
+        write_triangle(out, corners.map(place))
     })
 }
 
-fn write_triangle(out: &mut impl Write, corners: [Vec2; 3]) -> io::Result<()> {
-    let [a, b, c] = corners.map(|corner| corner.as_dvec2());
-    if (b - a).perp_dot(c - a) <= 0.0 {
+fn write_triangle(out: &mut impl Write, corners: [Vec3; 3]) -> io::Result<()> {
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+    let normal = (b - a).cross(c - a);
+    if normal.z <= 0.0 {
         let problem =
             format!("the numbers of .stl have seven digits, and the triangle near x = {}, y = {}", a.x, a.y);
         return Err(io::Error::other(
             problem + " would vanish; choose another format, or move the domain to the origin",
         ));
     }
-    out.write_all(bytemuck::bytes_of(&[0.0, 0.0, 1.0].map(f32::to_le_bytes)))?;
-    for corner in corners {
-        out.write_all(bytemuck::bytes_of(&[corner.x, corner.y, 0.0].map(f32::to_le_bytes)))?;
+    for values in [normal.normalize().as_vec3()].into_iter().chain(corners) {
+        out.write_all(bytemuck::bytes_of(&values.to_array().map(f32::to_le_bytes)))?;
     }
     out.write_all(&[0, 0]) // no attributes
 }

@@ -15,7 +15,7 @@ use std::io::{self, Write};
 
 use super::netcdf_writer::{AttributeValue, Attributes, Dataset, Kind, Variable, WriteRow};
 use super::triangle_pieces::TrianglePieces;
-use super::{FormatSpec, MeshData, Meter, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, ThirdCoordinate, TypicalSize};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -27,6 +27,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "Delft3D-FM (UGRID, NetCDF): with h̄ and boundary markers",
     size: TypicalSize { bytes: 52.0, bytes_per_digit: 0.0 },
     has_targets: true,
+    third: ThirdCoordinate::None,
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
     write_binary: None,

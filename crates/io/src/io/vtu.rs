@@ -1,5 +1,7 @@
 //! `.vtu`: an unstructured grid for VTK and ParaView, as XML with appended binary data, compressed by zlib.
 //!
+//! z is the height of the surface, or 0 without one.
+//!
 //! Point data: `target_diameter` (h̄), the quantities, and `boundary`, the marker of the piece of the
 //! boundary (the lower one where pieces meet), 0 elsewhere. Cell data: `level`, and `part`, the number of the
 //! connected part, from 0 for the largest. ParaView, VTK, PyVista and meshio read it.
@@ -21,7 +23,7 @@
 use std::io::{self, Write};
 
 use super::blocks::{BLOCK, Blocks};
-use super::{FormatSpec, MeshData, Meter, TypicalSize};
+use super::{FormatSpec, MeshData, Meter, ThirdCoordinate, TypicalSize};
 use meshbrush_mesh::mesh::Extract;
 
 /// VTK's unstructured grid.
@@ -32,6 +34,7 @@ pub static FORMAT: FormatSpec = FormatSpec {
     purpose: "ParaView and VTK, compressed: with h̄, levels and boundary",
     size: TypicalSize { bytes: 10.5, bytes_per_digit: 0.6 },
     has_targets: true,
+    third: ThirdCoordinate::Height,
     beside: &[],
     write: |mut out, mesh, data, meter| write_metered(&mut out, mesh, data, meter),
     write_binary: None,
@@ -131,7 +134,7 @@ pub fn write_metered(out: &mut impl Write, mesh: &Extract, data: &MeshData, mete
     let mut sections = [
         ("PointData", point_data(data, &markers)),
         ("CellData", vec![levels(mesh), parts(data)]),
-        ("Points", vec![points(mesh)]),
+        ("Points", vec![points(mesh, data)]),
         ("Cells", topology(mesh)),
     ];
     let bytes: usize = sections.iter().flat_map(|(_, arrays)| arrays).map(|array| array.bytes).sum();
@@ -214,8 +217,11 @@ fn parts<'a>(data: &'a MeshData<'a>) -> Array<'a> {
     Array::new("part", "UInt32", 1, data.parts.len(), parts)
 }
 
-fn points<'a>(mesh: &'a Extract) -> Array<'a> {
-    let coordinates = || mesh.world_nodes().flat_map(|p| [p.x, p.y, 0.0]).map(f64::to_le_bytes);
+fn points<'a>(mesh: &'a Extract, data: &'a MeshData<'a>) -> Array<'a> {
+    let coordinates = || {
+        let nodes = mesh.world_nodes().enumerate();
+        nodes.flat_map(|(node, p)| [p.x, p.y, data.height(node)]).map(f64::to_le_bytes)
+    };
     Array::new("Points", "Float64", 3, 3 * mesh.nodes().len(), coordinates)
 }
 

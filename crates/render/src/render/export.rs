@@ -11,7 +11,9 @@ use super::{Image, software};
 use crate::colormap::{Ground, LevelColors};
 use crate::scene::{Camera, Light, NodeHeights, SpaceCamera, SpaceView, Style, ViewDirection};
 use meshbrush_core::earth::Projection;
-use meshbrush_io::io::{MeshData, MeshFormat, Meter, Provenance, png, svg, write_file_metered};
+use meshbrush_io::io::{
+    MeshData, MeshFormat, Meter, Provenance, ThirdCoordinate, png, svg, write_file_metered,
+};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 
@@ -136,6 +138,14 @@ impl ExportFormat {
     /// Returns whether h̄ at the nodes is in its files.
     pub fn has_targets(self) -> bool {
         matches!(self, Self::Mesh(format) if format.has_targets())
+    }
+
+    /// Returns what the third coordinate of nodes in its files is.
+    pub fn third_coordinate(self) -> ThirdCoordinate {
+        match self {
+            Self::Mesh(format) => format.third_coordinate(),
+            Self::Svg | Self::Png => ThirdCoordinate::None,
+        }
     }
 
     /// Returns all files that an export to `path` writes. The first is `path`, or for FVCOM the one beside it

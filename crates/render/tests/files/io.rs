@@ -4,20 +4,23 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::io::Read;
 
 use flate2::read::ZlibDecoder;
-use glam::{DVec2, dvec2};
+use glam::{DVec2, DVec3, Vec3, dvec2};
 use meshbrush_core::domain::MeshBoundary;
 use meshbrush_io::io::{
-    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, msh, node, obj, png, sms, stl, svg,
-    vtu,
+    MeshData, MeshFormat, MeshSource, Meter, NodeValues, Provenance, csv, glb, msh, node, obj, ply, png, sms,
+    stl, svg, vtu,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
-use meshbrush_mesh::mesh::{Extract, Limits, Mesh, NodeId};
+use meshbrush_mesh::mesh::{Extract, Limits, Mesh, NodeId, TriangleId};
+use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 
 /// A mesh read from a file.
 #[derive(Debug, Default)]
 struct Found {
     nodes: Vec<DVec2>,
+    /// The third coordinate of each node.
+    heights: Vec<f64>,
     triangles: Vec<[usize; 3]>,
     levels: Vec<u32>,
     targets: Vec<f64>,
@@ -32,6 +35,7 @@ struct Sample {
     mesh: Mesh,
     targets: Vec<f64>,
     quantities: Vec<NodeValues>,
+    heights: Option<Vec<f64>>,
     boundary: MeshBoundary,
     parts: Vec<u32>,
     provenance: Provenance,
@@ -55,15 +59,17 @@ impl Sample {
             NodeValues { name: "height".into(), values: nodes().map(|p| p.x * 1e-9 - p.y).collect() };
         let (boundary, parts) = (MeshBoundary::of_mesh(&mesh.extract()), mesh.extract().part_numbers());
         let provenance = Provenance::new(MeshSource::Command(COMMAND), mesh.fingerprint(), "x, y");
-        Self { targets, quantities: vec![height], boundary, parts, provenance, mesh }
+        let surface = nodes().map(|p| libm::sin(3.0 * p.x) - 0.1 * p.y).collect();
+        let (quantities, heights) = (vec![height], Some(surface));
+        Self { targets, quantities, heights, boundary, parts, provenance, mesh }
     }
 
-    /// Returns a square, a rectangle whose cells are not square, and a ring with a hole.
+    /// Returns a square without heights, a rectangle whose cells are not square, and a ring with a hole.
     fn all() -> Vec<Self> {
         let oblong = Rect::new(dvec2(-3.25, 100.0), dvec2(4.5, 103.3));
         let ring = |p: DVec2| (0.5..=1.2).contains(&p.length());
         vec![
-            Self::new(Rect::UNIT, 0.25, |_| true, 0.01),
+            Self { heights: None, ..Self::new(Rect::UNIT, 0.25, |_| true, 0.01) },
             Self::new(oblong, 1.1, |_| true, 0.05),
             Self::new(Rect::around(DVec2::ZERO, 1.0), 0.1, ring, 0.02),
         ]
@@ -75,8 +81,9 @@ impl Sample {
     }
 
     fn data(&self) -> MeshData<'_> {
-        let Self { targets, quantities, boundary, parts, provenance, .. } = self;
-        MeshData { target_diameter: targets, quantities, boundary, parts, provenance }
+        let Self { targets, quantities, heights, boundary, parts, provenance, .. } = self;
+        let heights = heights.as_deref();
+        MeshData { target_diameter: targets, quantities, heights, boundary, parts, provenance }
     }
 
     /// Returns the names of the pieces, in the order of their markers.
@@ -132,6 +139,10 @@ impl Sample {
         self.mesh.coarse_triangles() as f64 * extent.x * extent.y / (2.0 * columns * rows)
     }
 
+    fn height(&self, node: usize) -> f64 {
+        self.heights.as_ref().map_or(0.0, |heights| heights[node])
+    }
+
     fn assert_same(&self, found: &Found) {
         assert_eq!(found.nodes.len(), self.mesh.raw_nodes().len());
         assert_eq!(found.triangles.len(), self.mesh.raw_triangle_count());
@@ -143,6 +154,9 @@ impl Sample {
         for (n, &place) in found.nodes.iter().enumerate() {
             assert_eq!(place, self.mesh.world(NodeId::from_index(n)));
         }
+        let heights: Vec<f64> = (0..found.nodes.len()).map(|n| self.height(n)).collect();
+        // Some formats have none.
+        assert!(found.heights.is_empty() || found.heights == heights);
         assert_eq!(found.targets, self.targets);
         self.assert_well_made(found, 1e-9);
     }
@@ -212,7 +226,8 @@ fn read_vtu(file: &[u8]) -> Found {
     let whole = |name| -> Vec<usize> {
         array(name, "Int64").chunks(8).map(|b| i64::from_le_bytes(b.try_into().unwrap()) as usize).collect()
     };
-    let nodes: Vec<DVec2> = floats("Points").chunks(3).map(|p| dvec2(p[0], p[1])).collect();
+    let points = floats("Points");
+    let nodes: Vec<DVec2> = points.chunks(3).map(|p| dvec2(p[0], p[1])).collect();
     let triangles: Vec<[usize; 3]> = whole("connectivity").chunks(3).map(|t| t.try_into().unwrap()).collect();
     assert_eq!(whole("offsets"), (1..=triangles.len()).map(|n| 3 * n).collect::<Vec<_>>());
     assert!(array("types", "UInt8").iter().all(|&kind| kind == 5));
@@ -222,6 +237,7 @@ fn read_vtu(file: &[u8]) -> Found {
     assert!(file.ends_with(b"\n  </AppendedData>\n</VTKFile>\n"));
     Found {
         nodes,
+        heights: points.chunks(3).map(|p| p[2]).collect(),
         triangles,
         levels: array("level", "UInt8").iter().map(|&level| level.into()).collect(),
         targets: floats("target_diameter"),
@@ -454,11 +470,13 @@ fn stl_reads_back() {
         for facet in file[84..].chunks(50) {
             let values: Vec<f32> =
                 facet[..48].chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
-            assert_eq!(values[..3], [0.0, 0.0, 1.0]);
             assert_eq!(facet[48..], [0, 0]);
+            let [normal, a, b, c] = [0, 3, 6, 9].map(|n| Vec3::from_slice(&values[n..]));
+            assert!(normal.distance((b - a).cross(c - a).normalize()) < 1e-2 && normal.z > 0.0, "{normal}");
+            let corners = sample.mesh.extract().cell(TriangleId::from_index(found.triangles.len())).corners;
+            assert_eq!([a, b, c].map(|p| p.z), corners.map(|node| sample.height(node) as f32));
             found.triangles.push([0, 1, 2].map(|corner| found.nodes.len() + corner));
             found.nodes.extend(values[3..].chunks(3).map(|p| dvec2(p[0].into(), p[1].into())));
-            assert!([5, 8, 11].iter().all(|&z| values[z] == 0.0));
         }
         sample.assert_well_made(&found, 1e-5);
     }
@@ -556,8 +574,12 @@ fn read_msh(file: &str) -> (Found, Vec<([usize; 2], String)>) {
     assert_eq!(numbers::<usize>(rows[0]), [1, count, 1, count]);
     assert_eq!(numbers::<usize>(rows[1]), [2, 1, 0, count]);
     assert_eq!(rows.len(), 2 + 2 * count);
-    let nodes =
-        rows[2 + count..].iter().map(|line| numbers::<f64>(line)).map(|p| dvec2(p[0], p[1])).collect();
+    let places: Vec<Vec<f64>> = rows[2 + count..].iter().map(|line| numbers(line)).collect();
+    let heights: Vec<f64> = places.iter().map(|p| p[2]).collect();
+    let range =
+        [heights.iter().copied().fold(f64::INFINITY, f64::min), heights.iter().copied().fold(-1e9, f64::max)];
+    assert_eq!([surface[3], surface[6]], range, "the box around the surface");
+    let nodes = places.iter().map(|p| dvec2(p[0], p[1])).collect();
 
     let rows: Vec<Vec<usize>> = section("Elements").iter().map(|line| numbers(line)).collect();
     let (blocks, all) = (rows[0][0], rows[0][1]);
@@ -581,6 +603,7 @@ fn read_msh(file: &str) -> (Found, Vec<([usize; 2], String)>) {
     assert_eq!(levels.len(), all);
     let found = Found {
         nodes,
+        heights,
         triangles: triangle_rows.iter().map(|t| [t[1] - 1, t[2] - 1, t[3] - 1]).collect(),
         levels: levels[..triangle_rows.len()].to_vec(),
         targets: values("NodeData", "target_diameter"),
@@ -765,7 +788,7 @@ fn obj_reads_back() {
                 "#" => {}
                 "v" => {
                     let p = numbers::<f64>(rest);
-                    assert_eq!(p[2], 0.0);
+                    found.heights.push(p[2]);
                     found.nodes.push(dvec2(p[0], p[1]));
                 }
                 "vt" => found.targets.push(numbers(rest)[0]),
@@ -785,6 +808,131 @@ fn obj_reads_back() {
         }
         sample.assert_same(&found);
     }
+}
+
+#[test]
+fn ply_reads_back() {
+    for sample in Sample::all() {
+        let file = sample.written(ply::write);
+        let end = file.windows(11).position(|bytes| bytes == b"end_header\n").unwrap() + 11;
+        let header = std::str::from_utf8(&file[..end]).unwrap();
+        let (nodes, triangles) = (sample.mesh.raw_nodes().len(), sample.mesh.raw_triangle_count());
+        let lines: Vec<&str> = header.lines().filter(|line| !line.starts_with("comment")).collect();
+        let expected = format!(
+            "ply\nformat binary_little_endian 1.0\nelement vertex {nodes}\nproperty double x\nproperty double y\n\
+             property double z\nproperty double quality\nproperty double height\nelement face {triangles}\n\
+             property list uchar uint vertex_indices\nend_header"
+        );
+        assert_eq!(lines.join("\n"), expected);
+        let (vertices, faces) = file[end..].split_at(40 * nodes);
+        let mut found = Found::default();
+        for vertex in vertices.chunks(40) {
+            let values: Vec<f64> =
+                vertex.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
+            found.nodes.push(dvec2(values[0], values[1]));
+            found.heights.push(values[2]);
+            found.targets.push(values[3]);
+            found.quantities.push(values[4]);
+        }
+        assert_eq!(faces.len(), 13 * triangles);
+        for face in faces.chunks(13) {
+            assert_eq!(face[0], 3);
+            let corner = |n: usize| u32::from_le_bytes(face[n..n + 4].try_into().unwrap()) as usize;
+            found.triangles.push([1, 5, 9].map(corner));
+        }
+        // The format has no levels: they are those of the mesh.
+        found.levels = sample.mesh.extract().triangles().iter().map(|triangle| triangle.level()).collect();
+        assert_eq!(found.quantities, sample.quantities[0].values);
+        sample.assert_same(&found);
+    }
+}
+
+#[test]
+fn glb_reads_back() {
+    let far = Rect::new(dvec2(5e6, 6e6), dvec2(5e6 + 8.0, 6e6 + 4.0));
+    for sample in Sample::all().into_iter().chain([Sample::new(far, 1.0, |_| true, 0.1)]) {
+        let file = sample.written(glb::write);
+        let (text, binary) = read_glb(&file);
+        let (nodes, triangles) = (sample.mesh.raw_nodes().len(), sample.mesh.raw_triangle_count());
+        let extras = &text["nodes"][0]["extras"];
+        let origin = [0, 1, 2].map(|axis| extras["origin"][axis].as_f64().unwrap());
+        assert_eq!(extras["metres_per_unit"], serde_json::json!([1.0, 1.0]));
+        let floats: Vec<f32> =
+            binary.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect();
+        let vector = |n: usize| Vec3::from_slice(&floats[3 * n..]).as_dvec3();
+        let mut found = Found::default();
+        for node in 0..nodes {
+            let (p, expected) = (vector(node), sample.mesh.world(NodeId::from_index(node)));
+            found.nodes.push(dvec2(p.x, -p.z));
+            let place = dvec2(origin[0] + p.x, origin[1] - p.z);
+            assert!(place.distance(expected) < 1e-5, "{place} {expected}");
+            assert!((origin[2] + p.y - sample.height(node)).abs() < 1e-6);
+            for (axis, value) in p.to_array().into_iter().enumerate() {
+                let bound = |key: &str| text["accessors"][0][key][axis].as_f64().unwrap();
+                assert!(bound("min") <= value && value <= bound("max"));
+            }
+        }
+        let indices: Vec<usize> = binary[24 * nodes..]
+            .chunks(4)
+            .map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize)
+            .collect();
+        found.triangles = indices.chunks(3).map(|corners| corners.try_into().unwrap()).collect();
+        assert_eq!(found.triangles.len(), triangles);
+        let mut sums = vec![DVec3::ZERO; nodes];
+        for corners in &found.triangles {
+            let [a, b, c] = corners.map(vector);
+            corners.iter().for_each(|&node| sums[node] += (b - a).cross(c - a));
+        }
+        for (node, sum) in sums.iter().enumerate() {
+            let normal = vector(nodes + node);
+            assert!(normal.distance(sum.normalize()) < 1e-3 && normal.y > 0.0, "{normal} {sum}");
+        }
+        sample.assert_well_made(&found, 1e-4);
+    }
+}
+
+/// Returns the description of a file and its numbers.
+fn read_glb(file: &[u8]) -> (serde_json::Value, &[u8]) {
+    let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+    assert_eq!((&file[..4], word(4), word(8)), (&b"glTF"[..], 2, file.len()));
+    let length = word(12);
+    assert_eq!((&file[16..20], length % 4), (&b"JSON"[..], 0));
+    let text: serde_json::Value = serde_json::from_slice(&file[20..20 + length]).unwrap();
+    let binary = &file[28 + length..];
+    assert_eq!((&file[24 + length..28 + length], word(20 + length)), (&b"BIN\0"[..], binary.len()));
+    assert_eq!(text["buffers"][0]["byteLength"], binary.len());
+    let views = text["bufferViews"].as_array().unwrap();
+    let whole: u64 = views.iter().map(|view| view["byteLength"].as_u64().unwrap()).sum();
+    assert_eq!(whole as usize, binary.len());
+    (text, binary)
+}
+
+#[test]
+fn glb_is_in_metres() {
+    let sample = Sample::new(Rect::new(dvec2(10.0, 59.5), dvec2(11.0, 60.5)), 0.5, |_| true, 0.1);
+    for (unit, width, height) in [
+        (LengthUnit::Metre, 1.0, 1.0),
+        (LengthUnit::Kilometre, 1e3, 1e3),
+        // Half of what it is at the equator.
+        (LengthUnit::Degree, 55_597.5, 111_195.1),
+    ] {
+        let provenance = sample.provenance.clone().with_unit(unit);
+        let file = sample
+            .written(|out, mesh, data| glb::write(out, mesh, &MeshData { provenance: &provenance, ..*data }));
+        let (text, _) = read_glb(&file);
+        let bound = |key: &str, axis: usize| text["accessors"][0][key][axis].as_f64().unwrap();
+        for (axis, expected) in [(0, width), (2, height)] {
+            let extent = bound("max", axis) - bound("min", axis);
+            assert!((extent / expected - 1.0).abs() < 1e-5, "{unit:?}: {extent}");
+        }
+    }
+}
+
+#[test]
+fn two_dm_has_the_surface_as_z_where_there_is_no_other_quantity() {
+    let sample = Sample { quantities: Vec::new(), ..Sample::all().remove(1) };
+    let (found, ..) = read_2dm(&String::from_utf8(sample.written(sms::write)).unwrap());
+    assert_eq!(Some(found.quantities), sample.heights);
 }
 
 #[test]

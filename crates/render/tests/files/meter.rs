@@ -59,7 +59,7 @@ impl Details {
 
     fn data<'a>(&'a self, targets: &'a [f64]) -> MeshData<'a> {
         let Self(boundary, parts, provenance) = self;
-        MeshData { target_diameter: targets, quantities: &[], boundary, parts, provenance }
+        MeshData { target_diameter: targets, quantities: &[], heights: None, boundary, parts, provenance }
     }
 }
 

@@ -85,7 +85,7 @@ impl Case {
 
     fn data(&self) -> MeshData<'_> {
         let Self { boundary, quantities, targets, parts, provenance, .. } = self;
-        MeshData { target_diameter: targets, quantities, boundary, parts, provenance }
+        MeshData { target_diameter: targets, quantities, heights: None, boundary, parts, provenance }
     }
 
     fn written(

@@ -38,6 +38,8 @@ pub enum DomainCommand {
     AddOutline(PathBuf),
     /// Makes a contour of a layer of depths the domain.
     UseContour(LayerId, DepthContour),
+    /// Makes the area in which the raster of a layer of a surface has values the domain.
+    UseValues(LayerId),
     /// Adds an outline that was read.
     SetOutline(Box<OutlineChange>),
 }

@@ -1,6 +1,6 @@
 //! Runs the commands about the domain.
 
-use super::load::{load_contour, load_domain, load_outline};
+use super::load::{load_area_of_values, load_contour, load_domain, load_outline};
 use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
@@ -48,6 +48,7 @@ impl Feature for DomainEditor {
             DomainCommand::UseContour(layer, contour) => {
                 load_contour(ctx.session, ctx.background, layer, contour)
             }
+            DomainCommand::UseValues(layer) => load_area_of_values(ctx.session, ctx.background, layer),
             DomainCommand::SetOutline(change) => set_outline(*change, ctx),
             DomainCommand::Bounds(bounds) => {
                 ctx.session.set_bounds(bounds);

@@ -7,7 +7,7 @@ use super::{DomainCommand, OutlineChange};
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
-use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, DepthContour, Domain};
 use meshbrush_core::earth::ProjectionChoice;
 use meshbrush_core::layers::{LayerId, LayerKind};
@@ -53,8 +53,27 @@ pub fn load_contour(session: &Session, background: &mut Background, layer: Layer
     let settings = session.document().settings().clone();
     let Some(layer) = settings.layer(layer).cloned() else { return };
     let (LayerKind::Depth(depths), name) = (layer.kind, layer.name) else { return };
+    find_outline(background, settings, name, move |settings| settings.with_contour(&depths, &contour));
+}
+
+/// Finds where the raster of a layer of a surface has values, and makes that the domain of the document.
+pub fn load_area_of_values(session: &Session, background: &mut Background, layer: LayerId) {
+    let settings = session.document().settings().clone();
+    let Some(layer) = settings.layer(layer).cloned() else { return };
+    let Some(source) = layer.kind.raster_source().cloned() else { return };
+    let find = move |settings: &Settings| settings.with_values_of(source.raster.raster());
+    find_outline(background, settings, layer.name, find);
+}
+
+/// Finds an outline, and makes it the domain of the document.
+fn find_outline(
+    background: &mut Background,
+    settings: Settings,
+    name: String,
+    find: impl FnOnce(&Settings) -> Result<Setting, OutlineError> + Send + 'static,
+) {
     let shown = name.clone();
-    background.start(Aim::Read, Path::new(&shown), move |_| match settings.with_contour(&depths, &contour) {
+    background.start(Aim::Read, Path::new(&shown), move |_| match find(&settings) {
         Ok(setting) => {
             let change = OutlineChange { name, before: settings.domain, setting };
             Outcome::PartRead(vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))])

@@ -79,6 +79,7 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     match document.settings().layer(id).and_then(Layer::paints) {
         Some(Quantity::Risk) => ctx.tools.kind = PaintKind::Risk,
         Some(Quantity::Diameter) => ctx.tools.kind = PaintKind::Diameter,
+        Some(Quantity::Error) => ctx.tools.kind = PaintKind::Error,
         None => {}
     }
     let layer = document.settings().layer(id);

@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         ui.push_id(layer.id.0, |ui| {
             ui.add_enabled_ui(!layer.locked, |ui| {
                 // A surface has no diameters to combine.
-                if !matches!(layer.kind, LayerKind::Surface(_)) {
+                if !matches!(layer.kind, LayerKind::Surface(_)) && !layer.is_of_errors() {
                     combine_rows(ui, layer, commands);
                 }
                 (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);

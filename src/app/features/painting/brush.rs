@@ -76,6 +76,7 @@ fn brush(tools: &Tools) -> Brush {
         (PaintKind::Risk, BrushMode::Set) => (Medium::Risk(tools.risk), 1.0),
         (PaintKind::Risk, BrushMode::Lower) => (Medium::Risk(0.0), tools.paint_strength),
         (PaintKind::Diameter, mode) => (Medium::Diameter(tools.diameter, diameter_change(mode)), 1.0),
+        (PaintKind::Error, _) => (Medium::Error(tools.error), 1.0),
     };
     Brush { medium, radius: tools.radius, hardness: tools.hardness, strength }
 }

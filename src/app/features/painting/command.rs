@@ -24,6 +24,8 @@ pub enum BrushCommand {
     Risk(f64),
     /// Sets the diameter that the brush paints.
     Diameter(f64),
+    /// Sets the largest error that the brush paints, in the unit of surfaces.
+    Error(f64),
     /// Takes the value at a point as the brush's own.
     Pick(DVec2),
     /// Sets the smoothing of strokes, 0 to 1.

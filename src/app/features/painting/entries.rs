@@ -39,6 +39,7 @@ fn brush(tools: &Tools) -> Vec<CatalogItem> {
     vec![
         kind("Paint risk", PaintKind::Risk).key(Key::R).group(),
         kind("Paint target diameter", PaintKind::Diameter).key(Key::T),
+        kind("Paint largest error", PaintKind::Error),
         mode(BrushMode::BuildUp, "Build up").key(Key::U).group(),
         mode(BrushMode::Set, "Set the value").key(Key::V),
         mode(BrushMode::Lower, "Lower").key(Key::L),

@@ -43,6 +43,7 @@ impl Feature for Painting {
             BrushCommand::Strength(strength) => tools.set_strength(strength),
             BrushCommand::Risk(risk) => tools.risk = risk.clamp(0.0, 1.0),
             BrushCommand::Diameter(diameter) => set_brush_diameter(diameter, ctx),
+            BrushCommand::Error(error) => set_brush_error(error, ctx),
             BrushCommand::Pick(point) => pick_value(point, ctx),
             BrushCommand::Smoothing(smoothing) => tools.smoothing = smoothing.clamp(0.0, 1.0),
             BrushCommand::MirrorX(mirrored) => tools.mirrored[0] = mirrored,
@@ -130,7 +131,13 @@ fn set_brush_diameter(diameter: f64, ctx: &mut Ctx<'_>) {
     }
 }
 
-/// Makes a picked risk or diameter the brush's own: painted in the mode *Set*, it is reproduced.
+fn set_brush_error(error: f64, ctx: &mut Ctx<'_>) {
+    if error > 0.0 && error < f64::from(f32::MAX) {
+        ctx.tools.error = error;
+    }
+}
+
+/// Makes a picked risk, diameter or error the brush's own: painted in the mode *Set*, it is reproduced.
 fn pick_value(point: DVec2, ctx: &mut Ctx<'_>) {
     let value = |quantity| value_at(point, ctx.session.document(), ctx.session.follower(), quantity);
     match ctx.tools.kind {
@@ -142,6 +149,11 @@ fn pick_value(point: DVec2, ctx: &mut Ctx<'_>) {
             ctx.tools.risk = risk;
         }
         PaintKind::Diameter => set_brush_diameter(value(Quantity::TargetDiameter), ctx),
+        PaintKind::Error => {
+            let surface = ctx.session.follower().surface();
+            let Some((_, error)) = surface.and_then(|rule| rule.allowed_at(point)) else { return };
+            set_brush_error(error, ctx);
+        }
     }
     ctx.tools.mode = BrushMode::Set;
     ctx.tools.select_brush();
@@ -181,5 +193,6 @@ fn quantity_of(kind: PaintKind) -> PaintedQuantity {
     match kind {
         PaintKind::Risk => PaintedQuantity::Risk,
         PaintKind::Diameter => PaintedQuantity::Diameter,
+        PaintKind::Error => PaintedQuantity::Error,
     }
 }

@@ -8,7 +8,7 @@ use super::{BrushCommand, BrushMode, ERASER, PenEffect};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, StripItem, radius_row};
 use crate::app::tools::{PaintKind, Tools};
-use crate::app::widgets::{SliderRow, format, segmented, toggle_row, value_row};
+use crate::app::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// What the brush paints and how, its size, and how strokes are drawn.
@@ -40,8 +40,10 @@ fn send(command: BrushCommand, commands: &mut Vec<Command>) {
 
 fn kind_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut kind = state.tools.kind;
-    let choices = [(PaintKind::Risk, "Risk"), (PaintKind::Diameter, "Diameter")];
-    if segmented(ui, "What the brush paints", &mut kind, &choices).changed() {
+    let choices = [(PaintKind::Risk, "Risk"), (PaintKind::Diameter, "Diameter"), (PaintKind::Error, "Error")];
+    let is_shown = kind == PaintKind::Error || state.session.document().settings().has_surface();
+    let choices = if is_shown { &choices[..] } else { &choices[..2] };
+    if segmented(ui, "What the brush paints", &mut kind, choices).changed() {
         send(BrushCommand::Kind(kind), commands);
     }
 }
@@ -63,6 +65,7 @@ fn amount_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     match (tools.kind, tools.mode) {
         _ if tools.tool == &ERASER => strength_row(ui, state, commands),
         (PaintKind::Diameter, _) => diameter_row(ui, state, commands),
+        (PaintKind::Error, _) => error_row(ui, state, commands),
         (PaintKind::Risk, BrushMode::Set) => risk_row(ui, state, commands),
         (PaintKind::Risk, BrushMode::BuildUp | BrushMode::Lower) => strength_row(ui, state, commands),
     }
@@ -117,6 +120,16 @@ fn diameter_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     }
 }
 
+fn error_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let mut error = state.tools.error;
+    let help = "The largest error that the brush paints, in the unit of the surface. It counts at samples of surfaces in \
+                place of their own. Alt+click picks the error that is allowed.";
+    let row = NumberRow::new("Error", &mut error).range(f64::MIN_POSITIVE..=f64::from(f32::MAX) / 2.0);
+    if row.help(help).show(ui).changed() {
+        send(BrushCommand::Error(error), commands);
+    }
+}
+
 fn hardness_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut hardness = state.tools.hardness;
     let slider = SliderRow::new("Hardness", &mut hardness, 0.0..=1.0).step(0.01);
@@ -141,6 +154,7 @@ fn smoothing_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command
 fn painted(state: &FrameState<'_>) -> String {
     let (tools, transfer) = (state.tools, state.session.document().settings().transfer);
     let diameter = match (tools.kind, tools.mode) {
+        (PaintKind::Error, _) => return "–".into(),
         (PaintKind::Diameter, _) => tools.diameter.clamp(transfer.h_min, transfer.h_max),
         (PaintKind::Risk, BrushMode::BuildUp) => transfer.diameter(tools.paint_strength),
         (PaintKind::Risk, BrushMode::Set) => transfer.diameter(tools.risk),

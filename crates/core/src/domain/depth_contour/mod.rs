@@ -68,6 +68,9 @@ pub enum DepthContourError {
         /// The greatest depth of any pixel; −∞ where none has a value.
         deepest: f64,
     },
+    /// No pixel has a value.
+    #[error("no pixel has a value, so that there is no domain. Leave the choice out, or take another file.")]
+    NoValues,
     /// Nothing is left of the water.
     #[error("all water deeper than {} m is in inlets or waters smaller than asked for. Choose smaller ones.", Number(*level))]
     TooSmall {
@@ -133,6 +136,24 @@ impl DepthContour {
             Err(DepthContourError::TooSmall { level: self.level })
         } else {
             Ok(polygons)
+        }
+    }
+
+    /// Returns the part of a raster that has values as polygons in its coordinates, the largest first. Their
+    /// outline runs halfway between the centres of a pixel with a value and one without.
+    ///
+    /// # Errors
+    /// Fails when a number cannot be used, and where no pixel has a value.
+    pub fn polygons_of_values(
+        &self,
+        raster: &Raster,
+        lengths: PixelLengths,
+    ) -> Result<Vec<Polygon>, DepthContourError> {
+        match (Self { level: 0.0, ..*self })
+            .polygons(raster, lengths, |value| if value.is_finite() { 1.0 } else { f64::NAN })
+        {
+            Err(DepthContourError::Dry { .. }) => Err(DepthContourError::NoValues),
+            polygons => polygons,
         }
     }
 

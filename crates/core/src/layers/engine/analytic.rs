@@ -229,7 +229,7 @@ impl Analytic {
     pub fn is_valid(&self, value: f64) -> bool {
         match self.quantity {
             // Infinity asks for nothing.
-            Quantity::Diameter => value > 0.0,
+            Quantity::Diameter | Quantity::Error => value > 0.0,
             Quantity::Risk => !value.is_nan(),
         }
     }
@@ -248,6 +248,7 @@ impl Analytic {
     pub fn rule(&self) -> &'static str {
         match self.quantity {
             Quantity::Diameter => "a target diameter must be positive; write inf where it asks for nothing",
+            Quantity::Error => "an error must be positive; write inf where nothing is asked",
             Quantity::Risk => "a risk must be a number from 0 to 1",
         }
     }
@@ -260,8 +261,8 @@ impl Analytic {
     /// Returns a number as it counts. Rounded up: rounding to nearest could ask for one level more.
     pub fn value(&self, value: f64) -> f32 {
         match self.quantity {
-            Quantity::Diameter if value > 0.0 => f32_not_below(value),
-            Quantity::Diameter => f32::INFINITY,
+            Quantity::Diameter | Quantity::Error if value > 0.0 => f32_not_below(value),
+            Quantity::Diameter | Quantity::Error => f32::INFINITY,
             Quantity::Risk if value.is_nan() => 0.0,
             Quantity::Risk => value.clamp(0.0, 1.0) as f32,
         }
@@ -299,7 +300,7 @@ impl Analytic {
                 let least = if valid { self.value(least) } else { 0.0 };
                 ValueRange { least, greatest: self.value(greatest) }
             }
-            Quantity::Diameter => {
+            Quantity::Diameter | Quantity::Error => {
                 let all = valid && least > 0.0;
                 let greatest = if all { self.value(greatest) } else { f32::INFINITY };
                 // Zero and less count as nothing, but values just above zero ask for the smallest diameter.

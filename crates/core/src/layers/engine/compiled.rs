@@ -50,10 +50,11 @@ impl CompiledLayer {
         let (lengths, greatest_scale) = (edge_lengths.table(), edge_lengths.greatest_scale());
         let reading = |quantity, nothing| match quantity {
             Quantity::Risk => Reading::risk(transfer, lengths, nothing),
-            Quantity::Diameter => Reading::diameter(lengths),
+            Quantity::Diameter | Quantity::Error => Reading::diameter(lengths),
         };
         const NO_RISK: f32 = f32::NEG_INFINITY;
         let (reading, values) = match &layer.kind {
+            _ if layer.is_of_errors() => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
             LayerKind::Paint(quantity) => (reading(*quantity, 0.0), Values::Paint(PaintGrid::default())),
             LayerKind::Formula { quantity, formula } => {
                 (reading(*quantity, NO_RISK), Values::of_formula(*quantity, formula, stack, lattice))
@@ -61,7 +62,9 @@ impl CompiledLayer {
             LayerKind::Raster { source, reading: of } => {
                 let (reading, gap) = match of {
                     RasterReading::Risk => (reading(Quantity::Risk, NO_RISK), NO_RISK),
-                    RasterReading::Diameter => (reading(Quantity::Diameter, NO_RISK), f32::INFINITY),
+                    RasterReading::Diameter | RasterReading::Error => {
+                        (reading(Quantity::Diameter, NO_RISK), f32::INFINITY)
+                    }
                     RasterReading::Curve(curve) => {
                         (Reading::Curve { curve: curve.clone(), lengths: lengths.clone() }, f32::INFINITY)
                     }

@@ -91,7 +91,7 @@ impl DepthFormula {
     /// Returns the value that asks for nothing.
     fn nothing(&self) -> f32 {
         match self.values.quantity {
-            Quantity::Diameter => f32::INFINITY,
+            Quantity::Diameter | Quantity::Error => f32::INFINITY,
             Quantity::Risk => f32::NEG_INFINITY,
         }
     }

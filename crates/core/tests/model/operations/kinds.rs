@@ -65,8 +65,12 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         0 => LayerKind::constant(8.0 * diameter),
         1 => small_constant(choices, scale),
         2..5 => formula(choices, scale),
+        5 if choices.below(2) == 0 => {
+            let formula = Formula::parse("if(x < 0.4, 0.05 + 0.2 * y, inf)").unwrap();
+            LayerKind::Formula { quantity: Quantity::Error, formula }
+        }
         5 => LayerKind::risk(Formula::parse("exp(-30 * hypot(x - 0.6, y - 0.3))").unwrap()),
-        6 | 7 => LayerKind::Paint([Quantity::Risk, Quantity::Diameter][choices.below(2)]),
+        6 | 7 => LayerKind::Paint([Quantity::Risk, Quantity::Diameter, Quantity::Error][choices.below(3)]),
         8..11 => raster(choices, diameter),
         11..13 => threats(choices, scale),
         13 => {
@@ -155,6 +159,7 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
     let source = RasterSource { name: "random".into(), raster };
     let reading = match reading {
         0 => RasterReading::Risk,
+        1 if choices.below(2) == 0 => RasterReading::Error,
         1 => RasterReading::Diameter,
         2 => {
             let knots = vec![[0.2, 5.0 * diameter], [0.6, diameter], [0.8, 2.0 * diameter]];

@@ -152,12 +152,12 @@ impl Operation {
     pub fn apply(self, document: &mut Document) {
         match self {
             Self::Stroke(brush, points) => {
-                document.begin_stroke(brush);
+                document.begin_stroke(on_a_layer(brush, document));
                 points.into_iter().for_each(|point| document.extend_stroke(point));
                 document.finish_stroke();
             }
             Self::Begin(brush, point) => {
-                document.begin_stroke(brush);
+                document.begin_stroke(on_a_layer(brush, document));
                 document.extend_stroke(point);
             }
             Self::Draw(point) => document.extend_stroke(point),
@@ -243,11 +243,22 @@ fn reopened(document: &Document) -> Document {
     opened
 }
 
+/// Returns a brush of risk in place of one of errors where no layer takes errors.
+fn on_a_layer(brush: Brush, document: &Document) -> Brush {
+    match brush.medium {
+        Medium::Error(_) if document.layer_for(&brush.medium).is_err() => {
+            Brush { medium: Medium::Risk(1.0), ..brush }
+        }
+        _ => brush,
+    }
+}
+
 /// Where diameters much smaller than that of the domain are asked for, risk is not painted: it would ask for
 /// them in all of the brush.
 fn brush(choices: &mut impl Choices, scale: Scale) -> Brush {
     let finest = DiameterChange::Finer;
-    let media = [Medium::Risk(1.0), Medium::Risk(1.0), Medium::Diameter(0.01, finest), Medium::Eraser];
+    let (risk, error) = (Medium::Risk(1.0), Medium::Error(0.02 + 0.1 * choices.share()));
+    let media = [risk, risk, Medium::Diameter(0.01, finest), Medium::Eraser, error];
     let (medium, share) = (media[choices.below(media.len())], choices.share());
     let (hardness, strength) = (choices.share(), choices.share());
     if scale.smallest == scale.diameter {
@@ -256,7 +267,7 @@ fn brush(choices: &mut impl Choices, scale: Scale) -> Brush {
     let radius = 0.1 * (40.0 * scale.smallest).powf(share);
     let change = [DiameterChange::Finer, DiameterChange::Coarser, DiameterChange::Any][choices.below(3)];
     let medium = match medium {
-        Medium::Eraser => Medium::Eraser,
+        Medium::Eraser => medium,
         _ => Medium::Diameter(radius * (0.2 + choices.share()), change),
     };
     Brush { medium, radius, hardness, strength }

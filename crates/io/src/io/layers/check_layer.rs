@@ -147,7 +147,7 @@ impl SavedLayer {
         let quantity = self.needed("quantity", self.quantity)?.into();
         let parse = match quantity {
             Quantity::Diameter => Formula::parse_of_size,
-            Quantity::Risk => Formula::parse,
+            Quantity::Risk | Quantity::Error => Formula::parse,
         };
         let formula = compiled("formula", self.needed("formula", self.formula.as_deref())?, parse)?;
         Ok(CheckedKind::Complete(LayerKind::Formula { quantity, formula }))
@@ -158,12 +158,14 @@ impl SavedLayer {
         let reading = match (self.read_as, &self.curve) {
             (Some(SavedQuantity::Risk), None) => RasterReading::Risk,
             (Some(SavedQuantity::Diameter), None) => RasterReading::Diameter,
+            (Some(SavedQuantity::Error), None) => RasterReading::Error,
             (None, Some(knots)) => RasterReading::Curve(Arc::new(curve(knots)?)),
             (Some(_), Some(_)) => {
                 return Err(KeyFault::key("curve", "a raster has `as` or `curve`, not both."));
             }
             (None, None) => {
-                let needs = "says what its values mean: as = \"risk\", as = \"diameter\", or a curve";
+                let needs =
+                    "says what its values mean: as = \"risk\", as = \"diameter\", as = \"error\", or a curve";
                 return Err(self.missing(&format!("{needs}, as in curve = [[0, 0.1], [50, 2]]")));
             }
         };

@@ -23,6 +23,8 @@ pub enum RasterValues {
     Risk,
     /// Target diameters in world units. Grey lies between the ends of the transfer curve, black is smallest.
     Diameter,
+    /// The largest errors from surfaces, in their unit.
+    Error,
     /// Any numbers, which a curve or a band interprets.
     Any,
 }
@@ -32,6 +34,7 @@ impl From<&RasterReading> for RasterValues {
         match reading {
             RasterReading::Risk => Self::Risk,
             RasterReading::Diameter => Self::Diameter,
+            RasterReading::Error => Self::Error,
             RasterReading::Curve(_) => Self::Any,
         }
     }
@@ -273,6 +276,7 @@ pub fn check_values(raster: &RasterPyramid, values: RasterValues) -> Result<(), 
             ("risk", "it must lie from 0 to 1. Scale the values first", |value| (0.0..=1.0).contains(&value))
         }
         RasterValues::Diameter => ("target diameter", "it must be positive", |value| value > 0.0),
+        RasterValues::Error => ("error", "it must be positive", |value| value > 0.0),
         RasterValues::Any => return Ok(()),
     };
     let Some(range) = raster.whole().range else { return Ok(()) };

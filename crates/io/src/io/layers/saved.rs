@@ -238,6 +238,7 @@ impl SavedLayer {
                 read_as: match reading {
                     RasterReading::Risk => Some(SavedQuantity::Risk),
                     RasterReading::Diameter => Some(SavedQuantity::Diameter),
+                    RasterReading::Error => Some(SavedQuantity::Error),
                     RasterReading::Curve(_) => None,
                 },
                 curve: match reading {
@@ -344,6 +345,7 @@ impl SavedLayer {
         match (self.kind, self.read_as) {
             (SavedKind::Raster, Some(SavedQuantity::Risk)) => Some(RasterValues::Risk),
             (SavedKind::Raster, Some(SavedQuantity::Diameter)) => Some(RasterValues::Diameter),
+            (SavedKind::Raster, Some(SavedQuantity::Error)) => Some(RasterValues::Error),
             (SavedKind::Raster | SavedKind::Band | SavedKind::Depth, _) => Some(RasterValues::Any),
             (SavedKind::Surface, _) if self.formula.is_none() => Some(RasterValues::Any),
             _ => None,

@@ -54,6 +54,8 @@ pub enum SavedQuantity {
     Risk,
     /// Target diameter in world units.
     Diameter,
+    /// The largest error from surfaces, in their unit.
+    Error,
 }
 
 /// The target of a distance.
@@ -294,6 +296,7 @@ impl From<SavedQuantity> for Quantity {
         match saved {
             SavedQuantity::Risk => Self::Risk,
             SavedQuantity::Diameter => Self::Diameter,
+            SavedQuantity::Error => Self::Error,
         }
     }
 }
@@ -303,6 +306,7 @@ impl From<Quantity> for SavedQuantity {
         match quantity {
             Quantity::Risk => Self::Risk,
             Quantity::Diameter => Self::Diameter,
+            Quantity::Error => Self::Error,
         }
     }
 }

@@ -72,7 +72,7 @@ layers.layer: kind name visible locked combine mask mask_file quantity formula f
     period triangles smoothing time_step courant across width_from width_to norm within at_most
 layers.layer.kind: paint formula raster threats distance corridor band depth straits feature-size surface
 layers.layer.combine: finest floor replace
-layers.layer.quantity: risk diameter
+layers.layer.quantity: risk diameter error
 layers.layer.norm: max l2 h1
 layers.layer.to: outline coasts
 layers.layer.types: open land no-slip land natural land inflow no-slip inflow natural inflow

@@ -81,7 +81,8 @@ pub fn from_old_tiles(bounds: &Rect, size: [u32; 2], tiles: &Tiles, quantity: Qu
     for (&old_place, pixels) in tiles {
         let values = match quantity {
             Quantity::Risk => &pixels.risk,
-            Quantity::Diameter => &pixels.diameter,
+            // Such old projects have no errors.
+            Quantity::Diameter | Quantity::Error => &pixels.diameter,
         };
         let mut new = BTreeMap::new();
         let painted = tile_area(old_place, size).pixels().zip(values).filter(|(_, value)| **value != blank);
@@ -109,6 +110,7 @@ fn read_tile(input: &mut Unpacking, quantity: Quantity) -> Result<Tile, Flaw> {
     let values = match quantity {
         Quantity::Risk => read_floats(input, PIXELS, is_risk, "risk")?,
         Quantity::Diameter => read_floats(input, PIXELS, |diameter| diameter > 0.0, "diameter")?,
+        Quantity::Error => read_floats(input, PIXELS, |error| error > 0.0 && error.is_finite(), "error")?,
     };
     Ok(Tile::from_values(&values).expect("as many values as asked for"))
 }
@@ -159,6 +161,7 @@ mod tests {
         let medium = match quantity {
             Quantity::Risk => Medium::Risk(1.0),
             Quantity::Diameter => Medium::Diameter(0.02, DiameterChange::Finer),
+            Quantity::Error => Medium::Error(2.5),
         };
         let grid = PixelGrid { origin: dvec2(0.0, 5.0), pixel: dvec2(0.01, 0.02) };
         let mut raster = TiledRaster::new(grid, quantity.blank());
@@ -174,7 +177,7 @@ mod tests {
 
     #[test]
     fn rasters_of_any_depth_are_read_as_they_were_written() {
-        for quantity in [Quantity::Risk, Quantity::Diameter] {
+        for quantity in [Quantity::Risk, Quantity::Diameter, Quantity::Error] {
             let raster = painted(quantity);
             let places: Vec<TilePlace> = raster.tiles().map(|(place, _)| place).collect();
             assert!(places.iter().any(|place| place.x < 0) && places.iter().any(|place| place.depth >= 5));

@@ -207,7 +207,8 @@ impl Storage for Files<'_> {
             Err(_) => self.loading.outline(file)?,
         };
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
-        let RegionCoordinates { assumed, projection, contour: _, positive: _ } = *coordinates;
+        let RegionCoordinates { assumed, projection, contour: _, positive: _, outside_nodata: _ } =
+            *coordinates;
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
             let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;

@@ -1,4 +1,4 @@
-//! A region that is a contour of a grid of heights or depths.
+//! A region that is a contour of a grid of heights or depths, or where a grid has values.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use meshbrush_core::layers::{DepthRule, DepthSizes, PositiveDepth};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
-/// Returns the polygons of the water of a grid in its own coordinates. Without a projection, only the part in
-/// `bounds` is read where these are given.
+/// Returns the polygons of the water of a grid, or of its values, in its own coordinates. Without a
+/// projection, only the part in `bounds` is read where these are given.
 ///
 /// # Errors
 /// Fails when the file cannot be read, does not say where it lies, or has no water.
@@ -37,8 +37,10 @@ pub fn contour_of_grid(
         LengthUnit::Degree => PixelLengths::Degrees,
         _ => PixelLengths::Plane,
     };
-    let depth_of = depth_of(region.positive);
-    let polygons = region.contour.polygons(&grid.raster, lengths, depth_of);
+    let polygons = match region.outside_nodata {
+        true => region.contour.polygons_of_values(&grid.raster, lengths),
+        false => region.contour.polygons(&grid.raster, lengths, depth_of(region.positive)),
+    };
     let polygons = polygons.map_err(|error| unsuited(&error.to_string()))?;
     let unnamed = |polygon: Polygon| NamedPolygon { polygon, name: String::new() };
     Ok(Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates })

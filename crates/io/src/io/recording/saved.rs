@@ -197,6 +197,7 @@ enum SavedMedium {
     Coarser(f64),
     /// Any diameter.
     Diameter(f64),
+    Error(f64),
     Eraser,
 }
 
@@ -235,6 +236,7 @@ impl SavedStroke {
                 Medium::Diameter(positive("a diameter", to)?, DiameterChange::Coarser)
             }
             SavedMedium::Diameter(to) => Medium::Diameter(positive("a diameter", to)?, DiameterChange::Any),
+            SavedMedium::Error(to) => Medium::Error(positive("an error", to)?),
             SavedMedium::Eraser => Medium::Eraser,
         };
         let brush = Brush {
@@ -275,6 +277,7 @@ impl From<Medium> for SavedMedium {
             Medium::Diameter(to, DiameterChange::Finer) => Self::Finer(to),
             Medium::Diameter(to, DiameterChange::Coarser) => Self::Coarser(to),
             Medium::Diameter(to, DiameterChange::Any) => Self::Diameter(to),
+            Medium::Error(to) => Self::Error(to),
             Medium::Eraser => Self::Eraser,
         }
     }

@@ -209,6 +209,7 @@ impl SavedDomain {
     pub(super) fn coordinates(&self) -> Result<RegionCoordinates, KeyFault> {
         Ok(RegionCoordinates {
             contour: self.contour(),
+            outside_nodata: self.outside_nodata,
             positive: self.positive.map_or(PositiveDepth::Up, Into::into),
             assumed: self.assumed()?,
             projection: self.projection()?,
@@ -230,11 +231,18 @@ impl SavedDomain {
             ("positive", self.positive.is_some()),
             ("smallest_island", self.smallest_island.is_some()),
             ("smallest_inlet", self.smallest_inlet.is_some()),
+            ("outside_nodata", self.outside_nodata),
         ];
         let is_grid = self.region.as_ref().is_some_and(|file| RasterFormat::of(file).is_ok());
         if let Some((key, _)) = given.into_iter().find(|(_, is_given)| *is_given && !is_grid) {
             let sentence = "this is for a region that is a grid of heights or depths; name its file with `region`, or \
                             leave it out.";
+            return Err(KeyFault::key(key, sentence));
+        }
+        if self.outside_nodata && (self.contour.is_some() || self.positive.is_some()) {
+            let key = if self.contour.is_some() { "contour" } else { "positive" };
+            let sentence = "the domain is where the grid has values, whatever they are: leave this out, or \
+                            `outside_nodata`.";
             return Err(KeyFault::key(key, sentence));
         }
         let fault = |error: DepthContourError| {

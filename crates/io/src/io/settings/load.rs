@@ -58,6 +58,8 @@ pub struct RegionCoordinates {
     pub contour: DepthContour,
     /// Whether its values are heights or depths.
     pub positive: PositiveDepth,
+    /// Whether the domain is where the grid has values, in place of a contour.
+    pub outside_nodata: bool,
     /// What coordinates of files are that do not name a known system.
     pub assumed: Option<Coordinates>,
     /// How the plane is chosen; `None` for that of the polygons' own coordinates.

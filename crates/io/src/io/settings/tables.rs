@@ -83,6 +83,9 @@ pub struct SavedDomain {
     /// The width of the narrowest inlet of the contour.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_inlet: Option<f64>,
+    /// Whether the domain is where the grid has values.
+    #[serde(skip_serializing_if = "is_no")]
+    pub outside_nodata: bool,
     /// What the coordinates of files are that do not name a known system: "lonlat", "EPSG:…", or a projection
     /// as PROJ writes it.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -219,6 +222,9 @@ pub struct SavedOutput {
     /// Further values at the nodes, as in `"depth = 20 - x"`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quantities: Vec<String>,
+    /// Whether the third coordinate is 0, and not the height of a surface.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub flat: bool,
     /// Width, or width and height, of a picture in pixels, as in `"1600x900"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<String>,

@@ -37,7 +37,8 @@ pub static FORMULA: LayerKindRow = LayerKindRow {
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     let LayerKind::Formula { quantity, formula } = &layer.kind else { return };
     let mut chosen = *quantity;
-    let choices = [Quantity::Diameter, Quantity::Risk].map(|quantity| (quantity, quantity_name(quantity)));
+    let choices = [Quantity::Diameter, Quantity::Risk, Quantity::Error]
+        .map(|quantity| (quantity, quantity_name(quantity)));
     if segmented(ui, "What the formula gives", &mut chosen, &choices).changed() {
         let kind = LayerKind::Formula { quantity: chosen, formula: formula.clone() };
         set_kind_once(layer, kind, commands);
@@ -58,13 +59,19 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
             hint: "if(abs(x) + abs(y) < 0.4, 1, 0)",
             help: "Risk at x and y, 0 to 1, as a formula.",
         },
+        Quantity::Error => FormulaRow {
+            label: "Largest error at (x, y)",
+            hint: "if(x < 0.5, 0.1, 2)",
+            help: "The largest error of the mesh from surfaces at x and y, in their unit, as a formula. It counts in place \
+                   of that of the layer of the surface; inf leaves that as it is.",
+        },
     };
     let entered = match quantity {
         Quantity::Diameter => {
             let typed = row.show(ui, state, Some(&TypedSize(formula.clone())));
             typed.map(|typed| typed.map(|TypedSize(formula)| formula))
         }
-        Quantity::Risk => row.show(ui, state, Some(formula)),
+        Quantity::Risk | Quantity::Error => row.show(ui, state, Some(formula)),
     };
     if let Some(Some(formula)) = entered {
         set_kind_once(layer, LayerKind::Formula { quantity: *quantity, formula }, commands);

@@ -38,5 +38,6 @@ const fn quantity_name(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Risk => "Risk",
         Quantity::Diameter => "Diameter",
+        Quantity::Error => "Error",
     }
 }

@@ -21,13 +21,18 @@ pub static PAINT: LayerKindRow = LayerKindRow {
             title: "paint, as target diameter",
             command: |_| add_layer(LayerKind::Paint(Quantity::Diameter)),
         },
+        Addition {
+            title: "paint, as largest error from surfaces",
+            command: |_| add_layer(LayerKind::Paint(Quantity::Error)),
+        },
     ],
     parameters,
 };
 
 fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
     let LayerKind::Paint(quantity) = layer.kind else { return };
-    let help = "What the pixels mean: a risk from 0 to 1, or a target diameter in the unit of the document.";
+    let help = "What the pixels mean: a risk from 0 to 1, or a target diameter in the unit of the document, or \
+                the largest error of the mesh from surfaces, in their unit.";
     ValueRow::new("Painted as", quantity_name(quantity)).help(help).show(ui);
     let painted = state.session.document().paint().get(layer.id);
     let bytes = painted.map_or(0, |raster| raster.bytes());

@@ -44,17 +44,19 @@ pub static RASTER: LayerKindRow = LayerKindRow {
 enum Meaning {
     Diameter,
     Risk,
+    Error,
     Curve,
 }
 
 impl Meaning {
-    const CHOICES: [(Self, &str); 3] =
-        [(Self::Diameter, "Diameter"), (Self::Risk, "Risk"), (Self::Curve, "Curve")];
+    const CHOICES: [(Self, &str); 4] =
+        [(Self::Diameter, "Diameter"), (Self::Risk, "Risk"), (Self::Error, "Error"), (Self::Curve, "Curve")];
 
     fn of(reading: &RasterReading) -> Self {
         match reading {
             RasterReading::Diameter => Self::Diameter,
             RasterReading::Risk => Self::Risk,
+            RasterReading::Error => Self::Error,
             RasterReading::Curve(_) => Self::Curve,
         }
     }
@@ -132,6 +134,7 @@ fn read_as(
     Ok(match meaning {
         Meaning::Risk => checked(RasterReading::Risk)?,
         Meaning::Diameter => checked(RasterReading::Diameter)?,
+        Meaning::Error => checked(RasterReading::Error)?,
         Meaning::Curve => {
             let Transfer { h_min, h_risk, h_max, shape: _ } = *transfer;
             let ends = if *before == RasterReading::Risk { [h_max, h_risk] } else { [h_min, h_max] };

@@ -3,13 +3,13 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
+use crate::app::command::{Command, DomainCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::layers::OPEN_SURFACE;
 use crate::app::kit::{
     Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
     set_kind_once,
 };
-use crate::app::widgets::{Icon, NumberRow, ValueRow, format, segmented};
+use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use meshbrush_mesh::text::round_below;
 
@@ -70,7 +70,10 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
     goal_rows(ui, state, layer, surface, commands);
     fit_rows(ui, state, layer, commands);
     match source {
-        SurfaceSource::Raster(source) => source_rows(ui, state, source),
+        SurfaceSource::Raster(source) => {
+            source_rows(ui, state, source);
+            missing_rows(ui, state, layer, commands);
+        }
         SurfaceSource::Formula(formula) => {
             let row = FormulaRow {
                 label: "Surface at (x, y)",
@@ -164,6 +167,21 @@ fn other_goal(state: &FrameState<'_>, layer: &Layer, given: Given) -> SurfaceGoa
 fn usual_error(layer: &Layer) -> Option<f64> {
     let LayerKind::Surface(Surface { source, .. }) = &layer.kind else { return None };
     LayerKind::usual_error(source.raster()?)
+}
+
+/// Shows how many samples have no value, and what takes them out of the domain.
+fn missing_rows(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Command>) {
+    let count = state.session.follower().surface().map(|rule| rule.samples().count());
+    if let Some(count) = count.filter(|count| count.missing > 0) {
+        let share = format::digits(100.0 * count.missing_share(), 3);
+        let text = format!("{} ({share} %)", format::count(count.missing as u64));
+        let help = "Samples in the domain at which no surface has a value. They are left out: the mesh is not refined there.";
+        ValueRow::new("Without a value", &text).help(help).show(ui);
+    }
+    let button = ActionButton::new("Use the area with values as the domain");
+    if ui.add(button).clicked() {
+        commands.push(Command::Domain(DomainCommand::UseValues(layer.id)));
+    }
 }
 
 /// Shows how far the mesh is from the surfaces.

@@ -4,14 +4,20 @@ use std::fs;
 
 use eframe::egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
+use glam::dvec2;
 
 use super::depth::click_on;
-use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
-use crate::app::tests::{
-    TALL, Window, active, folder, send, settings, triangles, type_into, wait_for_jobs, wait_until, window_of,
+use crate::app::command::{
+    BrushCommand, Command, DomainCommand, EditCommand, FileCommand, LayerCommand, ViewCommand,
 };
+use crate::app::tests::pictures::{drawn_window, picture, pixel};
+use crate::app::tests::{
+    RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into,
+    wait_for_jobs, wait_until, window_of,
+};
+use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
-use meshbrush_core::layers::{LayerKind, SurfaceGoal};
+use meshbrush_core::layers::{LayerKind, Quantity, SurfaceGoal};
 
 fn goal(window: &Window) -> SurfaceGoal {
     let LayerKind::Surface(surface) = &active(window).kind else { panic!("a surface: {:?}", active(window)) };
@@ -58,4 +64,82 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
     // Fewer triangles than the coarse grid has.
     type_into(&mut window, "Most triangles", "9");
     wait_until(&mut window, |window| window.query_by_label_contains("more triangles already").is_some());
+}
+
+#[test]
+fn a_painted_error_counts_in_place_of_that_of_the_surface() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::New));
+    let bounds = settings(&window).domain.bounds;
+    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::usual_surface(&bounds)))));
+    wait_for_jobs(&mut window);
+    let before = triangles(&window);
+    send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Paint(Quantity::Error)))));
+    assert_eq!(window.state().tools().kind, PaintKind::Error, "the layer chooses what is painted");
+    let SurfaceGoal::Within(own) = settings(&window).surfaces().next().unwrap().1.goal else {
+        panic!("an error")
+    };
+    send(&mut window, Command::Brush(BrushCommand::Error(0.05 * own)));
+    send(&mut window, Command::Brush(BrushCommand::BeginStroke(bounds.center())));
+    send(&mut window, Command::Brush(BrushCommand::EndStroke));
+    wait_for_jobs(&mut window);
+    let painted = triangles(&window);
+    assert!(painted > before, "{painted} {before}");
+    // The brush picks what is allowed here.
+    send(&mut window, Command::Brush(BrushCommand::Error(123.0)));
+    send(&mut window, Command::Brush(BrushCommand::Pick(bounds.center())));
+    assert!((window.state().tools().error / (0.05 * own) - 1.0).abs() < 1e-6);
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
+    wait_for_jobs(&mut window);
+    assert!(window.query_by_label_contains("−100 %").is_some(), "errors differ by place");
+    send(&mut window, Command::Edit(EditCommand::Undo));
+    wait_for_jobs(&mut window);
+    assert_eq!(triangles(&window), before);
+}
+
+#[test]
+fn the_area_with_values_becomes_the_domain() {
+    let file = folder("app-surface", "nodata").join("gap.asc");
+    let value = |n: u32| if (n % 20) < 6 && n / 20 > 12 { "-9".to_owned() } else { (n % 7).to_string() };
+    let rows = (0..20).map(|row| (0..20).map(|x| value(20 * row + x)).collect::<Vec<_>>().join(" "));
+    let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n";
+    fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    wait_for_jobs(&mut window);
+    let shown = window.query_by_label_contains("Without a value").is_some();
+    assert!(shown && settings(&window).domain.region().is_none());
+    let id = active(&window).id;
+    click_on(&mut window, Role::Button, "Use the area with values as the domain");
+    wait_until(&mut window, |window| settings(window).domain.region().is_some());
+    wait_for_jobs(&mut window);
+    assert!(window.query_by_label_contains("Without a value").is_none());
+    send(&mut window, Command::Domain(DomainCommand::UseValues(id)));
+    wait_for_jobs(&mut window);
+}
+
+#[test]
+fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
+    let file = folder("app-surface", "relief").join("slope.asc");
+    // From 0 in the west to 190 in the east, with a ridge across the middle row.
+    let rows = (0..20).map(|_| (0..20).map(|x| (10 * x).to_string()).collect::<Vec<_>>().join(" "));
+    let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
+    let mut window = drawn_window();
+    send(&mut window, Command::File(FileCommand::New));
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    assert!(window.query_by_label_contains("Legend: no layer of a surface").is_some());
+    send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    window.hover_at(RESTING_PLACE);
+    window.run();
+    wait_for_jobs(&mut window);
+    assert!(window.query_by_label_contains("Legend: surface 0 to 190").is_some());
+    let image = picture(&mut window);
+    let colors = |x: f64| pixel(&image, on_screen(&window, dvec2(x, 9.3)));
+    let [low, middle, high] = [1.2, 9.7, 18.6].map(colors);
+    assert!(low[1] > low[0] && high[0] > 180 && high[2] > 170, "green below, pale above: {low:?} {high:?}");
+    assert!(middle[0] > low[0] && middle[2] < high[2], "{middle:?}");
 }
