@@ -66,7 +66,7 @@ pub fn layer_kind(choices: &mut impl Choices, scale: Scale) -> LayerKind {
         1 => small_constant(choices, scale),
         2..5 => formula(choices, scale),
         5 if choices.below(2) == 0 => {
-            let formula = Formula::parse("if(x < 0.4, 0.05 + 0.2 * y, inf)").unwrap();
+            let formula = Formula::parse("if(x < 0.4, 0.5 + 0.2 * y, inf)").unwrap();
             LayerKind::Formula { quantity: Quantity::Error, formula }
         }
         5 => LayerKind::risk(Formula::parse("exp(-30 * hypot(x - 0.6, y - 0.3))").unwrap()),
@@ -147,7 +147,10 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
     let bounds = Rect::new(corner, corner + 0.2 + choices.share());
     let size = [1 + choices.below(9) as u32, 1 + choices.below(9) as u32];
     let reading = choices.below(5);
+    // Smaller errors would need very many triangles where a surface jumps.
+    let is_error = reading == 1 && choices.below(2) == 0;
     let value = |share: f64| match reading {
+        1 if is_error => 0.5 + share,
         1 => diameter * (0.5 + 4.0 * share),
         4 => 20.0 * share - 8.0,
         _ => share,
@@ -159,7 +162,7 @@ fn raster(choices: &mut impl Choices, diameter: f64) -> LayerKind {
     let source = RasterSource { name: "random".into(), raster };
     let reading = match reading {
         0 => RasterReading::Risk,
-        1 if choices.below(2) == 0 => RasterReading::Error,
+        1 if is_error => RasterReading::Error,
         1 => RasterReading::Diameter,
         2 => {
             let knots = vec![[0.2, 5.0 * diameter], [0.6, diameter], [0.8, 2.0 * diameter]];

@@ -257,7 +257,7 @@ fn on_a_layer(brush: Brush, document: &Document) -> Brush {
 /// them in all of the brush.
 fn brush(choices: &mut impl Choices, scale: Scale) -> Brush {
     let finest = DiameterChange::Finer;
-    let (risk, error) = (Medium::Risk(1.0), Medium::Error(0.02 + 0.1 * choices.share()));
+    let (risk, error) = (Medium::Risk(1.0), Medium::Error(0.5 + 0.4 * choices.share()));
     let media = [risk, risk, Medium::Diameter(0.01, finest), Medium::Eraser, error];
     let (medium, share) = (media[choices.below(media.len())], choices.share());
     let (hardness, strength) = (choices.share(), choices.share());
