@@ -12,6 +12,8 @@ use crate::text::{Grouped, fixed, significant};
 const RATE_SPAN: f64 = 10.0;
 /// Least samples for each triangle there.
 const SAMPLES_PER_TRIANGLE: f64 = 8.0;
+/// Share of the largest error of a curve below which one is rounding.
+const LEAST_SHARE: f64 = 1e-6;
 /// Least points that have a rate.
 const LEAST_POINTS: usize = 3;
 
@@ -36,7 +38,7 @@ pub fn error_plot(curves: &ErrorCurves, here: Option<CurvePoint>) -> Plot {
     series.push(Series::new("Uniform mesh", Mark::Line, shown(&curves.uniform)));
     series.extend(best_rate(&least, curves.samples, curves.norm));
     series
-        .extend(curves.others.map(|point| Series::new("Other layers alone", Mark::Points, shown(&[point]))));
+        .extend(curves.others.map(|point| Series::new("Without the surface", Mark::Points, shown(&[point]))));
     series.extend(here.map(|point| Series::new("This mesh", Mark::Points, shown(&[point]))));
     Plot {
         title: "Error against triangles".into(),
@@ -47,10 +49,12 @@ pub fn error_plot(curves: &ErrorCurves, here: Option<CurvePoint>) -> Plot {
     }
 }
 
-/// Returns the points that logarithmic axes show.
+/// Returns the points of a curve that logarithmic axes show, without errors that are rounding.
 fn shown(points: &[CurvePoint]) -> Vec<[f64; 2]> {
-    let positive = points.iter().filter(|point| point.error > 0.0 && point.error.is_finite());
-    positive.map(|point| [point.triangles as f64, point.error]).collect()
+    let largest =
+        points.iter().map(|point| point.error).filter(|error| error.is_finite()).fold(0.0, f64::max);
+    let is_shown = |point: &&CurvePoint| point.error.is_finite() && point.error > LEAST_SHARE * largest;
+    points.iter().filter(is_shown).map(|point| [point.triangles as f64, point.error]).collect()
 }
 
 /// Returns a line of the best rate that is possible, below the last points of a curve.

@@ -7,7 +7,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
-use crate::app::command::{Command, FileCommand, Opened};
+use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
@@ -25,6 +25,10 @@ impl App {
         let layers = &self.session.document().settings().layers;
         self.view.show_depths(DepthSurface::of(layers).is_some());
         if example == Example::Heights {
+            let surface = self.session.document().settings().surfaces().next().map(|(layer, _)| layer.id);
+            if let Some(surface) = surface {
+                self.send(Command::Layer(LayerCommand::Select(surface)));
+            }
             self.send(Command::Plots(PlotsCommand::Show(PlotKind::Errors)));
         }
     }

@@ -8,6 +8,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
 use super::distance_args::DistanceArguments;
 use super::earth_args::{EarthArguments, OutputCoordinates};
+use super::error_curve::ErrorCurveArguments;
 use super::help::{
     file_help, format_help, format_long_help, output_help, output_long_help, risk_raster_help,
     target_raster_help, target_raster_long_help,
@@ -363,13 +364,8 @@ pub struct MeshArguments {
     #[arg(long, value_name = "[NAME=]EXPR", allow_hyphen_values = true, help_heading = "Output")]
     pub quantity: Vec<String>,
 
-    /// Plot to write of the error from the surface against the number of triangles, .svg or .csv: that of the
-    /// smallest mesh, of uniform meshes, and of the other layers alone
-    ///
-    /// The error is that of --norm. The curve of the smallest mesh has what other layers ask for as well. The
-    /// rates by which the errors fall are printed beside the best one that is possible.
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub error_curve: Option<PathBuf>,
+    #[command(flatten)]
+    pub curve: ErrorCurveArguments,
 
     /// Print the summary as one JSON object on standard output
     #[arg(long, help_heading = "Output")]

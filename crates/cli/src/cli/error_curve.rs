@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use clap::Args;
+
 use super::build::FinishedMesh;
 use super::failure::Failure;
 use super::output::check_place;
@@ -13,6 +15,18 @@ use meshbrush_io::io::write_file;
 use meshbrush_mesh::text::Grouped;
 use meshbrush_study::error_plot::error_plot;
 use meshbrush_study::plot;
+
+/// The plot that is asked for.
+#[derive(Debug, Args)]
+pub struct ErrorCurveArguments {
+    /// Plot to write of the error from the surface against the number of triangles, .svg or .csv: that of the
+    /// smallest mesh, of uniform meshes, and of the mesh without the surface
+    ///
+    /// The error is that of --norm. The curve of the smallest mesh has what other layers ask for as well. The
+    /// rates by which the errors fall are printed beside the best one that is possible.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub error_curve: Option<PathBuf>,
+}
 
 /// How many times as many triangles as the mesh the largest one of the curve has at least.
 const BEYOND: usize = 4;

@@ -41,7 +41,7 @@ pub fn run(
     let inputs = input.files();
     let mut outputs = files.iter().flat_map(|files| &files.outputs);
     outputs.try_for_each(|output| output.check_places(&inputs))?;
-    typed.error_curve.iter().try_for_each(|file| check_curve_file(file, &inputs))?;
+    typed.curve.error_curve.iter().try_for_each(|file| check_curve_file(file, &inputs))?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -70,7 +70,7 @@ pub fn run(
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
-    if let Some(file) = &typed.error_curve {
+    if let Some(file) = &typed.curve.error_curve {
         write_error_curve(file, &finished, finished.surface_fit(&extract).as_ref(), terminal)?;
     }
     if typed.json {

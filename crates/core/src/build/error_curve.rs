@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::search::Search;
 use super::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts};
-use crate::layers::{Layer, LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
+use crate::layers::{LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
 use crate::mesh::{Element, Mesh, Progress, Refiner, TriangleId};
 use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSampling};
 
@@ -21,7 +21,7 @@ pub struct ErrorCurves {
     pub uniform: Vec<CurvePoint>,
     /// The number of samples of the surface.
     pub samples: usize,
-    /// That of the other layers alone, if there are any.
+    /// That of everything but the surfaces, if it is finer than the coarse grid.
     pub others: Option<CurvePoint>,
 }
 
@@ -149,13 +149,7 @@ impl CurveTracing {
         let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
         let norm = self.curves.norm;
         self.curves.samples = rule.samples().count().known;
-        let asks = |layer: &Layer| {
-            layer.visible && !layer.is_of_errors() && !matches!(layer.kind, LayerKind::Surface(_))
-        };
-        let has_others = self.spec.field.layers.iter().any(asks);
-        if has_others {
-            self.curves.others = Some(point_of(&built.mesh, &built, &rule, norm));
-        }
+        self.curves.others = Some(point_of(&built.mesh, &built, &rule, norm));
         let goal = QueueGoal { norm, within: None, at_most: Some(self.most) };
         let search = Search::new(&built, rule, goal, &self.spec.limits);
         Step::Order(Box::new((built, search)))
@@ -174,6 +168,9 @@ impl CurveTracing {
         (built, rule, mut mesh, level): (BuiltMesh, SurfaceRule, Mesh, u32),
     ) -> Result<Step, BuildError> {
         let point = point_of(&mesh, &built, &rule, self.curves.norm);
+        if level == 0 {
+            self.curves.others.take_if(|others| others.triangles <= point.triangles);
+        }
         self.curves.uniform.push(point);
         let deepest = mesh.lattice().deepest_level();
         if point.error == 0.0 || 2 * point.triangles > self.most || level == deepest {

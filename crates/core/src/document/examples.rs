@@ -221,7 +221,11 @@ fn heights(heights: Raster) -> Settings {
         ..Settings::default()
     };
     let settings = settings.with_nodes_on_samples(&surface);
-    Settings { layers: Layer::usual(surface), ..settings }
+    let mut layers = Layer::usual(surface);
+    if let Some(heights) = layers.iter_mut().find(|layer| matches!(layer.kind, LayerKind::Surface(_))) {
+        heights.name = "Heights".into();
+    }
+    Settings { layers, ..settings }
 }
 
 /// The road across the terrain, as shares of its sides, from the lower left.

@@ -210,8 +210,8 @@ impl SurfaceRule {
         SurfaceDemand { layer: layer.id, norm: layer.norm, error, at, most }
     }
 
-    /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it, with
-    /// the difference that the layer allows.
+    /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it,
+    /// with the difference that the layer allows.
     fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, f64)> {
         let layers = self.samples.layers.iter().zip(&self.errors);
         let asks = |layer: &LayerSamples, error: f64| error.is_finite() || layer.errors.is_some();

@@ -12,8 +12,9 @@ use crate::app::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, v
 use meshbrush_core::field::{RiskToDiameter, Transfer};
 
 /// What the brush paints and how, its size, and how strokes are drawn.
-pub static BRUSH_OPTIONS: [StripItem; 9] = [
-    StripItem::new(136.0, 0, kind_row),
+pub static BRUSH_OPTIONS: [StripItem; 10] = [
+    StripItem::new(136.0, 0, kind_row).only(|state| !can_paint_errors(state)),
+    StripItem::new(200.0, 0, kind_row).only(can_paint_errors),
     StripItem::new(184.0, 3, mode_row),
     StripItem::new(136.0, 1, radius_row).stretching(),
     StripItem::new(136.0, 2, amount_row).stretching(),
@@ -38,11 +39,15 @@ fn send(command: BrushCommand, commands: &mut Vec<Command>) {
     commands.push(Command::Brush(command));
 }
 
+/// Returns whether errors can be painted: there is a surface.
+fn can_paint_errors(state: &FrameState<'_>) -> bool {
+    state.tools.kind == PaintKind::Error || state.session.document().settings().has_surface()
+}
+
 fn kind_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut kind = state.tools.kind;
     let choices = [(PaintKind::Risk, "Risk"), (PaintKind::Diameter, "Diameter"), (PaintKind::Error, "Error")];
-    let is_shown = kind == PaintKind::Error || state.session.document().settings().has_surface();
-    let choices = if is_shown { &choices[..] } else { &choices[..2] };
+    let choices = if can_paint_errors(state) { &choices[..] } else { &choices[..2] };
     if segmented(ui, "What the brush paints", &mut kind, choices).changed() {
         send(BrushCommand::Kind(kind), commands);
     }
