@@ -168,8 +168,10 @@ impl FinishedMesh {
         most: usize,
         mut goes_on: impl FnMut(usize) -> bool,
     ) -> Result<Option<ErrorCurves>, BuildError> {
-        let BuiltMesh { domain, field, .. } = &self.built;
-        let parts = Parts { domain: Some(domain.clone()), field: Some(field.clone()), spare: None };
+        let BuiltMesh { domain, field, surface, .. } = &self.built;
+        let samples = surface.as_ref().map(|rule| rule.samples().clone());
+        let (domain, field) = (Some(domain.clone()), Some(field.clone()));
+        let parts = Parts { domain, field, samples, spare: None };
         let mut tracing = CurveTracing::new(self.origin.spec.clone(), parts, norm, most);
         while tracing.advance(Some(&self.origin.paint), SLICE)? == Progress::More {
             if !goes_on(tracing.progress()[0]) {

@@ -8,7 +8,7 @@ use super::{BuiltMesh, RefinementCriterion};
 use crate::field::RefinementRule;
 use crate::layers::{Layer, PaintLayers};
 use crate::mesh::{Element, InvalidTarget, Limits, Progress, RefineError, Refiner};
-use crate::surface::{QueueGoal, SurfaceNodes, SurfaceRule, SurfaceSampling};
+use crate::surface::{QueueGoal, SurfaceNodes, SurfaceRule, SurfaceSamples, SurfaceSampling};
 
 /// Refines a mesh that satisfies h̄ until it is close enough to surfaces, in slices.
 ///
@@ -21,6 +21,8 @@ use crate::surface::{QueueGoal, SurfaceNodes, SurfaceRule, SurfaceSampling};
 #[derive(Clone, Debug)]
 pub(super) struct Approximation {
     limits: Limits,
+    /// The layers of surfaces, with all others.
+    layers: Vec<Layer>,
     step: Step,
     capped: usize,
 }
@@ -43,10 +45,20 @@ struct Refinement {
 }
 
 impl Approximation {
-    /// Returns the work for a mesh with these layers; `None` if no visible layer is a surface.
-    pub(super) fn new(layers: &[Layer], built: &BuiltMesh, limits: Limits) -> Option<Self> {
+    /// Returns the work for a mesh with these layers; `None` if no visible layer is a surface. `samples` are
+    /// those of the layers, where they are known.
+    pub(super) fn new(
+        layers: &[Layer],
+        samples: Option<Arc<SurfaceSamples>>,
+        built: &BuiltMesh,
+        limits: Limits,
+    ) -> Option<Self> {
         let sampling = SurfaceSampling::new(layers, built.mesh.lattice())?;
-        Some(Self { limits, step: Step::Sample(sampling), capped: 0 })
+        let step = match samples {
+            Some(samples) => refine(SurfaceRule::new(samples, layers), None, built, limits),
+            None => Step::Sample(sampling),
+        };
+        Some(Self { limits, layers: layers.to_vec(), step, capped: 0 })
     }
 
     /// Returns the number of triangles that the mesh has so far.
@@ -74,9 +86,8 @@ impl Approximation {
                 match sampling.advance(&built.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
                     Progress::More => None,
                     Progress::Done => {
-                        let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
-                        let goals = rule.goals().into();
-                        Some(self.refine(rule, goals, built))
+                        let rule = SurfaceRule::new(Arc::new(sampling.take_found()), &self.layers);
+                        Some(refine(rule, None, built, self.limits))
                     }
                 }
             }
@@ -101,7 +112,7 @@ impl Approximation {
                 Progress::Done => {
                     let rule = work.0.rule.clone().with_found(&work.0.queue);
                     let goals = std::mem::take(&mut work.1);
-                    Some(self.refine(rule, goals, built))
+                    Some(refine(rule, Some(goals), built, self.limits))
                 }
             },
         };
@@ -110,11 +121,14 @@ impl Approximation {
         }
         Ok(Progress::More)
     }
+}
 
-    fn refine(&self, rule: SurfaceRule, goals: VecDeque<QueueGoal>, built: &BuiltMesh) -> Step {
-        let refiner = Refiner::new(&built.mesh, self.limits);
-        Step::Refine(Box::new(Refinement { rule, refiner, nodes: SurfaceNodes::default(), goals }))
-    }
+/// Returns the refinement by a rule, before goals of the whole mesh: those of the rule, or what is left of
+/// them.
+fn refine(rule: SurfaceRule, goals: Option<VecDeque<QueueGoal>>, built: &BuiltMesh, limits: Limits) -> Step {
+    let goals = goals.unwrap_or_else(|| rule.goals().into());
+    let refiner = Refiner::new(&built.mesh, limits);
+    Step::Refine(Box::new(Refinement { rule, refiner, nodes: SurfaceNodes::default(), goals }))
 }
 
 impl Refinement {

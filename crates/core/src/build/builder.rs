@@ -9,7 +9,7 @@ use crate::layers::{InvalidLayer, LayerCheck, PaintLayers, SettledPool, SizeFiel
 use crate::mesh::{
     BlockRefiner, CoarseError, Element, InvalidTarget, Mesh, Progress, RefineError, Refiner, TriangleId,
 };
-use crate::surface::SurfaceRule;
+use crate::surface::{SurfaceRule, SurfaceSamples};
 
 /// Makes the mesh of a [`MeshSpec`] in slices.
 ///
@@ -22,6 +22,8 @@ pub struct MeshBuilder {
     spec: MeshSpec,
     /// The field, if the caller gave one.
     given_field: Option<Arc<SizeField>>,
+    /// The samples of surfaces, if the caller gave them.
+    given_samples: Option<Arc<SurfaceSamples>>,
     /// A mesh whose memory is reused.
     spare: Option<Mesh>,
     /// `None` once an error has ended the work.
@@ -92,6 +94,8 @@ pub struct Parts {
     pub domain: Option<DomainOnLattice>,
     /// The field of the spec on the lattice of the spec, whose layers are valid.
     pub field: Option<Arc<SizeField>>,
+    /// The samples of the surfaces of the spec in its domain, on its lattice.
+    pub samples: Option<Arc<SurfaceSamples>>,
     /// A mesh that is no longer needed. Reusing its memory saves about a third of the time.
     pub spare: Option<Mesh>,
 }
@@ -146,12 +150,12 @@ impl MeshBuilder {
 
     /// Creates a builder that takes over parts of an earlier mesh. The parts must be those of `spec`.
     pub fn from_parts(spec: MeshSpec, parts: Parts) -> Self {
-        let Parts { domain, field: given_field, spare } = parts;
+        let Parts { domain, field: given_field, samples: given_samples, spare } = parts;
         let step = match domain {
             Some(domain) => BuildStep::Grid(domain.with_boundary(spec.boundary)),
             None => BuildStep::Index(DomainOnLatticeBuilder::new(&spec.domain, spec.boundary, &spec.lattice)),
         };
-        Self { spec, given_field, spare, step: Some(step), capped: 0 }
+        Self { spec, given_field, given_samples, spare, step: Some(step), capped: 0 }
     }
 
     /// Returns the description of the mesh.
@@ -284,8 +288,9 @@ impl MeshBuilder {
 }
 
 impl MeshBuilder {
-    fn begin_approximation(&self, built: BuiltMesh) -> BuildStep {
-        match Approximation::new(&self.spec.field.layers, &built, self.spec.limits) {
+    fn begin_approximation(&mut self, built: BuiltMesh) -> BuildStep {
+        let samples = self.given_samples.take();
+        match Approximation::new(&self.spec.field.layers, samples, &built, self.spec.limits) {
             Some(work) => BuildStep::Approximate(Box::new((built, work))),
             None => self.begin_classification(built),
         }

@@ -8,7 +8,7 @@ use super::search::Search;
 use super::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts};
 use crate::layers::{LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
 use crate::mesh::{Element, Mesh, Progress, Refiner, TriangleId};
-use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSampling};
+use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSamples, SurfaceSampling};
 
 /// The error of meshes against the number of their triangles, by one norm.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,6 +38,8 @@ pub struct CurveTracing {
     curves: ErrorCurves,
     /// `None` once an error has ended the work.
     step: Option<Step>,
+    /// The samples of the surfaces, where they are known from the start.
+    samples: Option<Arc<SurfaceSamples>>,
 }
 
 #[derive(Clone, Debug)]
@@ -81,14 +83,15 @@ impl CurveTracing {
 
     /// Returns the work on the curves of a document by a norm, with meshes of about `most` triangles at most.
     /// `parts` must be those of the spec.
-    pub fn new(spec: MeshSpec, parts: Parts, norm: SurfaceNorm, most: usize) -> Self {
+    pub fn new(spec: MeshSpec, mut parts: Parts, norm: SurfaceNorm, most: usize) -> Self {
         let spec = spec.without_goals(norm);
         let mut others = spec.clone();
         others.field.layers.retain(|layer| !matches!(layer.kind, LayerKind::Surface(_)));
+        let samples = parts.samples.take();
         let builder = MeshBuilder::from_parts(others, parts);
         let most = most.min(spec.limits.most_triangles());
         let curves = ErrorCurves { norm, ..ErrorCurves::default() };
-        Self { spec, most, curves, step: Some(Step::Build(Box::new(builder))) }
+        Self { spec, most, curves, step: Some(Step::Build(Box::new(builder))), samples }
     }
 
     /// Returns the curves so far.
@@ -123,7 +126,7 @@ impl CurveTracing {
             Step::Sample(mut work) => {
                 match work.1.advance(&work.0.domain, paint.unwrap_or(PaintLayers::blank()), budget) {
                     Progress::More => Step::Sample(work),
-                    Progress::Done => self.begin_order(*work),
+                    Progress::Done => self.begin_order(work.0, Arc::new(work.1.take_found())),
                 }
             }
             Step::Order(mut work) => match work.1.advance(&work.0, paint, budget)? {
@@ -138,15 +141,18 @@ impl CurveTracing {
         Ok(progress)
     }
 
-    fn begin_sampling(&self, built: BuiltMesh) -> Step {
+    fn begin_sampling(&mut self, built: BuiltMesh) -> Step {
+        if let Some(samples) = self.samples.take() {
+            return self.begin_order(built, samples);
+        }
         match SurfaceSampling::new(&self.spec.field.layers, built.mesh.lattice()) {
             Some(sampling) => Step::Sample(Box::new((built, sampling))),
             None => Step::Done,
         }
     }
 
-    fn begin_order(&mut self, (built, mut sampling): (BuiltMesh, SurfaceSampling)) -> Step {
-        let rule = SurfaceRule::new(Arc::new(sampling.take_found()));
+    fn begin_order(&mut self, built: BuiltMesh, samples: Arc<SurfaceSamples>) -> Step {
+        let rule = SurfaceRule::new(samples, &self.spec.field.layers);
         let norm = self.curves.norm;
         self.curves.samples = rule.samples().count().known;
         self.curves.others = Some(point_of(&built.mesh, &built, &rule, norm));

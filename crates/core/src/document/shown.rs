@@ -16,7 +16,7 @@ use crate::mesh::{
     ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
     TriangleId, Updater,
 };
-use crate::surface::SurfaceRule;
+use crate::surface::{SurfaceRule, SurfaceSamples};
 
 /// The field and the mesh that are shown, with the updates that they still need.
 #[derive(Clone, Debug)]
@@ -226,7 +226,9 @@ impl Shown {
             same_lattice && self.field.spec().asks_as(&spec.field) && spec.rule == self.settings.rule;
         let field = is_current.then(|| self.field.clone());
         let domain = same_domain.then(|| self.domain.clone());
-        Ok(Rebuild::new(wanted, spec, Parts { domain, field, spare }))
+        let has_same_samples = same_domain && SurfaceSamples::are_same(&wanted.layers, &self.settings.layers);
+        let samples = self.surface.as_ref().filter(|_| has_same_samples).map(|rule| rule.samples().clone());
+        Ok(Rebuild::new(wanted, spec, Parts { domain, field, samples, spare }))
     }
 
     /// One slice of updates of the mesh; of copying it first, as long as it is shared.

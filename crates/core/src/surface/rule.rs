@@ -10,7 +10,7 @@ use super::order::{Measured, triangle_key};
 use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
 use crate::geometry::{Lattice, LatticePoint};
-use crate::layers::{LayerId, SurfaceGoal, SurfaceNorm};
+use crate::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm};
 use crate::mesh::Element;
 
 /// Share of the step between samples below which a triangle is not bisected. Between samples a surface is
@@ -21,15 +21,23 @@ const LEAST_SHARE: f64 = 1.0 / 32.0;
 #[derive(Clone, Debug)]
 pub struct SurfaceRule {
     samples: Arc<SurfaceSamples>,
-    /// The largest difference that each layer of the samples allows; infinite where that is not known yet,
-    /// and for layers of other norms.
-    errors: Vec<f64>,
+    /// What each layer of the samples asks for.
+    asked: Vec<Asked>,
     /// The triangles that are bisected for sums of squares, as [`triangle_key`].
     bisected: Arc<HashSet<u64>>,
     /// The errors by the norms of sums of squares that the mesh was made for.
     summed: Vec<(SurfaceNorm, f64)>,
     /// The number of triangles that a layer allows, where the mesh has more without the surface.
     exceeded_count: Option<usize>,
+}
+
+/// What a layer asks for.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    goal: SurfaceGoal,
+    norm: SurfaceNorm,
+    /// The largest difference that the layer allows; infinite where that is not known yet, and for other norms.
+    error: f64,
 }
 
 /// Why a triangle is too far from a surface.
@@ -49,16 +57,41 @@ pub struct SurfaceDemand {
     pub most: f64,
 }
 
-impl SurfaceRule {
-    /// Returns the condition for samples: by the largest differences that their layers allow. Other goals do
-    /// not count, until [`Self::with_found`].
-    pub fn new(samples: Arc<SurfaceSamples>) -> Self {
-        let errors = samples.layers.iter().map(|layer| match (layer.norm, layer.goal) {
+impl Asked {
+    const NOTHING: Self =
+        Self { goal: SurfaceGoal::Within(f64::INFINITY), norm: SurfaceNorm::Largest, error: f64::INFINITY };
+
+    fn of(&Surface { goal, norm, source: _ }: &Surface) -> Self {
+        let error = match (norm, goal) {
             (SurfaceNorm::Largest, SurfaceGoal::Within(error)) => error,
             _ => f64::INFINITY,
+        };
+        Self { goal, norm, error }
+    }
+
+    /// Returns whether the layer has a goal by this norm that is looked for, and not asked of each triangle.
+    fn is_counted(&self, norm: SurfaceNorm) -> bool {
+        let is_counted = norm != SurfaceNorm::Largest || matches!(self.goal, SurfaceGoal::AtMost(_));
+        self.norm == norm && is_counted
+    }
+}
+
+impl SurfaceRule {
+    /// Returns the condition for the samples of a stack of layers: by the largest differences that the layers
+    /// allow. Other goals do not count, until [`Self::with_found`].
+    pub fn new(samples: Arc<SurfaceSamples>, stack: &[Layer]) -> Self {
+        let surface = |id: LayerId| stack.iter().find(|layer| layer.id == id).map(|layer| &layer.kind);
+        let asked = samples.layers.iter().map(|layer| match surface(layer.id) {
+            Some(LayerKind::Surface(surface)) => Asked::of(surface),
+            _ => Asked::NOTHING,
         });
         let (bisected, summed) = (Arc::default(), Vec::new());
-        Self { errors: errors.collect(), samples, bisected, summed, exceeded_count: None }
+        Self { asked: asked.collect(), samples, bisected, summed, exceeded_count: None }
+    }
+
+    /// Returns the layers of the samples, from the top to the bottom, with what they ask for.
+    fn layers(&self) -> impl Iterator<Item = (&LayerSamples, &Asked)> {
+        self.samples.layers.iter().zip(&self.asked)
     }
 
     /// Returns the samples.
@@ -69,13 +102,13 @@ impl SurfaceRule {
     /// Returns what is to be looked for besides, norm by norm.
     pub(crate) fn goals(&self) -> Vec<QueueGoal> {
         let goals = SurfaceNorm::ALL.into_iter().map(|norm| {
-            let of_norm = || self.samples.layers.iter().filter(move |layer| layer.norm == norm);
-            let errors = of_norm().filter_map(|layer| match layer.goal {
+            let of_norm = || self.asked.iter().filter(move |asked| asked.norm == norm);
+            let errors = of_norm().filter_map(|asked| match asked.goal {
                 // The largest difference is asked of each triangle.
                 SurfaceGoal::Within(error) if norm != SurfaceNorm::Largest => Some(error),
                 _ => None,
             });
-            let counts = of_norm().filter_map(|layer| match layer.goal {
+            let counts = of_norm().filter_map(|asked| match asked.goal {
                 SurfaceGoal::AtMost(count) => Some(count),
                 SurfaceGoal::Within(_) => None,
             });
@@ -98,10 +131,8 @@ impl SurfaceRule {
             self.exceeded_count = self.exceeded_count.or(at_most);
         }
         if norm == SurfaceNorm::Largest {
-            for (most, layer) in self.errors.iter_mut().zip(&self.samples.layers) {
-                if layer.is_counted(norm) {
-                    *most = error.unwrap_or(f64::INFINITY);
-                }
+            for asked in self.asked.iter_mut().filter(|asked| asked.is_counted(norm)) {
+                asked.error = error.unwrap_or(f64::INFINITY);
             }
         } else {
             self.summed.push((norm, error.or(within).unwrap_or(f64::INFINITY)));
@@ -113,8 +144,7 @@ impl SurfaceRule {
     /// Returns the error of each layer by its norm, from the top to the bottom: the largest difference that
     /// it allows, or the error that the mesh was made for. It is infinite where none was found.
     pub fn errors(&self) -> impl Iterator<Item = (LayerId, f64)> + '_ {
-        let layers = self.samples.layers.iter().zip(&self.errors);
-        layers.map(|(layer, &error)| (layer.id, self.summed_error(layer.norm).unwrap_or(error)))
+        self.layers().map(|(layer, asked)| (layer.id, self.summed_error(asked.norm).unwrap_or(asked.error)))
     }
 
     fn summed_error(&self, norm: SurfaceNorm) -> Option<f64> {
@@ -126,7 +156,7 @@ impl SurfaceRule {
     pub fn largest_allowed(&self) -> f64 {
         let of_layers = self.samples.layers.iter().flat_map(|layer| layer.errors.iter().flatten());
         let of_layers = of_layers.filter(|error| !error.is_nan()).map(|&error| f64::from(error));
-        self.errors.iter().copied().chain(of_layers).fold(0.0, f64::max)
+        self.asked.iter().map(|asked| asked.error).chain(of_layers).fold(0.0, f64::max)
     }
 
     /// Returns whether layers of errors give samples an error in place of that of their surface.
@@ -139,17 +169,16 @@ impl SurfaceRule {
     /// value. It is infinite where nothing but an error of the whole mesh is asked for.
     /// value.
     pub fn allowed_at(&self, point: DVec2) -> Option<(f64, f64)> {
-        let layers = self.samples.layers.iter().zip(&self.errors);
-        let mut covering = layers.filter(|(layer, _)| layer.covers(point));
+        let mut covering = self.layers().filter(|(layer, _)| layer.covers(point));
         let (height, own) =
-            covering.find_map(|(layer, &error)| Some((layer.source.height_at(point)?, error)))?;
+            covering.find_map(|(layer, asked)| Some((layer.source.height_at(point)?, asked.error)))?;
         Some((height, self.samples.errors.at(point).unwrap_or(own)))
     }
 
     /// Returns the largest error by a norm that the mesh was made for, if a layer has this norm.
     pub fn error_of(&self, norm: SurfaceNorm) -> Option<f64> {
-        let layers = self.samples.layers.iter().zip(&self.errors).filter(|(layer, _)| layer.norm == norm);
-        let errors = layers.map(|(_, &error)| self.summed_error(norm).unwrap_or(error));
+        let of_norm = self.asked.iter().filter(|asked| asked.norm == norm);
+        let errors = of_norm.map(|asked| self.summed_error(norm).unwrap_or(asked.error));
         errors.max_by(f64::total_cmp)
     }
 
@@ -174,18 +203,17 @@ impl SurfaceRule {
     pub fn demand_in(&self, corners: [LatticePoint; 3], lattice: &Lattice) -> Option<SurfaceDemand> {
         let triangle = SurfaceTriangle::of(corners, lattice, &self.samples);
         let heights = triangle.heights?;
-        if let Some((layer, own)) = self.layer_exceeded(&triangle) {
-            return Some(self.demand_of_difference(layer, own, &triangle, heights));
+        if let Some(exceeded) = self.layer_exceeded(&triangle) {
+            return Some(self.demand_of_difference(exceeded, &triangle, heights));
         }
         if !self.is_bisected(corners) {
             return None;
         }
-        let is_summed = |layer: &&LayerSamples| layer.norm != SurfaceNorm::Largest;
-        let mut summed = self.samples.layers.iter().filter(is_summed);
-        let layer = summed.find(|layer| layer.has_sample(triangle.corners))?;
-        let squares = layer.squares(triangle.corners, heights, layer.norm);
-        let most = self.summed_error(layer.norm)?;
-        let largest = self.demand_of_difference(layer, f64::INFINITY, &triangle, heights);
+        let mut summed = self.layers().filter(|(_, asked)| asked.norm != SurfaceNorm::Largest);
+        let (layer, asked) = summed.find(|(layer, _)| layer.has_sample(triangle.corners))?;
+        let squares = layer.squares(triangle.corners, heights, asked.norm);
+        let most = self.summed_error(asked.norm)?;
+        let largest = self.demand_of_difference((layer, asked), &triangle, heights);
         Some(SurfaceDemand { error: libm::sqrt(squares / triangle.area()), most, ..largest })
     }
 
@@ -193,43 +221,41 @@ impl SurfaceRule {
     /// allowed or forbidden, by the largest difference.
     fn demand_of_difference(
         &self,
-        layer: &LayerSamples,
-        own: f64,
+        (layer, asked): (&LayerSamples, &Asked),
         triangle: &SurfaceTriangle,
         heights: [f64; 3],
     ) -> SurfaceDemand {
         let (mut largest, mut at) = ([0.0; 3], triangle.corners[0]);
         layer.each(triangle.corners, heights, |place, difference| {
-            let (error, most) = (difference.abs(), self.samples.errors.at(place).unwrap_or(own));
+            let (error, most) = (difference.abs(), self.samples.errors.at(place).unwrap_or(asked.error));
             let factor = if most.is_finite() { error / most } else { 0.0 };
             if [factor, error] > [largest[0], largest[1]] {
                 (largest, at) = ([factor, error, most], place);
             }
         });
         let [_, error, most] = largest;
-        SurfaceDemand { layer: layer.id, norm: layer.norm, error, at, most }
+        SurfaceDemand { layer: layer.id, norm: asked.norm, error, at, most }
     }
 
     /// Returns a layer whose largest difference a triangle exceeds, or that of a layer of errors over it,
     /// with the difference that the layer allows.
-    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, f64)> {
-        let layers = self.samples.layers.iter().zip(&self.errors);
-        let asks = |layer: &LayerSamples, error: f64| error.is_finite() || layer.errors.is_some();
-        let mut asking = layers.filter(|(layer, error)| asks(layer, **error) && layer.may_ask(triangle));
-        let exceeded = asking.find(|(layer, error)| match triangle.heights {
-            Some(heights) => layer.exceeds(triangle.corners, heights, **error),
-            None if error.is_finite() => layer.has_sample(triangle.corners),
+    fn layer_exceeded(&self, triangle: &SurfaceTriangle) -> Option<(&LayerSamples, &Asked)> {
+        let can_ask = |layer: &LayerSamples, asked: &Asked| asked.error.is_finite() || layer.errors.is_some();
+        let mut asking =
+            self.layers().filter(|(layer, asked)| can_ask(layer, asked) && layer.may_ask(triangle));
+        asking.find(|(layer, asked)| match triangle.heights {
+            Some(heights) => layer.exceeds(triangle.corners, heights, asked.error),
+            None if asked.error.is_finite() => layer.has_sample(triangle.corners),
             None => layer.has_sample_of_layers(triangle.corners),
-        });
-        exceeded.map(|(layer, &error)| (layer, error))
+        })
     }
 
     /// Returns what a norm says about a triangle of the domain. `nodes` keeps the heights at nodes.
     pub(super) fn measure(&self, element: &Element, nodes: &mut SurfaceNodes, norm: SurfaceNorm) -> Measured {
         let triangle = nodes.triangle(element, &self.samples);
         let asking = || {
-            let counted = self.samples.layers.iter().filter(|layer| layer.is_counted(norm));
-            counted.filter(|layer| layer.may_ask(&triangle))
+            let counted = self.layers().filter(|(_, asked)| asked.is_counted(norm));
+            counted.map(|(layer, _)| layer).filter(|layer| layer.may_ask(&triangle))
         };
         let is_bound = self.is_bisected(element.corners)
             || self.layer_exceeded(&triangle).is_some()
@@ -246,7 +272,7 @@ impl SurfaceRule {
 
     fn error_of_triangle(&self, triangle: &SurfaceTriangle, norm: SurfaceNorm) -> f64 {
         let Some(heights) = triangle.heights else { return 0.0 };
-        let layers = self.samples.layers.iter().filter(|layer| layer.is_counted(norm));
+        let layers = self.layers().filter(|(_, asked)| asked.is_counted(norm)).map(|(layer, _)| layer);
         match norm {
             SurfaceNorm::Largest => {
                 let asking = layers.filter(|layer| layer.may_ask(triangle));
@@ -258,12 +284,6 @@ impl SurfaceRule {
 }
 
 impl LayerSamples {
-    /// Returns whether the layer has a goal by this norm that is looked for, and not asked of each triangle.
-    fn is_counted(&self, norm: SurfaceNorm) -> bool {
-        let is_counted = norm != SurfaceNorm::Largest || matches!(self.goal, SurfaceGoal::AtMost(_));
-        self.norm == norm && is_counted
-    }
-
     /// Returns whether a triangle is so large that its error can be that of a surface without jumps.
     fn may_ask(&self, triangle: &SurfaceTriangle) -> bool {
         triangle.diameter() >= LEAST_SHARE * self.grid.step.min_element()

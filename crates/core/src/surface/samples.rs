@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errors::ErrorLayers;
-use crate::layers::{LayerId, Mask, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use crate::layers::{Layer, LayerId, LayerKind, Mask, SurfaceSource};
 use crate::raster::RasterPyramid;
 
 /// Farthest that a corner without a value may be from a pixel with one, in pixels.
@@ -71,8 +71,6 @@ fn joined(a: Option<[f64; 2]>, b: Option<[f64; 2]>) -> Option<[f64; 2]> {
 #[derive(Clone, Debug)]
 pub(super) struct LayerSamples {
     pub(super) id: LayerId,
-    pub(super) goal: SurfaceGoal,
-    pub(super) norm: SurfaceNorm,
     pub(super) source: SurfaceSource,
     pub(super) mask: Option<Mask>,
     /// Whether no value of the source is infinite.
@@ -133,6 +131,13 @@ pub(super) struct SampleRow {
 pub(super) const CLOSED: f64 = 1e-9;
 
 impl SurfaceSamples {
+    /// Returns whether the surfaces of two stacks have the same samples in the same domain, whatever errors are
+    /// asked for. Layers of errors, whose pixels can differ, are not compared: with them the answer is no.
+    pub fn are_same(one: &[Layer], other: &[Layer]) -> bool {
+        let of_errors = |layer: &&Layer| layer.visible && layer.is_of_errors();
+        one.iter().chain(other).find(of_errors).is_none() && surfaces(one).eq(surfaces(other))
+    }
+
     /// Returns the height of the surface at a point in world units: of the topmost layer that covers it and
     /// has a value; else of the topmost one with a value, whatever it covers; else of the nearest pixel
     /// within 64 pixels. `None` farther away.
@@ -160,6 +165,14 @@ impl SurfaceSamples {
         let found = rasters.filter_map(|source| source.raster.raster().nearest(point, FARTHEST_PIXEL));
         found.min_by(|a, b| a.distance.total_cmp(&b.distance)).map(|nearest| nearest.value)
     }
+}
+
+/// Returns what decides the samples of the visible surfaces of a stack.
+fn surfaces(stack: &[Layer]) -> impl Iterator<Item = (LayerId, &SurfaceSource, &Option<Mask>)> {
+    stack.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
+        LayerKind::Surface(surface) => Some((layer.id, &surface.source, &layer.mask)),
+        _ => None,
+    })
 }
 
 impl SurfaceSource {

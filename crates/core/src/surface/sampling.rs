@@ -181,8 +181,6 @@ impl LayerSamples {
         };
         Some(Self {
             id: layer.id,
-            goal: surface.goal,
-            norm: surface.norm,
             source: surface.source.clone(),
             mask: layer.mask.clone(),
             is_finite,
