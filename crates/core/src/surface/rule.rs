@@ -36,7 +36,8 @@ pub struct SurfaceRule {
 struct Asked {
     goal: SurfaceGoal,
     norm: SurfaceNorm,
-    /// The largest difference that the layer allows; infinite where that is not known yet, and for other norms.
+    /// The largest difference that the layer allows; infinite where that is not known yet, and for other
+    /// norms.
     error: f64,
 }
 

@@ -131,8 +131,9 @@ pub(super) struct SampleRow {
 pub(super) const CLOSED: f64 = 1e-9;
 
 impl SurfaceSamples {
-    /// Returns whether the surfaces of two stacks have the same samples in the same domain, whatever errors are
-    /// asked for. Layers of errors, whose pixels can differ, are not compared: with them the answer is no.
+    /// Returns whether the surfaces of two stacks have the same samples in the same domain, whatever errors
+    /// are asked for. Layers of errors, whose pixels can differ, are not compared: with them the answer is
+    /// no.
     pub fn are_same(one: &[Layer], other: &[Layer]) -> bool {
         let of_errors = |layer: &&Layer| layer.visible && layer.is_of_errors();
         one.iter().chain(other).find(of_errors).is_none() && surfaces(one).eq(surfaces(other))
