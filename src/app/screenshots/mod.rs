@@ -45,7 +45,7 @@ struct Scene {
     act: fn(&mut OffscreenWindow),
 }
 
-const SCENES: [Scene; 21] = [
+const SCENES: [Scene; 22] = [
     scene("window", window),
     scene("query", query),
     scene("why", why),
@@ -58,6 +58,7 @@ const SCENES: [Scene; 21] = [
     scene("terrain", terrain),
     scene("aegean", aegean),
     scene("space", space),
+    scene("surface", surface),
     scene("layers", layers),
     scene("path", path),
     Scene { name: "front", size: [1280.0, 1360.0], px_per_point: 1.0, act: front },
@@ -190,6 +191,14 @@ fn space(window: &mut OffscreenWindow) {
     window.send(Command::View(ViewCommand::Zoom(1.3)));
     let middle = window.domain_center();
     point_at(window, middle);
+}
+
+/// The smallest mesh within an error of a terrain, where it is higher and lower, and the curve of the errors.
+fn surface(window: &mut OffscreenWindow) {
+    window.send(Command::File(FileCommand::OpenExample(Example::Heights)));
+    window.send(Command::View(ViewCommand::SetOverlay(FieldOverlay::SurfaceError)));
+    let middle = window.domain_center();
+    look_at(window, middle, 8.0);
 }
 
 /// Every kind of layer. The overlay has the colours of the layers that decide h̄; the threats are selected.
