@@ -151,6 +151,18 @@ class Mesh:
         answer: dict[str, Any] = json.loads(self._core.summary())
         return answer
 
+    def error_curve(
+        self, most: int = 1_048_576, *, progress: Progress = None
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Returns the error from the surface against the number of triangles, of the smallest meshes and of uniform ones.
+
+        Each array has shape (p, 2): triangles and the error by the norm of the topmost surface. No mesh has more than `most`
+        triangles.
+        """
+        with watching(progress) as watch:
+            least, uniform = self._core.error_curve(int(most), watch)
+        return least, uniform
+
     def violations(self) -> int:
         """Returns how many rules the mesh breaks: 0, unless the program has a mistake."""
         return self._core.violations()

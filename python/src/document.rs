@@ -13,6 +13,7 @@ use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::recipe::{self, LoadedDocument, Loading};
 use meshbrush_io::io::settings::SavedSettings;
 use meshbrush_io::io::{TextValue, project, write_file_metered};
+use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Limits, MemoryLimit, Progress, RefineError};
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;

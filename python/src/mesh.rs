@@ -11,6 +11,7 @@ use meshbrush_cli::cli::output::Output;
 use meshbrush_cli::cli::requested_files::{ExportedMesh, RequestedFiles};
 use meshbrush_cli::cli::summary::Summary;
 use meshbrush_core::earth::Coordinates;
+use meshbrush_core::surface::CurvePoint;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{Cancelled, MeshSource, Meter, NodeValues};
 use meshbrush_mesh::mesh::{Extract, PatchedLocator};
@@ -257,6 +258,33 @@ impl Mesh {
             serde_json::to_string(&summary).map_err(|error| error.to_string())
         })?;
         text.map_err(mesh_error)
+    }
+
+    /// Triangles and errors of the smallest meshes, and of uniform ones.
+    #[pyo3(signature = (most, watching))]
+    fn error_curve<'py>(
+        slf: &Bound<'py, Self>,
+        most: usize,
+        watching: Watching,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let shared = slf.get().0.clone();
+        let Some(norm) = shared.finished.spec().surface_norm() else {
+            return Err(mesh_error("An error curve needs a surface: add a layer with `layers.surface`."));
+        };
+        let traced = run(slf.py(), &watching, move |watch| {
+            shared.finished.error_curves(norm, most, |triangles| {
+                watch.tell("tracing the error", triangles as u64);
+                !watch.is_cancelled()
+            })
+        })?;
+        let curves = traced.map_err(mesh_error)?.ok_or_else(|| mesh_error("The work was cancelled."))?;
+        let array = |points: &[CurvePoint]| {
+            let rows = points.iter().flat_map(|point| [point.triangles as f64, point.error]);
+            let rows: Vec<f64> = rows.collect();
+            let array = rows.into_pyarray(slf.py()).call_method1("reshape", (points.len(), 2))?;
+            Ok::<_, PyErr>(array.cast_into::<PyArray2<f64>>()?)
+        };
+        Ok([array(&curves.least)?, array(&curves.uniform)?])
     }
 
     /// The number of rules that the mesh breaks.

@@ -452,6 +452,20 @@ def test_a_mesh_within_an_error_of_an_array() -> None:
     assert document.mesh().fingerprint == mesh.fingerprint
 
 
+def test_the_curve_of_errors_has_the_mesh() -> None:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25)
+    layer = document.layers.surface(formula="exp(-9*(x*x + y*y))", within=1e-3, norm="l2")
+    mesh = document.mesh()
+    least, uniform = mesh.error_curve(20_000)
+    assert (np.diff(least[:, 0]) > 0).all() and least[-1, 0] <= 20_000
+    first = least[least[:, 1] <= 1e-3][0]
+    assert abs(first[0] - len(mesh.triangles)) <= 0.03 * first[0]
+    assert list(uniform[:3, 0]) == [32, 64, 128] and mesh.statistics["rms_error"] <= 1e-3
+    layer.remove()
+    with pytest.raises(mb.MeshError, match=r"layers\.surface"):
+        document.mesh().error_curve()
+
+
 def test_errors_by_place_and_missing_values() -> None:
     rows, columns = np.mgrid[0:40, 0:40]
     heights = 5 * np.sin(columns / 4.0) * np.cos(rows / 5.0)
