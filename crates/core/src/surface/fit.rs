@@ -67,9 +67,7 @@ impl SurfaceFit {
             SurfaceNorm::Gradient => self.gradient,
         }
     }
-}
 
-impl SurfaceFit {
     /// Returns a height for each node of the mesh, as [`SurfaceSamples::filled_heights`].
     pub fn filled_heights(&self, mesh: MeshView) -> Vec<f64> {
         filled(&self.heights, mesh)

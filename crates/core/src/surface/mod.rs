@@ -19,10 +19,10 @@
 //! Layers of errors, such as paint, give samples another ε. It stays that of a sample, so that all of this
 //! holds with "a sample of the triangle differs by more than its ε" in place of "the error exceeds ε".
 //!
-//! For the root mean square of differences, or of those of the gradient, the error is a sum over the mesh. The
-//! triangle of the largest part is bisected then, again and again (`order`), until the sum is small enough: the
-//! mesh is near the smallest one. In either case [`ErrorQueue`] passes all meshes of the order, which are the
-//! curve of error against triangles.
+//! For the root mean square of differences, or of those of the gradient, the error is a sum over the mesh.
+//! The triangle of the largest part is bisected then, again and again (`order`), until the sum is small
+//! enough: the mesh is near the smallest one. In either case [`ErrorQueue`] passes all meshes of the order,
+//! which are the curve of error against triangles.
 //!
 //! The error is not monotone: a triangle can meet ε while its children do not. So a mesh for another ε, or
 //! after an edit, is made from the top of the bisection tree, and not by coarsening the former one.
