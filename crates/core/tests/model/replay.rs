@@ -63,7 +63,7 @@ fn meshes(text: &str) -> Vec<Option<(String, usize)>> {
 
 #[test]
 fn three_hundred_random_gestures_replay_to_the_meshes_that_the_follower_showed() {
-    let mut random = fastrand::Rng::with_seed(11);
+    let mut random = fastrand::Rng::with_seed(3);
     let scale = Scale { diameter: 0.03, smallest: 0.03, triangles: 100_000 };
     let mut document = recorded(Settings { spacing: 0.25, ..Settings::default() });
     let mut follower = Follower::new(&mut document).unwrap();
