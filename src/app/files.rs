@@ -10,6 +10,7 @@ use super::background::{Aim, Background, Outcome, cancelled, exported};
 use super::command::{Command, FileCommand, Opened, ShellCommand};
 use super::kit::Keymap;
 use super::session::Session;
+use super::space::Space;
 use super::view::View;
 use super::widgets::format;
 use meshbrush_core::document::{Document, Example, ExampleData, Recording, SeaChart, Settings};
@@ -18,7 +19,7 @@ use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{Layer, NodeDepths};
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::raster::Raster;
-use meshbrush_core::surface::SurfaceRule;
+use meshbrush_core::surface::{HeightSource, SurfaceRule};
 use meshbrush_io::io::png::{Behind, decode};
 use meshbrush_io::io::project::Project;
 use meshbrush_io::io::recipe::{self, OpenedRecipe, RecipeFiles};
@@ -26,9 +27,10 @@ use meshbrush_io::io::{
     self, DEPTH, MeshData, MeshSource, NodeValues, Provenance, SURFACE, ThirdCoordinate, recording,
 };
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::MeshView;
+use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};
-use meshbrush_render::render::export::ExportFormat;
+use meshbrush_render::render::export::{ExportFormat, Look, SpaceLook};
+use meshbrush_render::scene::NodeHeights;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
 /// N.
@@ -139,7 +141,8 @@ pub fn import_keys(background: &mut Background, path: &Path) {
     });
 }
 
-/// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view.
+/// Writes the mesh on the screen with h̄ at its nodes, or a picture of all of it in the colours of the view,
+/// in space where the view is.
 ///
 /// # Errors
 /// Fails with a sentence when it is clear at once that nothing can be written there.
@@ -160,6 +163,8 @@ pub fn export(
     let (paint, rule) = (session.document().paint().clone(), settings.rule);
     let surface = session.follower().surface().cloned();
     let look = view.picture(session.document().settings());
+    let is_picture = matches!(format, ExportFormat::Png | ExportFormat::Svg);
+    let space = is_picture.then_some(view.space).filter(|space| space.is_on);
     let file = path.to_owned();
     background.start(Aim::Export, path, move |meter| {
         let write = || -> std::io::Result<(Vec<PathBuf>, usize)> {
@@ -169,6 +174,8 @@ pub fn export(
             } else {
                 Vec::new()
             };
+            let in_space = |space| look_in_space(&space, surface.as_deref(), &settings.layers, &extract);
+            let look = Look { space: space.and_then(in_space), ..look };
             let boundary = &MeshBoundary::new(&extract, &settings.domain, &settings.boundary_marks);
             let parts = &extract.part_numbers();
             let quantities = match format.wants_node_data() {
@@ -177,14 +184,9 @@ pub fn export(
             };
             let (target_diameter, quantities) = (&target_diameter, &quantities[..]);
             let heights = quantities.iter().find(|values| values.name == SURFACE).map(|it| &*it.values);
-            let source = MeshSource::Document(&settings.name);
-            let provenance = Provenance::new(source, mesh.fingerprint(), "x, y").with_unit(settings.unit);
             // A model in space has lengths along all axes.
             let is_model = format.third_coordinate() == ThirdCoordinate::Model && heights.is_some();
-            let provenance = &match settings.domain.projection {
-                Some(plane) if is_model => provenance.in_plane(&plane),
-                plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
-            };
+            let provenance = &provenance_of(&settings, mesh.fingerprint(), is_model);
             let data = MeshData { target_diameter, quantities, heights, boundary, parts, provenance };
             let nodes = settings.domain.nodes_in(&Coordinates::Geographic, &extract).filter(|_| !is_model);
             let placed = nodes.map(|nodes| extract.with_coordinates(nodes));
@@ -202,6 +204,27 @@ pub fn export(
         }
     });
     Ok(())
+}
+
+/// Returns the origin of a mesh, with its coordinates: those of the plane in models.
+fn provenance_of(settings: &Settings, fingerprint: Fingerprint, is_model: bool) -> Provenance {
+    let source = MeshSource::Document(&settings.name);
+    let provenance = Provenance::new(source, fingerprint, "x, y").with_unit(settings.unit);
+    match settings.domain.projection {
+        Some(plane) if is_model => provenance.in_plane(&plane),
+        plane => provenance.in_coordinates(&Coordinates::Geographic, plane),
+    }
+}
+
+/// Returns how a picture of a mesh looks in space; `None` where no layer has heights.
+fn look_in_space(
+    space: &Space,
+    surface: Option<&SurfaceRule>,
+    layers: &[Layer],
+    extract: &Extract,
+) -> Option<SpaceLook> {
+    let heights = HeightSource::of(surface, layers)?.at_nodes(extract.lattice(), extract.nodes());
+    Some(space.picture(NodeHeights::new(&heights, &[])?, extract.lattice()))
 }
 
 /// Returns the depths and the heights of surfaces at the nodes of a mesh, where layers have them.

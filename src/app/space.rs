@@ -1,11 +1,16 @@
 //! The settings of the view in space.
 
+use std::sync::Arc;
+
 use super::command::SpaceCommand;
 use super::heights::Heights;
 use super::session::Session;
 use super::view::View;
 use meshbrush_mesh::geometry::Lattice;
-use meshbrush_render::scene::{Camera, HeightScale, Light, SpaceCamera, SpaceView, ViewDirection};
+use meshbrush_render::render::export::SpaceLook;
+use meshbrush_render::scene::{
+    Camera, HeightScale, Light, NodeHeights, SpaceCamera, SpaceView, ViewDirection,
+};
 
 /// Whether the canvas shows the mesh in space, and from where.
 ///
@@ -61,6 +66,18 @@ impl Space {
     pub fn usual_factor(&self, lattice: &Lattice) -> f64 {
         let relief = self.extent.map_or(0.0, |(scale, [low, high])| scale.step() * f64::from(high - low));
         SpaceCamera::visible_exaggeration(lattice.bounds(), relief) / self.ground
+    }
+
+    /// Returns how a picture of all of a surface looks from the same direction.
+    pub fn picture(&self, heights: NodeHeights, lattice: &Lattice) -> SpaceLook {
+        let usual = SpaceCamera::visible_exaggeration(lattice.bounds(), heights.relief());
+        SpaceLook {
+            direction: self.direction,
+            light: self.light,
+            exaggeration: self.exaggeration.map_or(usual, |factor| factor * self.ground),
+            metre: self.ground,
+            heights: Arc::new(heights),
+        }
     }
 
     /// Returns the view of a surface whose middle in the plan is that of `plan`; `None` in the plan, and

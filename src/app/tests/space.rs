@@ -5,16 +5,18 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::{
-    Window, canvas, entries, key, notice, press_at, release_at, send, settings, wait_for_jobs, wheel, window,
+    Window, canvas, entries, key, notice, press_at, release_at, scratch, send, settings, wait_for_jobs,
+    wheel, window,
 };
 use crate::app::canvas::space_sight;
-use crate::app::command::{Command, EditCommand, ShellCommand, SpaceCommand, ViewCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::heights::SpaceSight;
 use crate::app::kit::marks::point_from_px;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
+use meshbrush_render::scene::ViewDirection;
 
 /// Shows the hills of a formula in space.
 fn hills() -> Window {
@@ -50,6 +52,31 @@ fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers, by: [f
     window.run();
     release_at(window, from + vec2(by[0], by[1]), button);
     window.run();
+}
+
+#[test]
+fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
+    let mut window = hills();
+    let picture = |window: &mut Window, name: &str| {
+        let file = scratch(name);
+        send(window, Command::File(FileCommand::Export(file.clone())));
+        wait_for_jobs(window);
+        std::fs::read(&file).ok()
+    };
+    let usual = picture(&mut window, "app-space.png").unwrap();
+    send(
+        &mut window,
+        Command::View(ViewCommand::Space(SpaceCommand::LookFrom(ViewDirection {
+            azimuth: 120.0,
+            altitude: 30.0,
+        }))),
+    );
+    let turned = picture(&mut window, "app-space-turned.png").unwrap();
+    assert!(usual != turned);
+    assert_eq!(picture(&mut window, "app-space.svg"), None, "only pixels show what is hidden");
+    key(&mut window, Modifiers::SHIFT, Key::V);
+    let plan = picture(&mut window, "app-space-plan.png").unwrap();
+    assert!(plan != usual && picture(&mut window, "app-space-plan.svg").is_some());
 }
 
 #[test]
