@@ -27,6 +27,8 @@ pub fn show(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
     let inner = inner.with_min_y(inner.top() + 12.0);
     let palette = &palette_of(state);
     let content = match state.view.overlay {
+        FieldOverlay::None if state.view.space.is_on => None,
+        _ if state.view.space.is_on => Some(plan_only(ui, inner)),
         FieldOverlay::Risk => Some(risk_legend(ui, inner, palette)),
         FieldOverlay::Target => Some(target_legend(ui, inner, state)),
         FieldOverlay::Layer => Some(layer_legend(ui, inner, state, palette)),
@@ -170,6 +172,13 @@ fn surface_error_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>, palette: &
 fn below_scale(ui: &Ui, place: Rect, text: String) {
     let at = place.left_top() + vec2(0.0, 32.0);
     ui.painter().text(at, Align2::LEFT_TOP, text, font::axis(), tokens(ui).label);
+}
+
+/// Says that the view in space has no overlay.
+fn plan_only(ui: &Ui, inner: Rect) -> Rect {
+    let place = boxed(ui, inner, ROW, "Overlay", "Legend: overlays are shown in the plan");
+    ui.painter().text(place.min, Align2::LEFT_TOP, "shown in the plan", font::axis(), tokens(ui).label);
+    place
 }
 
 /// Says which layer is missing.

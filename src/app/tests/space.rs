@@ -13,6 +13,7 @@ use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, Space
 use crate::app::features::inspection::QUERY;
 use crate::app::heights::SpaceSight;
 use crate::app::kit::marks::point_from_px;
+use crate::app::view::FieldOverlay;
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
@@ -171,6 +172,19 @@ fn other_tools_say_that_they_work_in_the_plan() {
     drag(&mut window, PointerButton::Primary, Modifiers::NONE, [50.0, 20.0]);
     assert!(notice(&window).contains("works in the plan"), "{}", notice(&window));
     assert_eq!(entries(&window), edits);
+}
+
+#[test]
+fn hints_and_legend_are_those_of_the_view() {
+    let mut window = hills();
+    assert!(window.query_by_label_contains("Space pans").is_none());
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
+    window.run();
+    assert!(window.query_by_label_contains("overlays are shown in the plan").is_some());
+    key(&mut window, Modifiers::SHIFT, Key::V);
+    window.run();
+    assert!(window.query_by_label_contains("Space pans").is_some());
+    assert!(window.query_by_label_contains("Legend: surface").is_some());
 }
 
 #[test]

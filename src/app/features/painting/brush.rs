@@ -16,7 +16,11 @@ pub static BRUSH: ToolSpec = ToolSpec {
     place: 0,
     tab: Some(Tab::Size),
     options: &BRUSH_OPTIONS,
-    hint: |state| if state.tools.kind == PaintKind::Risk { PAINT_RISK } else { PAINT_DIAMETER },
+    hint: |state| match state.tools.kind {
+        PaintKind::Risk if state.view.space.is_on => PAINT_RISK,
+        PaintKind::Risk => PAINT_RISK_IN_PLAN,
+        PaintKind::Diameter | PaintKind::Error => PAINT_DIAMETER,
+    },
     has_ring: |_| true,
     brush: Some(brush),
     in_space: true,
@@ -28,7 +32,7 @@ pub static BRUSH: ToolSpec = ToolSpec {
 /// Length of the string on which the pointer pulls the brush at full smoothing, in points.
 const LONGEST_STRING: f32 = 80.0;
 
-const PAINT_RISK: &[Hint] = &[
+const PAINT_RISK_IN_PLAN: &[Hint] = &[
     Text("Drag to paint risk: the mesh follows"),
     KeyOf("smaller-brush"),
     KeyOf("larger-brush"),
@@ -41,6 +45,8 @@ const PAINT_RISK: &[Hint] = &[
     HintKey("Space"),
     Text("pans"),
 ];
+/// Without the keys that move the view: in space the canvas shows them.
+const PAINT_RISK: &[Hint] = PAINT_RISK_IN_PLAN.split_at(PAINT_RISK_IN_PLAN.len() - 2).0;
 const PAINT_DIAMETER: &[Hint] = &[
     Text("Drag to paint a target diameter"),
     KeyOf("smaller-brush"),
