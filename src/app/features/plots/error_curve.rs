@@ -52,13 +52,16 @@ impl TracedCurves {
         self.ask(session);
         let Some(Asked { number, work: Some((spec, norm)), paint, .. }) = &self.asked else { return };
         let (spec, norm, paint) = (spec.clone(), *norm, paint.clone());
-        // The mesh is that of the document as it is.
         let follower = session.follower();
-        let parts = Parts {
-            domain: Some(follower.domain().clone()),
-            field: Some(follower.shared_field()),
-            samples: follower.surface().map(|rule| rule.samples().clone()),
-            spare: None,
+        // A mesh that was given up is not that of the document.
+        let parts = match follower.is_in_step(session.document()) {
+            true => Parts {
+                domain: Some(follower.domain().clone()),
+                field: Some(follower.shared_field()),
+                samples: follower.surface().map(|rule| rule.samples().clone()),
+                spare: None,
+            },
+            false => Parts::default(),
         };
         let trace = move |wanted: &Wanted| {
             let mut tracing = CurveTracing::new(spec, parts, norm, CurveTracing::USUAL_MOST);

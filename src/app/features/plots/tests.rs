@@ -7,13 +7,14 @@ use eframe::egui::{Key, Modifiers, OutputCommand};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use super::{PlotKind, PlotsCommand};
-use crate::app::command::{Command, ShellCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, folder, key, open_section, send, settings, stroke, triangles,
     wait_for_notice, wait_until, window_of,
 };
 use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
+use meshbrush_core::document::{Example, Setting};
 use meshbrush_study::levels::Bisections;
 
 /// Returns the note below a plot.
@@ -146,4 +147,20 @@ fn every_control_of_the_plots_has_a_sentence() {
         window.run();
         assert_eq!(crate::app::tests::tips::unexplained(&window), [""; 0], "{}", kind.name());
     }
+}
+
+#[test]
+fn the_curve_of_errors_is_that_of_the_document_also_where_its_mesh_was_given_up() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Heights)));
+    wait_until(&mut window, is_current);
+    let spacing = settings(&window).spacing;
+    for setting in [Setting::MaxTriangles(5000), Setting::Spacing(0.5 * spacing)] {
+        send(&mut window, Command::Edit(EditCommand::Set(setting)));
+        send(&mut window, Command::Edit(EditCommand::EndGesture));
+    }
+    wait_until(&mut window, is_current);
+    let (plot, _) = window.state().features().plots.plot(window.state().session()).unwrap();
+    let coarse = plot.series.iter().find(|series| series.name == "Uniform mesh").unwrap().points[0];
+    assert_eq!(coarse[0], 2048.0, "four times the triangles of twice the spacing");
 }
