@@ -1,7 +1,5 @@
 //! The settings of the view in space.
 
-use std::sync::Arc;
-
 use super::command::SpaceCommand;
 use super::heights::Heights;
 use super::session::Session;
@@ -70,14 +68,7 @@ impl Space {
 
     /// Returns how a picture of all of a surface looks from the same direction.
     pub fn picture(&self, heights: NodeHeights, lattice: &Lattice) -> SpaceLook {
-        let usual = SpaceCamera::visible_exaggeration(lattice.bounds(), heights.relief());
-        SpaceLook {
-            direction: self.direction,
-            light: self.light,
-            exaggeration: self.exaggeration.map_or(usual, |factor| factor * self.ground),
-            metre: self.ground,
-            heights: Arc::new(heights),
-        }
+        SpaceLook::new((self.direction, self.light), self.exaggeration, self.ground, heights, lattice)
     }
 
     /// Returns the view of a surface whose middle in the plan is that of `plan`; `None` in the plan, and

@@ -314,6 +314,20 @@ impl Canvas {
         ui.painter().add(gpu.shape(rect, camera, style));
     }
 
+    /// Draws what features and the tool show over the mesh, and the gesture in progress.
+    fn paint_marks(&self, state: &FrameState<'_>, over: &OverMesh<'_>) {
+        for row in ROWS {
+            (row.marks_below)(state, over);
+        }
+        (state.tools.tool.paint)(state, over);
+        for row in ROWS {
+            (row.marks)(state, over);
+        }
+        if let Some(gesture) = &self.gesture {
+            gesture.paint(over.painter);
+        }
+    }
+
     /// Draws highlights, what the tool shows, the brush ring and the price beside it, and sets the cursor.
     pub fn draw_marks(&self, ui: &mut Ui, response: &Response, state: &FrameState<'_>) {
         let Some(camera) = state.view.camera else { return };
@@ -345,16 +359,7 @@ impl Canvas {
             straight: None,
             pointer,
         };
-        for row in ROWS {
-            (row.marks_below)(state, &over);
-        }
-        (state.tools.tool.paint)(state, &over);
-        for row in ROWS {
-            (row.marks)(state, &over);
-        }
-        if let Some(gesture) = &self.gesture {
-            gesture.paint(&painter);
-        }
+        self.paint_marks(state, &over);
         if let Some(pointer) = pointer {
             let radius = state.tools.radius as f32 * camera.px_per_world() as f32 / px_per_point;
             self.draw_brush(ui, state, &over, pointer, radius);

@@ -7,7 +7,6 @@ use glam::DVec2;
 
 use super::{Canvas, price};
 use crate::app::command::{Command, ShellCommand};
-use crate::app::features::ROWS;
 use crate::app::heights::{Heights, SpaceSight};
 use crate::app::kit::{FrameState, OverMesh, Tool, marks};
 use crate::app::session::Session;
@@ -92,16 +91,7 @@ impl Canvas {
             straight,
             pointer,
         };
-        for row in ROWS {
-            (row.marks_below)(state, &over);
-        }
-        (state.tools.tool.paint)(state, &over);
-        for row in ROWS {
-            (row.marks)(state, &over);
-        }
-        if let Some(gesture) = &self.gesture {
-            gesture.paint(&painter);
-        }
+        self.paint_marks(state, &over);
         if let (Some(pointer), Some(world)) = (pointer, state.pointer)
             && state.tools.tool.in_space
         {

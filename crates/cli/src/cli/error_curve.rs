@@ -6,12 +6,14 @@ use std::time::Instant;
 use clap::Args;
 
 use super::build::FinishedMesh;
+use super::details::MeshDetails;
 use super::failure::Failure;
 use super::output::check_place;
 use super::terminal::Terminal;
 use meshbrush_core::build::CurveTracing;
-use meshbrush_core::surface::{CurvePoint, SurfaceFit};
+use meshbrush_core::surface::CurvePoint;
 use meshbrush_io::io::write_file;
+use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::Grouped;
 use meshbrush_study::error_plot::error_plot;
 use meshbrush_study::plot;
@@ -46,16 +48,19 @@ pub fn check_curve_file(path: &Path, inputs: &[PathBuf]) -> Result<(), Failure> 
     check_place(path, inputs)
 }
 
-/// Writes the plot of a mesh that is close to a surface.
+/// Writes the plot of a mesh that is close to a surface. `details` has the error of the mesh, where it was
+/// measured before.
 ///
 /// # Errors
 /// Fails when no visible layer is a surface, or the file cannot be written.
 pub fn write_error_curve(
     path: &Path,
-    finished: &FinishedMesh,
-    fit: Option<&SurfaceFit>,
+    (finished, extract): (&FinishedMesh, &Extract),
+    details: Option<&MeshDetails>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
+    let measured = details.is_none().then(|| finished.surface_fit(extract)).flatten();
+    let fit = details.map_or(measured.as_ref(), |details| details.surface.as_ref());
     let Some((norm, fit)) = finished.spec().surface_norm().zip(fit) else {
         return Err(Failure::Usage(
             "--error-curve: the error is that from a surface, and no visible layer is one. Add --surface."

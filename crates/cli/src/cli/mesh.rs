@@ -71,7 +71,7 @@ pub fn run(
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
     if let Some(file) = &typed.curve.error_curve {
-        write_error_curve(file, &finished, finished.surface_fit(&extract).as_ref(), terminal)?;
+        write_error_curve(file, (&finished, &extract), details.as_ref(), terminal)?;
     }
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;

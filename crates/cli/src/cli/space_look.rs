@@ -1,7 +1,5 @@
 //! Pictures of the surface in space, before there is a mesh.
 
-use std::sync::Arc;
-
 use clap::{Args, ValueEnum};
 
 use super::build::FinishedMesh;
@@ -134,16 +132,8 @@ impl RequestedSpace {
                     .into(),
             ));
         };
-        let bounds = extract.lattice().bounds();
         let metre = SpaceCamera::metre_in(finished.unit());
-        let usual = || SpaceCamera::visible_exaggeration(bounds, heights.relief());
-        let in_world = |factor: f64| factor * metre;
-        Ok(SpaceLook {
-            direction: self.direction,
-            light: Light::default(),
-            exaggeration: self.exaggeration.map_or_else(usual, in_world),
-            metre,
-            heights: Arc::new(heights),
-        })
+        let seen = (self.direction, Light::default());
+        Ok(SpaceLook::new(seen, self.exaggeration, metre, heights, extract.lattice()))
     }
 }

@@ -304,6 +304,20 @@ const SPACE_MARGIN: f64 = 0.04;
 const SPACE_PROPORTIONS: [f64; 2] = [0.25, 2.0];
 
 impl SpaceLook {
+    /// Returns the appearance of a surface over a lattice. Heights are multiplied by `factor`; without one,
+    /// so that relief is visible. `metre` is [`Self::metre`].
+    pub fn new(
+        (direction, light): (ViewDirection, Light),
+        factor: Option<f64>,
+        metre: f64,
+        heights: NodeHeights,
+        lattice: &Lattice,
+    ) -> Self {
+        let usual = || SpaceCamera::visible_exaggeration(lattice.bounds(), heights.relief());
+        let exaggeration = factor.map_or_else(usual, |factor| factor * metre);
+        Self { direction, light, exaggeration, metre, heights: Arc::new(heights) }
+    }
+
     /// Returns the whole surface over a lattice in a picture of a size, in pixels.
     fn view(&self, lattice: &Lattice, size: [u32; 2], margin_px: f64) -> SpaceView {
         let surface = (self.heights.scale, self.heights.ends());
