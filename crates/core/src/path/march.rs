@@ -114,7 +114,12 @@ impl March {
     #[inline]
     pub(super) fn next(&mut self) -> Option<u32> {
         loop {
-            let (value, number) = self.queue.take()?;
+            let nodes = &self.nodes;
+            let is_wanted = |value: f64, number: u32| {
+                let node = &nodes[number as usize];
+                !node.is_accepted && value == node.value
+            };
+            let (value, number) = self.queue.take(is_wanted)?;
             let node = &mut self.nodes[number as usize];
             if !node.is_accepted && value == node.value {
                 node.is_accepted = true;
