@@ -28,11 +28,13 @@ const MOST_ROUNDS: usize = 5;
 const DETOUR: f64 = 3.0;
 
 impl PathMesh {
-    /// Bisects the triangles through which the rim of the area passes, the largest first.
-    pub(super) fn divide_along_area(&mut self) {
+    /// Bisects the triangles through which the rim of the area passes, the largest first. Returns whether
+    /// any was.
+    pub(super) fn divide_along_area(&mut self) -> bool {
         if !self.area().divides_meshes() {
-            return;
+            return false;
         }
+        let before = self.triangle_count();
         let coarsest = COARSEST * self.bounds().map_or(0.0, |bounds| bounds.size().max_element());
         let partly = self.partly();
         partly.iter().for_each(|&t| self.triangles[t as usize].divisions = DIVISIONS);
@@ -40,6 +42,7 @@ impl PathMesh {
             let (diameter, divisions) = (mesh.diameter(t), mesh.triangles[t as usize].divisions);
             if diameter > coarsest || divisions > 0 { diameter } else { 0.0 }
         });
+        self.triangle_count() > before
     }
 
     /// Returns the mesh with smaller triangles for paths that visit places: around those beside the rim of
@@ -61,6 +64,11 @@ impl PathMesh {
                 break;
             }
             Arc::make_mut(&mut mesh).divide_ways(&on_ways);
+        }
+        if mesh.triangle_count() > self.triangle_count() {
+            let mesh = Arc::make_mut(&mut mesh);
+            mesh.sort_along_curve();
+            mesh.connect();
         }
         mesh
     }

@@ -25,6 +25,7 @@ mod corridor;
 mod cost;
 mod detail;
 mod error;
+mod follow;
 mod front;
 mod ground;
 mod integral;
@@ -41,6 +42,9 @@ mod planner;
 mod queue;
 mod refine;
 mod resolve;
+#[cfg(test)]
+mod resolve_tests;
+mod shared;
 mod shortcuts;
 mod shortest;
 mod solution;

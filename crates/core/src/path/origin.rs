@@ -2,8 +2,9 @@
 
 use super::Passage;
 use super::march::{March, Seed};
-use super::path_mesh::PathMesh;
+use super::path_mesh::{NONE, PathMesh};
 use super::place::Place;
+use super::shared::Shared;
 
 /// A march from a waypoint.
 #[derive(Clone, Debug, Default)]
@@ -46,6 +47,29 @@ impl Origin {
         self.follows = true;
         if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
             self.march.resolve(mesh, costs, least, &self.seeds, changed);
+        } else {
+            self.is_current = false;
+        }
+    }
+
+    /// Follows the change from an old mesh to a new one, as [`Self::follow`] does. `changed` has the
+    /// triangles that are new, or whose costs or passages changed.
+    pub fn move_to(
+        &mut self,
+        [old, new]: [&PathMesh; 2],
+        costs: &[f64],
+        least: Passage,
+        (shared, changed): (&Shared, &[u32]),
+    ) {
+        self.follows = true;
+        let triangle = |t: u32| shared.new_triangles[t as usize];
+        let place = self.place.map(|place| Place { triangle: triangle(place.triangle), ..place });
+        self.place = place.filter(|place| place.triangle != NONE);
+        let renumbered = |&(node, value): &Seed| (shared.new_nodes[node as usize], value);
+        let seeds = self.place.map(|place| place.seeds(new, costs));
+        self.seeds = self.seeds.iter().map(renumbered).collect();
+        if self.is_current && self.march.is_complete() && seeds.as_ref() == Some(&self.seeds) {
+            self.march.move_to([old, new], costs, least, &self.seeds, (shared, changed));
         } else {
             self.is_current = false;
         }

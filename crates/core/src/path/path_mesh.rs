@@ -90,7 +90,10 @@ impl PathMesh {
             mesh.close_outside_area();
         }
         mesh.connect();
-        mesh.divide_along_area();
+        if mesh.divide_along_area() {
+            mesh.sort_along_curve();
+            mesh.connect();
+        }
         mesh
     }
 
@@ -153,13 +156,19 @@ impl PathMesh {
                 && self.triangles.iter().zip(&other.triangles).all(|(a, b)| a.corners == b.corners))
     }
 
-    /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes.
-    fn sort_along_curve(&mut self) {
-        let Some(bounds) = self.nodes.iter().map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b)) else {
-            return;
-        };
+    /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes: so nodes that two
+    /// meshes of one rectangle share are in the same order in both. Returns the former numbers of the
+    /// triangles in their new order. The rows of triangles around nodes must be filled again.
+    pub(super) fn sort_along_curve(&mut self) -> Vec<u32> {
+        let Some(bounds) = self.extent() else { return Vec::new() };
         let keys: Vec<u32> = self.nodes.iter().map(|&p| z_order(p, &bounds)).collect();
-        let (node_order, new_nodes) = sorted_by(&keys);
+        let mut node_order = sorted_by(&keys);
+        // Nodes at one place of the curve, by their coordinates.
+        let place = |&node: &u32| order_on_curve(self.nodes[node as usize], &bounds);
+        for near in node_order.chunk_by_mut(|&a, &b| keys[a as usize] == keys[b as usize]) {
+            near.sort_unstable_by_key(place);
+        }
+        let new_nodes = inverse(&node_order);
         self.nodes = node_order.iter().map(|&old| self.nodes[old as usize]).collect();
         for triangle in &mut self.triangles {
             triangle.corners = triangle.corners.map(|node| new_nodes[node as usize]);
@@ -169,10 +178,17 @@ impl PathMesh {
             .iter()
             .map(|t| t.corners.iter().fold(NONE, |least, &node| least.min(node)))
             .collect();
-        let (order, new_triangles) = sorted_by(&keys);
+        let order = sorted_by(&keys);
+        let new_triangles = inverse(&order);
         let renumbered = |t: u32| if t == NONE { NONE } else { new_triangles[t as usize] };
         self.across = order.iter().map(|&old| self.across[old as usize].map(renumbered)).collect();
         self.triangles = order.iter().map(|&old| self.triangles[old as usize]).collect();
+        order
+    }
+
+    /// Returns the rectangle around all nodes.
+    pub(super) fn extent(&self) -> Option<Rect> {
+        self.nodes.iter().map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
     }
 
     /// Fills the rows of triangles around the nodes.
@@ -314,14 +330,23 @@ fn twice_area(view: &MeshView, corners: [u32; 3]) -> i128 {
     way(a.x, b.x) * way(a.y, c.y) - way(a.y, b.y) * way(a.x, c.x)
 }
 
-/// Returns the order of numbers by their keys, and the place of each number in it.
-fn sorted_by(keys: &[u32]) -> (Vec<u32>, Vec<u32>) {
+/// Returns the order of numbers by their keys.
+fn sorted_by(keys: &[u32]) -> Vec<u32> {
     let mut sorted: Vec<u64> = (0..).zip(keys).map(|(n, &key): (u64, _)| u64::from(key) << 32 | n).collect();
     sorted.sort_unstable();
-    let order: Vec<u32> = sorted.into_iter().map(|entry| entry as u32).collect();
+    sorted.into_iter().map(|entry| entry as u32).collect()
+}
+
+/// Returns the place of each number in an order.
+fn inverse(order: &[u32]) -> Vec<u32> {
     let mut places = vec![0; order.len()];
-    (0..).zip(&order).for_each(|(place, &n)| places[n as usize] = place);
-    (order, places)
+    (0..).zip(order).for_each(|(place, &n)| places[n as usize] = place);
+    places
+}
+
+/// Returns the key by which nodes are numbered in a mesh with this rectangle around its nodes.
+pub(super) fn order_on_curve(node: DVec2, extent: &Rect) -> (u32, u64, u64) {
+    (z_order(node, extent), node.y.to_bits(), node.x.to_bits())
 }
 
 /// Returns the corner with an angle above 90°, beyond rounding; 3 without one.

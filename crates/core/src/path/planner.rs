@@ -46,9 +46,6 @@ const COMPARED: f64 = 1e-3;
 /// Another way is worth a closer look if sketches promise that it costs less by this share.
 const LEAST_GAIN: f64 = 1e-4;
 
-/// More rectangles in which the cost changed are joined to one.
-const MOST_AREAS: usize = 64;
-
 /// Finds paths of least cost on one mesh.
 ///
 /// The mesh is bisected further where the cost varies much within a triangle. The path follows the march with
@@ -58,27 +55,27 @@ const MOST_AREAS: usize = 64;
 /// some triangles, computes again only what the change can reach.
 #[derive(Clone, Debug)]
 pub struct Planner {
-    mesh: Arc<PathMesh>,
-    walls: Arc<Walls>,
-    adaptation: Option<Adaptation>,
-    costs: TriangleCosts,
+    pub(super) mesh: Arc<PathMesh>,
+    pub(super) walls: Arc<Walls>,
+    pub(super) adaptation: Option<Adaptation>,
+    pub(super) costs: TriangleCosts,
     /// Marches with mean costs through open triangles, one for each waypoint.
-    origins: Vec<Origin>,
+    pub(super) origins: Vec<Origin>,
     /// Marches with least costs through all triangles that are not closed, one for each waypoint.
-    origins_for_bounds: Vec<Origin>,
+    pub(super) origins_for_bounds: Vec<Origin>,
     /// One for each leg.
     bounds: Vec<LowerBound>,
 }
 
 /// The mesh from which a planner's mesh was bisected.
 #[derive(Clone, Debug)]
-struct Adaptation {
+pub(super) struct Adaptation {
     /// The mesh that the planner was made with.
-    base: Arc<PathMesh>,
+    pub base: Arc<PathMesh>,
     /// The costs of its triangles.
-    costs: Vec<TriangleCost>,
+    pub costs: Vec<TriangleCost>,
     /// Where the cost changed since the mesh was bisected for it.
-    changed: Vec<Rect>,
+    pub changed: Vec<Rect>,
 }
 
 impl Planner {
@@ -120,71 +117,6 @@ impl Planner {
     /// Returns the cost of each triangle.
     pub fn costs(&self) -> &TriangleCosts {
         &self.costs
-    }
-
-    /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
-    /// Costs are computed again only there, and marches follow unless the mesh is bisected in another way for
-    /// the new cost.
-    ///
-    /// # Errors
-    /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
-    pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        let Some(Adaptation { base, costs: known, changed }) = &self.adaptation else {
-            return self.change_costs(density, areas);
-        };
-        let meeting = base.meeting(&[changed, areas].concat());
-        if meeting.is_empty() {
-            return Ok(());
-        }
-        let mut known = known.clone();
-        for (&triangle, cost) in meeting.iter().zip(base.costs_of(&meeting, density)?) {
-            known[triangle as usize] = cost;
-        }
-        let (base, mut mesh) = (Arc::clone(base), Arc::clone(base));
-        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
-        if mesh.is_same_as(&self.mesh) {
-            let changed = self.costs.exchange(costs);
-            self.follow_costs(&changed);
-        } else {
-            *self = Self::with_costs(mesh, costs);
-        }
-        self.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
-        Ok(())
-    }
-
-    /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths
-    /// that are shown while something is dragged.
-    ///
-    /// # Errors
-    /// Fails as [`Self::update`] does.
-    pub fn follow(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        self.change_costs(density, areas)?;
-        if let Some(Adaptation { changed, .. }) = &mut self.adaptation {
-            changed.extend(areas);
-            if changed.len() > MOST_AREAS {
-                let all = changed.drain(..).reduce(|a, b| a.union(&b));
-                changed.extend(all);
-            }
-        }
-        Ok(())
-    }
-
-    /// Computes costs again, and lets the marches follow.
-    fn change_costs(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        let changed = self.costs.update(&self.mesh, density, areas)?;
-        self.follow_costs(&changed);
-        Ok(())
-    }
-
-    /// Lets the marches follow the costs of some triangles.
-    fn follow_costs(&mut self, changed: &[u32]) {
-        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
-        let follow = |(origin, costs, least): (&mut Origin, &[f64], Passage)| {
-            origin.follow(mesh, costs, least, changed);
-        };
-        let open = origins.par_iter_mut().map(|origin| (origin, &*costs.mean, Passage::Open));
-        let partly = origins_for_bounds.par_iter_mut().map(|origin| (origin, &*costs.least, Passage::Partly));
-        open.chain(partly).for_each(follow);
     }
 
     /// Returns the path of least cost from the first of the places to the last by way of the others, in

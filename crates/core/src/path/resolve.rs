@@ -3,6 +3,7 @@
 use super::Passage;
 use super::march::{Front, Kite, March, Seed, from_corner, through_edge};
 use super::path_mesh::{NONE, PathMesh};
+use super::shared::Shared;
 
 impl March {
     /// Brings the values up to date after the costs of some triangles changed, and returns how many nodes
@@ -22,16 +23,50 @@ impl March {
         seeds: &[Seed],
         changed: &[u32],
     ) -> usize {
+        self.go_on_without(mesh, costs, least, seeds, (changed, &[]))
+    }
+
+    /// Goes over to a mesh that shares triangles with the one before, and brings the values up to date as
+    /// [`Self::resolve`] does, with the same result. `changed` has the triangles that are new, and those
+    /// whose cost or passage is another one.
+    pub(super) fn move_to(
+        &mut self,
+        [old, mesh]: [&PathMesh; 2],
+        costs: &[f64],
+        least: Passage,
+        seeds: &[Seed],
+        (shared, changed): (&Shared, &[u32]),
+    ) -> usize {
+        let mut lost = Vec::new();
+        let before = std::mem::take(&mut self.nodes);
+        for ((number, &at), &known) in (0..).zip(&mesh.nodes).zip(&shared.nodes) {
+            let unknown = Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
+            let mut front = before.get(known as usize).copied().unwrap_or(unknown);
+            if front.from != NONE {
+                if !is_kept([old, mesh], front.from, shared) {
+                    lost.push(number);
+                }
+                front.from = shared.new_triangles[front.from as usize];
+            }
+            self.nodes.push(front);
+        }
+        self.go_on_without(mesh, costs, least, seeds, (changed, &lost))
+    }
+
+    /// Goes on after the values from `changed` triangles, and those of `lost` nodes, ceased to hold.
+    fn go_on_without(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        least: Passage,
+        seeds: &[Seed],
+        (changed, lost): (&[u32], &[u32]),
+    ) -> usize {
         let mut edit = Edit { march: self, mesh, costs, least, seeds, lost: Vec::new() };
         edit.march.queue.clear();
         edit.march.accepted_count = 0;
-        for &t in changed {
-            for node in mesh.triangles[t as usize].corners {
-                if edit.march.nodes[node as usize].from == t {
-                    edit.lose(node);
-                }
-            }
-        }
+        lost.iter().for_each(|&node| edit.lose(node));
+        changed.iter().for_each(|&t| edit.lose_values_from(t));
         let most = mesh.node_count() / 2;
         if edit.lost.len() > most {
             self.run(mesh, costs, least, seeds, None);
@@ -57,6 +92,19 @@ impl March {
     }
 }
 
+/// Returns whether values from a triangle of an old mesh may still come from it: both meshes have it, and
+/// where it has an obtuse angle, the one across.
+fn is_kept([old, new]: [&PathMesh; 2], t: u32, shared: &Shared) -> bool {
+    let Some(kept) = new.triangles.get(shared.new_triangles[t as usize] as usize) else { return false };
+    let obtuse = usize::from(kept.obtuse);
+    let across = |mesh: &PathMesh, t: u32| mesh.across[t as usize][(obtuse + 1) % 3];
+    if obtuse == 3 {
+        return true;
+    }
+    let [of_old, of_new] = [across(old, t), across(new, shared.new_triangles[t as usize])];
+    of_old == NONE || shared.new_triangles[of_old as usize] == of_new
+}
+
 struct Edit<'a> {
     march: &'a mut March,
     mesh: &'a PathMesh,
@@ -70,6 +118,25 @@ struct Edit<'a> {
 impl Edit<'_> {
     fn front(&self, node: u32) -> Front {
         self.march.nodes[node as usize]
+    }
+
+    /// Takes the values that came through a triangle, also those from a kite that it is a part of.
+    fn lose_values_from(&mut self, t: u32) {
+        for node in self.mesh.triangles[t as usize].corners {
+            if self.front(node).from == t {
+                self.lose(node);
+            }
+        }
+        if !self.mesh.has_obtuse {
+            return;
+        }
+        for other in self.mesh.across[t as usize].into_iter().filter(|&other| other != NONE) {
+            let obtuse = usize::from(self.mesh.triangles[other as usize].obtuse);
+            let apex = self.mesh.triangles[other as usize].corners.get(obtuse).copied();
+            if let Some(apex) = apex.filter(|&apex| self.front(apex).from == other) {
+                self.lose(apex);
+            }
+        }
     }
 
     /// Takes the value from a node, and from all nodes whose values came from it.
@@ -207,107 +274,5 @@ impl Edit<'_> {
                 }
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::{Lattice, Rect};
-    use crate::mesh::{Limits, Mesh};
-
-    fn random_mesh(random: &mut fastrand::Rng) -> PathMesh {
-        let lattice = Lattice::covering(Rect::UNIT, 0.25, 10_000).unwrap();
-        let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
-        for _ in 0..3 {
-            let [x, y] = [random.f64(), random.f64()];
-            let near = glam::dvec2(x, y);
-            mesh.refine(&Limits::default(), |element| {
-                let [a, b, c] = element.world_corners();
-                element.diameter() > 0.02 + 0.3 * ((a + b + c) / 3.0).distance(near)
-            })
-            .unwrap();
-        }
-        let mut mesh = PathMesh::new(mesh.view());
-        if random.bool() {
-            move_nodes(&mut mesh, random);
-        }
-        mesh
-    }
-
-    /// Moves inner nodes, so that triangles get obtuse angles.
-    fn move_nodes(mesh: &mut PathMesh, random: &mut fastrand::Rng) {
-        let shortest = |mesh: &PathMesh, node: u32| {
-            let sides = mesh.around(node).iter().map(|&t| {
-                let [a, b, c] = mesh.corners(t);
-                a.distance(b).min(b.distance(c)).min(c.distance(a))
-            });
-            sides.fold(f64::INFINITY, f64::min)
-        };
-        let moves: Vec<glam::DVec2> = (0..mesh.node_count() as u32)
-            .map(|node| 0.4 * shortest(mesh, node) * glam::dvec2(random.f64() - 0.5, random.f64() - 0.5))
-            .collect();
-        for (node, step) in mesh.nodes.iter_mut().zip(moves) {
-            if node.min(1.0 - *node).min_element() > 0.0 {
-                *node += step;
-            }
-        }
-        for t in 0..mesh.triangle_count() {
-            mesh.triangles[t].obtuse = super::super::path_mesh::obtuse_corner(&mesh.corners(t as u32));
-            mesh.has_obtuse |= mesh.triangles[t].obtuse < 3;
-        }
-    }
-
-    #[test]
-    fn an_edit_of_nearly_everything_accepts_each_node_once() {
-        let mut random = fastrand::Rng::with_seed(1404);
-        for factor in [0.5, 2.0] {
-            let mesh = random_mesh(&mut random);
-            let mut costs: Vec<f64> = (0..mesh.triangle_count()).map(|_| 0.5 + random.f64()).collect();
-            let seeds = [(random.u32(0..mesh.node_count() as u32), 0.0)];
-            let mut march = March::default();
-            march.run(&mesh, &costs, Passage::Open, &seeds, None);
-            costs.iter_mut().for_each(|cost| *cost *= factor * (1.0 + 0.1 * random.f64()));
-            let all: Vec<u32> = (0..costs.len() as u32).collect();
-            let redone = march.resolve(&mesh, &costs, Passage::Open, &seeds, &all);
-            assert!(redone <= mesh.node_count(), "{redone} of {}", mesh.node_count());
-            let mut fresh = March::default();
-            fresh.run(&mesh, &costs, Passage::Open, &seeds, None);
-            assert!(march.values().eq(fresh.values()));
-        }
-    }
-
-    #[test]
-    fn values_after_an_edit_are_those_of_a_new_march_bit_for_bit() {
-        let mut random = fastrand::Rng::with_seed(1403);
-        let (mut redone, mut all, mut obtuse) = (0, 0, 0);
-        for _ in 0..40 {
-            let mesh = random_mesh(&mut random);
-            obtuse += usize::from(mesh.has_obtuse);
-            let mut costs: Vec<f64> = (0..mesh.triangle_count()).map(|_| 0.5 + random.f64()).collect();
-            let seeds = [(random.u32(0..mesh.node_count() as u32), 0.0)];
-            let (mut edited, mut fresh) = (March::default(), March::default());
-            edited.run(&mesh, &costs, Passage::Open, &seeds, None);
-            for _ in 0..30 {
-                let changed: Vec<u32> = match random.bool() {
-                    true => (0..random.u32(1..6)).map(|_| random.u32(0..costs.len() as u32)).collect(),
-                    // A disc, as a brush changes it.
-                    false => {
-                        let at = glam::dvec2(random.f64(), random.f64());
-                        let near = |t: &u32| mesh.corners(*t)[0].distance(at) < 0.1;
-                        (0..costs.len() as u32).filter(near).collect()
-                    }
-                };
-                let factor = [0.2, 0.9, 1.1, 5.0][random.usize(..4)];
-                changed.iter().for_each(|&t| costs[t as usize] *= factor);
-                redone += edited.resolve(&mesh, &costs, Passage::Open, &seeds, &changed);
-                all += mesh.node_count();
-                fresh.run(&mesh, &costs, Passage::Open, &seeds, None);
-                let same = edited.values().zip(fresh.values()).all(|(a, b)| a.to_bits() == b.to_bits());
-                assert!(same);
-            }
-        }
-        assert!(redone < all / 2, "{redone} of {all}");
-        assert!(obtuse > 10, "{obtuse}");
     }
 }

@@ -59,11 +59,16 @@ impl TriangleCosts {
         let wanted: Vec<(f64, u32)> =
             (0..).zip(known).map(important).filter(|&(importance, _)| importance > 0.0).collect();
         if !wanted.is_empty() {
-            Arc::make_mut(mesh).bisect(wanted, MOST_ADDED, |mesh, triangle| {
+            let mesh = Arc::make_mut(mesh);
+            mesh.bisect(wanted, MOST_ADDED, |mesh, triangle| {
                 let cost = mesh.cost(triangle, density)?;
                 costs.set(triangle, cost);
                 Ok::<_, PathError>(mesh.importance(triangle, cost, coarsest))
             })?;
+            let order = mesh.sort_along_curve();
+            mesh.connect();
+            let sorted = |costs: &[f64]| order.iter().map(|&t| costs[t as usize]).collect();
+            costs = Self { least: sorted(&costs.least), mean: sorted(&costs.mean) };
         }
         Ok(costs)
     }
@@ -121,7 +126,8 @@ fn coarsest(mesh: &PathMesh) -> f64 {
 }
 
 impl TriangleCost {
-    const CLOSED: Self = Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
+    pub(super) const CLOSED: Self =
+        Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
 
     /// Returns how much the cost varies, as a share of the least cost.
     fn variation(&self) -> f64 {

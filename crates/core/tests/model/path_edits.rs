@@ -8,8 +8,8 @@ use crate::operations::{LayerEdit, Operation, Scale};
 use crate::runs::seeds;
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
-use meshbrush_core::layers::RiskField;
-use meshbrush_core::path::{PathMesh, PathRequest, Planner, WeightedCost, Weights};
+use meshbrush_core::layers::{Mask, RiskField};
+use meshbrush_core::path::{PathArea, PathMesh, PathRequest, Planner, WeightedCost, Weights};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
 
@@ -80,4 +80,72 @@ fn a_planner_follows_edits_of_every_kind_of_layer_as_a_new_one_does() {
         }
     }
     assert!(within > 60 && changed > 300, "{within} {changed}");
+}
+
+/// Returns a mesh that is finer around a place than one before, or another one, as after an undo.
+fn next_mesh(random: &mut fastrand::Rng, known: &Mesh) -> Mesh {
+    let lattice = Lattice::covering(Rect::UNIT, 0.1, 10_000).unwrap();
+    let mut mesh = match random.u32(..5) {
+        0 => Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap(),
+        _ => known.clone(),
+    };
+    let near = dvec2(random.f64(), random.f64());
+    let finer = mesh.refine(&Limits::default(), |element| {
+        let [a, b, c] = element.world_corners();
+        element.diameter() > 0.02 + 2.0 * ((a + b + c) / 3.0).distance(near)
+    });
+    finer.unwrap();
+    mesh
+}
+
+#[test]
+fn a_planner_goes_over_to_other_meshes_as_a_new_one_does() {
+    let request = PathRequest::FULL;
+    let mut moved = 0;
+    for seed in seeds(8) {
+        let mut random = fastrand::Rng::with_seed(2900 + seed);
+        let mut document = Document::new(Settings::default(), None).unwrap();
+        let mut known = risk(&document);
+        let corner = dvec2(0.3 + 0.2 * random.f64(), 0.3 + 0.2 * random.f64());
+        let ring = [(0.0, 0.0), (0.17, 0.0), (0.17, 0.17), (0.0, 0.17)].map(|(x, y)| corner + dvec2(x, y));
+        let block = Mask::new(&[vec![ring.to_vec()]]).unwrap();
+        let area = PathArea::outside_of(&if random.bool() { vec![block] } else { Vec::new() });
+        let lattice = Lattice::covering(Rect::UNIT, 0.1, 10_000).unwrap();
+        let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        let mut planner = Planner::new(PathMesh::in_area(mesh.view(), &area), &cost(known.clone())).unwrap();
+        // The places stay for some edits, so that marches go over, too.
+        let mut places = [dvec2(0.1, 0.2), dvec2(0.9, 0.8)];
+        for edit in 0..EDITS_OF_A_DOCUMENT {
+            let operation = operation(&mut random);
+            let message = format!("{seed} {edit}: {operation:.0?}");
+            operation.apply(&mut document);
+            mesh = next_mesh(&mut random, &mesh);
+            let new = risk(&document);
+            let areas = new.areas_that_differ(&known).unwrap_or_else(|| vec![Rect::UNIT]);
+            let density = cost(new.clone());
+            let path_mesh = Arc::new(PathMesh::in_area(mesh.view(), &area));
+            match random.u32(..4) {
+                // Live on the mesh as it was, and then the mesh follows.
+                0 => {
+                    planner.follow(&density, &areas).unwrap();
+                    planner.move_to(Arc::clone(&path_mesh), &density, &[]).unwrap();
+                }
+                _ => planner.move_to(Arc::clone(&path_mesh), &density, &areas).unwrap(),
+            }
+            moved += 1;
+            let mut fresh = Planner::new(path_mesh, &density).unwrap();
+            assert_eq!(planner.costs().least, fresh.costs().least, "{message}");
+            assert_eq!(planner.costs().mean, fresh.costs().mean, "{message}");
+            if random.u32(..5) == 0 {
+                places = [
+                    dvec2(0.25 * random.f64(), random.f64()),
+                    dvec2(0.75 + 0.25 * random.f64(), random.f64()),
+                ];
+            }
+            let followed = planner.solve(&density, &places, request);
+            assert_eq!(followed, fresh.solve(&density, &places, request), "{message}");
+            known = new;
+        }
+    }
+    assert!(moved >= EDITS_OF_A_DOCUMENT);
 }

@@ -17,7 +17,9 @@ use super::alternatives::AlternativesFinder;
 use super::corridor::ShownCorridor;
 use super::front::FrontFinder;
 use super::prover::{Known, Prover};
-use super::work::{FoundPath, KnownPlanner, PlannedMesh, ShownPath, Work, WorkResult, find, find_corridor};
+use super::work::{
+    FoundPath, KnownPlanner, PlannedMesh, PlannerSource, ShownPath, Work, WorkResult, find, find_corridor,
+};
 use crate::app::derivation::MeasuredMesh;
 use crate::app::document_id::DocumentId;
 use crate::app::jobs::{Jobs, Slot};
@@ -107,6 +109,12 @@ impl PathFinder {
         found.former = Some(Box::new(former));
     }
 
+    /// Returns how often the planner went over to another mesh since it was made.
+    #[cfg(test)]
+    pub fn moves(&self) -> Option<usize> {
+        self.planner.as_ref().map(|(known, _)| known.moves)
+    }
+
     /// Takes what was found, waiting as long as the frame may, and begins what is to be found next. The
     /// jobs wake the window: no frame needs to wait for them. Alternatives and the front are those of
     /// `route`.
@@ -170,20 +178,20 @@ impl PathFinder {
         let risk = RiskField::new(&settings.layers, paint).within(&settings.domain.bounds);
         let (plan, is_live) = (document.settings().paths.clone(), key.is_live);
         let planner = self.planner.take();
-        let planner = planner.filter(|(known, mesh)| *mesh == key.mesh && known.has_area_of(&plan));
-        let mesh = match planner {
-            Some((planner, _)) => PlannedMesh::Planner(Box::new(planner)),
-            None => match session.derived() {
-                Some(derived) => PlannedMesh::Extract(derived.shared_extract()),
-                None => PlannedMesh::Mesh(session.follower().shared_mesh()),
-            },
-        };
+        let is_of_document = |mesh: &MeshKey| mesh.document_id == key.mesh.document_id;
+        let planner = planner.filter(|(known, mesh)| is_of_document(mesh) && known.has_area_of(&plan));
+        let knows_mesh = planner.as_ref().is_some_and(|(_, mesh)| *mesh == key.mesh);
+        let mesh = (!knows_mesh).then(|| match session.derived() {
+            Some(derived) => PlannedMesh::Extract(derived.shared_extract()),
+            None => PlannedMesh::Mesh(session.follower().shared_mesh()),
+        });
+        let source = PlannerSource { known: planner.map(|(known, _)| Box::new(known)), mesh };
         let (domain, unit) = (settings.domain.clone(), settings.unit);
         self.work.start(
             key,
             move || {
                 let density = plan.cost.density(risk.clone(), &domain).ok()?;
-                let planner = mesh.planner(&density, (plan.clone(), risk), &domain, is_live);
+                let planner = source.planner(&density, (plan.clone(), risk), &domain, is_live)?;
                 Some(find(planner, density, (&plan.routes, &domain, unit), is_live))
             },
             jobs,

@@ -37,16 +37,50 @@ pub(super) struct KnownPlanner {
     pub planner: Planner,
     pub plan: Arc<PathPlan>,
     risk: RiskField,
+    /// What the area of paths and the place of the plane on the Earth were taken from.
+    domain: Domain,
     /// The triangles in the area of paths, and those with smaller ones for the places of the plan, which the
     /// planner was made with.
     meshes: [Arc<PathMesh>; 2],
     corridor: Option<Corridor>,
+    /// How often it went over to another mesh.
+    #[cfg(test)]
+    pub moves: usize,
 }
 
 impl KnownPlanner {
+    fn new(
+        mesh: &PlannedMesh,
+        density: &Arc<dyn CostDensity>,
+        (plan, risk): (Arc<PathPlan>, RiskField),
+        domain: &Domain,
+    ) -> Result<Self, PathError> {
+        let mesh = Arc::new(mesh.in_area(&plan, domain)?);
+        let detailed = mesh.detailed(&plan.routes);
+        let planner = Planner::new(Arc::clone(&detailed), &**density)?;
+        let (domain, meshes) = (domain.clone(), [mesh, detailed]);
+        Ok(Self {
+            planner,
+            plan,
+            risk,
+            domain,
+            meshes,
+            corridor: None,
+            #[cfg(test)]
+            moves: 0,
+        })
+    }
+
     /// Returns whether its paths may go where those of a plan may.
     pub fn has_area_of(&self, plan: &PathPlan) -> bool {
         Arc::ptr_eq(&self.plan.keep_out, &plan.keep_out) && self.plan.clearance == plan.clearance
+    }
+
+    /// Returns the rectangles in which the cost of a plan may differ from the known one.
+    fn changed_areas(&self, plan: &PathPlan, risk: &RiskField, domain: &Domain) -> Vec<Rect> {
+        let has_same_cost = plan.cost == self.plan.cost && *domain == self.domain;
+        let areas = if has_same_cost { risk.areas_that_differ(&self.risk) } else { None };
+        areas.unwrap_or_else(|| vec![domain.bounds])
     }
 
     /// Follows another plan with the same area, where the cost changed in some rectangles.
@@ -67,8 +101,27 @@ impl KnownPlanner {
         if Arc::ptr_eq(&wanted, detailed) {
             return self.planner.update(density, areas);
         }
-        self.planner = Planner::new(Arc::clone(&wanted), density)?;
+        self.planner.move_to(Arc::clone(&wanted), density, areas)?;
         *detailed = wanted;
+        Ok(())
+    }
+
+    /// Goes over to the mesh as it is after an edit, where the cost changed in some rectangles.
+    fn move_to(
+        &mut self,
+        mesh: PathMesh,
+        plan: Arc<PathPlan>,
+        density: &dyn CostDensity,
+        areas: &[Rect],
+    ) -> Result<(), PathError> {
+        let mesh = Arc::new(mesh);
+        let detailed = mesh.detailed(&plan.routes);
+        self.planner.move_to(Arc::clone(&detailed), density, areas)?;
+        (self.meshes, self.plan) = ([mesh, detailed], plan);
+        #[cfg(test)]
+        {
+            self.moves += 1;
+        }
         Ok(())
     }
 }
@@ -136,37 +189,54 @@ pub struct ShownPath {
 }
 
 /// The source of a planner.
+pub(super) struct PlannerSource {
+    /// One that knows a mesh.
+    pub known: Option<Box<KnownPlanner>>,
+    /// The mesh to go over to, or to begin with; `None` where the planner knows it.
+    pub mesh: Option<PlannedMesh>,
+}
+
+/// A mesh for paths.
 pub(super) enum PlannedMesh {
-    /// The one for this mesh.
-    Planner(Box<KnownPlanner>),
     Mesh(Arc<Mesh>),
     Extract(Arc<Extract<'static>>),
 }
 
 impl PlannedMesh {
-    /// Returns a planner that knows the costs.
+    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMesh, PathError> {
+        let area = plan.area(domain)?;
+        Ok(match self {
+            Self::Mesh(mesh) => PathMesh::in_area(mesh.view(), &area),
+            Self::Extract(extract) => PathMesh::in_area(extract.view(), &area),
+        })
+    }
+}
+
+impl PlannerSource {
+    /// Returns a planner that knows the costs; `None` without any source.
     pub fn planner(
         self,
         density: &Arc<dyn CostDensity>,
         (plan, risk): (Arc<PathPlan>, RiskField),
         domain: &Domain,
         is_live: bool,
-    ) -> Result<KnownPlanner, PathError> {
-        let mesh = match self {
-            Self::Planner(mut known) => {
-                let same_cost = plan.cost == known.plan.cost;
-                let areas = if same_cost { risk.areas_that_differ(&known.risk) } else { None };
-                let areas = areas.unwrap_or_else(|| vec![domain.bounds]);
-                known.follow(plan, &**density, &areas, is_live)?;
-                return Ok(KnownPlanner { risk, corridor: None, ..*known });
+    ) -> Option<Result<KnownPlanner, PathError>> {
+        match self {
+            Self { known: Some(mut known), mesh } => {
+                let areas = known.changed_areas(&plan, &risk, domain);
+                let followed = match mesh.map(|mesh| mesh.in_area(&plan, domain)) {
+                    Some(mesh) => mesh.and_then(|mesh| known.move_to(mesh, plan, &**density, &areas)),
+                    None => known.follow(plan, &**density, &areas, is_live),
+                };
+                Some(followed.map(|()| KnownPlanner {
+                    risk,
+                    domain: domain.clone(),
+                    corridor: None,
+                    ..*known
+                }))
             }
-            Self::Mesh(mesh) => PathMesh::in_area(mesh.view(), &plan.area(domain)?),
-            Self::Extract(extract) => PathMesh::in_area(extract.view(), &plan.area(domain)?),
-        };
-        let mesh = Arc::new(mesh);
-        let detailed = mesh.detailed(&plan.routes);
-        let planner = Planner::new(Arc::clone(&detailed), &**density)?;
-        Ok(KnownPlanner { planner, plan, risk, meshes: [mesh, detailed], corridor: None })
+            Self { known: None, mesh } => Some(KnownPlanner::new(&mesh?, density, (plan, risk), domain)),
+        }
     }
 }
 

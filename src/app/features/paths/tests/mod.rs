@@ -23,6 +23,8 @@ use crate::app::tests::{
     window_of,
 };
 use meshbrush_core::document::{Example, Setting};
+use meshbrush_core::layers::RiskField;
+use meshbrush_core::path::{PathMesh, PathRequest, Planner};
 
 const START: DVec2 = dvec2(0.05, 0.1);
 const GOAL: DVec2 = dvec2(0.95, 0.9);
@@ -94,6 +96,30 @@ fn a_dragged_goal_and_painted_risk_move_the_path() {
     stroke(&mut window, START + dvec2(0.05, -0.05), START + dvec2(-0.03, 0.1));
     wait_for_paths(&mut window);
     assert!(cost(&window) > before, "risk was painted across the path");
+}
+
+#[test]
+fn a_stroke_that_changes_the_mesh_keeps_the_planner_and_gives_the_path_of_a_new_one() {
+    let mut window = window_with_path();
+    let moves = |window: &Window| window.state().paths().moves();
+    let mesh = |window: &Window| window.state().session().follower().shared_mesh();
+    let solution = |window: &Window| shown(window)[0].found.clone().unwrap().solution;
+    key(&mut window, Modifiers::NONE, Key::B);
+    for stroked in 1..=3 {
+        let (before, x) = (mesh(&window).raw_triangle_count(), 0.2 * f64::from(stroked));
+        stroke(&mut window, dvec2(x, 0.3), dvec2(x, 0.5));
+        wait_for_paths(&mut window);
+        assert_ne!(mesh(&window).raw_triangle_count(), before);
+        assert_eq!(moves(&window), Some(stroked as usize));
+        let settings = settings(&window).clone();
+        let risk = RiskField::new(&settings.layers, window.state().session().document().paint())
+            .within(&settings.domain.bounds);
+        let density = settings.paths.cost.density(risk, &settings.domain).unwrap();
+        let path_mesh = PathMesh::new(mesh(&window).view());
+        let mut planner = Planner::new(path_mesh, &*density).unwrap();
+        let fresh = planner.solve(&*density, &settings.paths.routes[0], PathRequest::FULL).unwrap();
+        assert_eq!(solution(&window), fresh);
+    }
 }
 
 #[test]
