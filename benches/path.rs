@@ -30,7 +30,7 @@ use meshbrush_core::path::{
     PathMesh, PathRequest, Place, Planner, Waypoint,
 };
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Cleaning, Mesh, NodeId};
+use meshbrush_mesh::mesh::{Cleaning, Limits, Mesh, NodeId};
 use pathfinding::prelude::dijkstra_all;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -158,6 +158,7 @@ fn work(criterion: &mut Criterion) {
             });
         }
         after_a_dab(&mut group, &pool, &mesh, &places);
+        after_a_stroke(&mut group, &pool, &cost, &places);
     }
     group.finish();
 }
@@ -190,6 +191,42 @@ fn after_a_dab(group: &mut Group<'_>, pool: &ThreadPool, mesh: &Arc<PathMesh>, p
     };
     bench("after a dab, live", PathRequest::LIVE);
     bench("after a dab, in full", PathRequest::FULL);
+}
+
+/// The paths after a stroke that makes the mesh finer in a disc, and after its undo: with the planner that is
+/// known, and with a new one.
+fn after_a_stroke(group: &mut Group<'_>, pool: &ThreadPool, cost: &dyn CostDensity, places: &[DVec2; 2]) {
+    let plain = mesh(LEVEL);
+    let mut finer = plain.clone();
+    let at = dvec2(0.3, 0.6);
+    let stroke = finer.refine(&Limits::default(), |element| {
+        let [a, b, c] = element.world_corners();
+        element.triangle.level() < LEVEL + 2 && ((a + b + c) / 3.0).distance(at) < 0.03
+    });
+    stroke.expect("within the default limits");
+    let threads = pool.current_num_threads();
+    let mut planner: Option<Planner> = None;
+    let mut is_stroked = false;
+    for keeps in [false, true] {
+        let name = if keeps { "after a stroke, kept" } else { "after a stroke, new" };
+        group.bench_function(BenchmarkId::new(name, threads), |b| {
+            b.iter(|| {
+                is_stroked = !is_stroked;
+                pool.install(|| {
+                    let mesh = Arc::new(PathMesh::new(if is_stroked { &finer } else { &plain }.view()));
+                    let planner: &mut Planner = match planner.take().filter(|_| keeps) {
+                        Some(known) => {
+                            let known = planner.insert(known);
+                            known.move_to(mesh, cost, &[]).expect("the cost is positive");
+                            known
+                        }
+                        None => planner.insert(Planner::new(mesh, cost).expect("the cost is positive")),
+                    };
+                    black_box(planner.solve(cost, places, PathRequest::FULL).expect("there is a path"));
+                });
+            });
+        });
+    }
 }
 
 /// Prints how long it takes to find the triangles that paths may cross.

@@ -69,6 +69,11 @@ impl Quadratic {
         if is_known { Self { coefficients, rest } } else { Self::UNKNOWN }
     }
 
+    /// Returns the coefficients of 1, u, v, u², uv and v².
+    pub fn coefficients(&self) -> [f64; 6] {
+        self.coefficients
+    }
+
     /// Returns the largest distance from the polynomial.
     pub fn rest(&self) -> f64 {
         self.rest

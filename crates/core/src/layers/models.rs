@@ -33,6 +33,13 @@ pub struct ModelPlace {
 }
 
 impl ModelPlace {
+    /// Returns the place of a rectangle with two sides.
+    pub(crate) fn of_rectangle(rectangle: &Rect) -> Self {
+        let (middle, half) = (rectangle.center(), 0.5 * rectangle.size());
+        let rest = 4.0 * f64::EPSILON * (middle.abs() + half);
+        Self { coordinates: coordinates(middle, half, rest), middle, half, rest }
+    }
+
     /// Returns a rectangle that holds all points of the place.
     pub fn rect(&self) -> Rect {
         let half = self.half * (1.0 + 1e-12) + 1e-15 * self.middle.abs();
@@ -184,8 +191,10 @@ impl Square {
         let middle = origin + (DVec2::from(self.at.map(|v| v as f64)) + 0.5) * side * step;
         let half = (0.5 + RIM) * side * step;
         let rest = 4.0 * f64::EPSILON * (origin.abs() + middle.abs() + half);
-        let coordinates =
-            [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]));
-        ModelPlace { coordinates, middle, half, rest }
+        ModelPlace { coordinates: coordinates(middle, half, rest), middle, half, rest }
     }
+}
+
+fn coordinates(middle: DVec2, half: DVec2, rest: DVec2) -> [Quadratic; 2] {
+    [0, 1].map(|axis: usize| Quadratic::coordinate(axis, middle[axis], half[axis], rest[axis]))
 }

@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 use super::PathError;
-use crate::field::{Bounds, CostFormula};
+use crate::field::{Bounds, CostFormula, Quadratic};
 use crate::geometry::Rect;
-use crate::layers::RiskField;
+use crate::layers::{ModelPlace, RiskField};
 
 /// A cost per unit of length, in world units: positive and finite.
 ///
@@ -28,6 +28,12 @@ pub trait CostDensity: Send + Sync {
     /// a formula that loses more digits, such as `(1e15 + x) - 1e15`, has steps, and bounds that are derived
     /// from its derivatives can be wrong. The integral along a path notices such steps.
     fn derivatives(&self, _rectangle: &Rect) -> Option<[CostRange; 2]> {
+        None
+    }
+
+    /// Returns a polynomial near the cost over a closed rectangle in world units, both of whose sides are
+    /// longer than 0. `None` where none is known.
+    fn model(&self, _rectangle: &Rect) -> Option<CostModel> {
         None
     }
 
@@ -61,6 +67,25 @@ pub struct CostRange {
     pub least: f64,
     /// An upper bound of the cost; ∞ if the cost may be NaN.
     pub greatest: f64,
+}
+
+/// A polynomial of degree 2 near the cost in a rectangle.
+///
+/// ```text
+/// p(u, v) = c₀ + c₁u + c₂v + c₃u² + c₄uv + c₅v²      u, v: from −1 to 1 along the sides
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostModel {
+    /// c₀ … c₅.
+    pub coefficients: [f64; 6],
+    /// No value of the cost, as computed, differs by more from the polynomial.
+    pub rest: f64,
+}
+
+impl CostModel {
+    pub(crate) fn of(model: &Quadratic) -> Self {
+        Self { coefficients: model.coefficients(), rest: model.rest() }
+    }
 }
 
 impl CostRange {
@@ -158,6 +183,12 @@ impl CostDensity for WeightedCost {
         slopes.iter().all(|slope| slope.greatest - slope.least < f64::INFINITY).then_some(slopes)
     }
 
+    fn model(&self, rectangle: &Rect) -> Option<CostModel> {
+        let [length, weight] = [self.weights.length, self.weights.risk].map(Quadratic::constant);
+        let risk = self.risk.model(&ModelPlace::of_rectangle(rectangle))?;
+        Some(CostModel::of(&weight.times(&risk).plus(&length)))
+    }
+
     fn risk_at(&self, point: DVec2) -> f64 {
         self.risk.at(point)
     }
@@ -196,6 +227,14 @@ impl CostDensity for FormulaCost {
         };
         let slopes = self.formula.derivatives(rectangle, risk, risk_slopes)?;
         Some(slopes.map(CostRange::from))
+    }
+
+    fn model(&self, rectangle: &Rect) -> Option<CostModel> {
+        let place = ModelPlace::of_rectangle(rectangle);
+        let uses_risk = self.formula.uses_risk();
+        let risk = if uses_risk { self.risk.model(&place)? } else { Quadratic::constant(0.0) };
+        let model = self.formula.model(place.coordinates, risk);
+        model.rest().is_finite().then(|| CostModel::of(&model))
     }
 
     fn risk_at(&self, point: DVec2) -> f64 {
@@ -259,7 +298,7 @@ mod tests {
 
     use super::*;
     use crate::field::Formula;
-    use crate::layers::{Layer, LayerKind, PaintLayers};
+    use crate::layers::{Combine, Layer, LayerKind, PaintLayers, Threat, ThreatLaw, Threats};
 
     fn risk(formula: &str) -> RiskField {
         let stack = Layer::stack([LayerKind::risk(Formula::parse(formula).unwrap())]);
@@ -306,5 +345,52 @@ mod tests {
         // Too wide over the square, and positive over its parts.
         let range = checked_range(&formula("x*x - x + 0.3", "0"), &Rect::UNIT).unwrap();
         assert!(range.least > 0.0 && range.least <= 0.05);
+    }
+
+    #[test]
+    fn no_cost_is_farther_from_its_model_than_that_says() {
+        let mut random = fastrand::Rng::with_seed(1471);
+        let threat = |random: &mut fastrand::Rng| Threat {
+            at: dvec2(random.f64(), random.f64()),
+            range: 0.1 + 0.25 * random.f64(),
+            peak: 0.3 + 0.7 * random.f64(),
+            law: ThreatLaw::ALL[random.usize(..3)].0,
+        };
+        let (mut known, mut close) = (0, 0);
+        for round in 0..400 {
+            let threats = Threats::new((0..3).map(|_| threat(&mut random)).collect()).unwrap();
+            let hills = "max(gauss(hypot(x-0.3, y-0.6), 0.2), 0.8*gauss(hypot(x-0.7, y-0.2), 0.1))";
+            let formula = |text: &str| LayerKind::risk(Formula::parse(text).unwrap());
+            let mut kinds = vec![LayerKind::Threats(threats), formula(hills), formula("3*x - y")];
+            random.shuffle(&mut kinds);
+            kinds.truncate(random.usize(1..=3));
+            let mut stack = Layer::stack(kinds);
+            for layer in &mut stack {
+                layer.combine = [Combine::Finest, Combine::Floor, Combine::Replace][random.usize(..3)];
+            }
+            let risk = RiskField::new(&stack, PaintLayers::blank()).within(&Rect::UNIT);
+            let weighted = WeightedCost::new(Weights { length: 1.0, risk: 7.0 }, risk.clone()).unwrap();
+            let of_formula = CostFormula::parse("1 + x*y + 20*risk^2").unwrap();
+            let of_formula = FormulaCost { formula: of_formula, risk };
+            let cost: &dyn CostDensity = if round % 2 == 0 { &weighted } else { &of_formula };
+            let middle = dvec2(random.f64(), random.f64());
+            let half = libm::exp2(-9.0 * random.f64()) * dvec2(0.1 + random.f64(), 0.1 + random.f64());
+            let rectangle = Rect::new(middle - half, middle + half);
+            let Some(CostModel { coefficients: [c, cu, cv, cuu, cuv, cvv], rest }) = cost.model(&rectangle)
+            else {
+                continue;
+            };
+            let mut most = 0.0_f64;
+            for _ in 0..100 {
+                let [u, v] = [(); 2].map(|()| 2.0 * random.f64() - 1.0);
+                let point = rectangle.center() + dvec2(u, v) * 0.5 * rectangle.size();
+                let model = c + cu * u + cv * v + cuu * u * u + cuv * u * v + cvv * v * v;
+                most = most.max((cost.at(point) - model).abs());
+            }
+            assert!(most <= rest * (1.0 + 1e-9) + 1e-12, "{most} {rest} {stack:?} {rectangle:?}");
+            known += 1;
+            close += usize::from(rest < 0.1 * (cu.abs() + cv.abs()));
+        }
+        assert!(known > 200 && close > 50, "{known} {close}");
     }
 }

@@ -61,7 +61,7 @@ pub use certificate::{
     Certificate, CertificateEnd, CertificateTask, PathCertificate, Placement, PlacementTest,
 };
 pub use corridor::Corridor;
-pub use cost::{CostDensity, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
+pub use cost::{CostDensity, CostModel, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
 pub use front::{Front, FrontPoint};
 pub use ground::{GroundCost, in_plane};

@@ -3,16 +3,16 @@
 /// The nodes that wait, smallest value first; of equal values the node with the lower number.
 ///
 /// A march takes values that rise, and puts values a little above the one that it took. So most entries wait
-/// unsorted in buckets of equal width, and are sorted when it is the turn of their bucket. A node is put again
-/// when its value falls: entries with an old value leave with their bucket, before anything is sorted.
+/// unsorted in buckets of equal width, and are sorted when it is the turn of their bucket. A node is put
+/// again when its value falls: entries with an old value leave with their bucket, before anything is sorted.
 ///
 /// ```text
 ///   sorted, heap        buckets, each after the ones before it        far
 ///   [now ........ ]  [......] [......] [......]  …  [......]  [after all buckets ...
 /// ```
 ///
-/// The order of what is taken follows from the entries alone, whatever the width of the buckets: those put for
-/// the bucket that is open, or one before it, go to a heap beside it.
+/// The order of what is taken follows from the entries alone, whatever the width of the buckets: those put
+/// for the bucket that is open, or one before it, go to a heap beside it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Queue {
     /// What is left of the open bucket, the first last.

@@ -3,8 +3,8 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use super::functions::Third;
-use super::{ParseError, Program, derivatives, gradient, interval, parser};
-use crate::field::Bounds;
+use super::{ParseError, Program, derivatives, gradient, interval, machine, parser};
+use crate::field::{Bounds, Quadratic};
 use crate::geometry::Rect;
 
 /// A formula in x, y and `risk`: a cost per unit of length.
@@ -58,6 +58,11 @@ impl CostFormula {
     /// interval arithmetic.
     pub fn bounds(&self, rect: &Rect, risk: Bounds) -> Bounds {
         interval::bounds(&self.program, rect, risk)
+    }
+
+    /// Returns a model of [`Self::eval`] over a rectangle, from models of the coordinates and of the risk.
+    pub(crate) fn model(&self, [x, y]: [Quadratic; 2], risk: Quadratic) -> Quadratic {
+        machine::run(&self.program, [x, y, risk])
     }
 
     /// Returns bounds of the derivatives along x and y over a closed rectangle in world units, with the given

@@ -13,9 +13,10 @@ use std::collections::BinaryHeap;
 
 use glam::{DVec2, dvec2};
 
+use super::clipped::{Clipped, clipped, least_on_polygon, quarters};
 use super::triangle::{FlatTriangle, Plane};
 use crate::geometry::Rect;
-use crate::path::CostDensity;
+use crate::path::{CostDensity, CostModel};
 
 /// Samples for the plane, in each direction of the triangle.
 const SAMPLES: usize = 5;
@@ -222,7 +223,12 @@ impl<'a> MinorantSearch<'a> {
             return;
         }
         self.looked_at += 1;
-        let by_slopes = self.bound_by_slopes(&rectangle).max(bound_of_whole);
+        let of_model = self.bound_by_model(&rectangle, &polygon);
+        let by_slopes = match of_model {
+            Some(bound) => bound,
+            None => self.bound_by_slopes(&rectangle),
+        };
+        let by_slopes = by_slopes.max(bound_of_whole);
         if self.is_close(by_slopes) {
             self.open.push(BoundedPart { rectangle, bound: by_slopes, is_exact: false });
             return;
@@ -236,6 +242,28 @@ impl<'a> MinorantSearch<'a> {
             self.attained = self.attained.min(bound);
         }
         self.open.push(BoundedPart { rectangle, bound: bound.max(by_slopes), is_exact });
+    }
+
+    /// Returns the least value of a polynomial near the density, minus the plane, over the part of the
+    /// triangle in a rectangle, rounded down.
+    fn bound_by_model(&self, rectangle: &Rect, part: &Clipped) -> Option<f64> {
+        let half = 0.5 * rectangle.size();
+        if half.min_element() <= 0.0 {
+            return None;
+        }
+        let CostModel { coefficients, rest } = self.cost.model(rectangle)?;
+        let middle = rectangle.center();
+        let plane = [self.plane.at(middle), self.plane.slope.x * half.x, self.plane.slope.y * half.y];
+        let mut of_both = coefficients;
+        plane.iter().zip(&mut of_both).for_each(|(plane, own)| *own -= plane);
+        let size: f64 = coefficients.iter().chain(&plane).map(|c| c.abs()).sum();
+        let corners = part.corners().iter().map(|&corner| (corner - middle) / half);
+        let least = least_on_polygon(&of_both, corners);
+        // Corners are rounded by some ulps.
+        let steepest: f64 = 2.0 * of_both[1..].iter().map(|c| c.abs()).sum::<f64>();
+        let moved = 8.0 * f64::EPSILON * ((middle.abs() + half) / half).max_element();
+        let bound = least - rest - ROUNDING * (size + rest) - steepest * moved;
+        (!bound.is_nan()).then_some(bound)
     }
 
     /// Returns the mean value theorem: f ≥ f(m) − Σ |x − m| · greatest |∂f|, for the density minus the plane.
@@ -255,72 +283,6 @@ impl<'a> MinorantSearch<'a> {
     }
 }
 
-fn quarters(rectangle: &Rect) -> [Rect; 4] {
-    let (min, middle, max) = (rectangle.min, rectangle.center(), rectangle.max);
-    [
-        Rect::new(min, middle),
-        Rect::new(dvec2(middle.x, min.y), dvec2(max.x, middle.y)),
-        Rect::new(dvec2(min.x, middle.y), dvec2(middle.x, max.y)),
-        Rect::new(middle, max),
-    ]
-}
-
-/// A convex polygon of at most seven corners: a triangle cut by a rectangle.
-#[derive(Clone, Copy)]
-struct Clipped {
-    corners: [DVec2; 8],
-    count: usize,
-}
-
-fn clipped(triangle: &FlatTriangle, rectangle: &Rect) -> Clipped {
-    let [a, b, c] = triangle.corners;
-    let mut polygon = Clipped { corners: [a, b, c, a, a, a, a, a], count: 3 };
-    for axis in 0..2 {
-        polygon = polygon.cut(|p| p[axis] - rectangle.min[axis]);
-        polygon = polygon.cut(|p| rectangle.max[axis] - p[axis]);
-    }
-    polygon
-}
-
-impl Clipped {
-    fn corners(&self) -> &[DVec2] {
-        &self.corners[..self.count]
-    }
-
-    /// Returns the part where `inside` is not negative.
-    fn cut(&self, inside: impl Fn(DVec2) -> f64) -> Self {
-        let mut cut = Self { count: 0, ..*self };
-        let old = self.corners();
-        for (index, &to) in old.iter().enumerate() {
-            let from = old[(index + old.len() - 1) % old.len()];
-            let [before, after] = [inside(from), inside(to)];
-            if (before < 0.0) != (after < 0.0) {
-                cut.push(from.lerp(to, before / (before - after)));
-            }
-            if after >= 0.0 {
-                cut.push(to);
-            }
-        }
-        cut
-    }
-
-    fn push(&mut self, corner: DVec2) {
-        if self.count < self.corners.len() {
-            self.corners[self.count] = corner;
-            self.count += 1;
-        }
-    }
-
-    /// Returns whether it has no area.
-    fn is_flat(&self) -> bool {
-        let corners = self.corners();
-        let Some(&first) = corners.first() else { return true };
-        let fan = corners.windows(2).map(|pair| (pair[0] - first).perp_dot(pair[1] - first));
-        fan.sum::<f64>() == 0.0
-    }
-}
-
-// The part with the least bound comes first.
 impl Ord for BoundedPart {
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)

@@ -35,6 +35,7 @@
 //! Nothing is taken from the solver on trust: λ and the difference are computed from the values of v, and
 //! rounded down. A programme that fails leaves the bound of those before.
 
+mod clipped;
 mod edges;
 mod legs;
 mod marking;
