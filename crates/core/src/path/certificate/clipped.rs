@@ -70,7 +70,6 @@ impl Clipped {
     }
 }
 
-// The part with the least bound comes first.
 /// A polynomial is nearly flat in one direction if it bends so much less there than in the other.
 const NEARLY_FLAT: f64 = 1e-6;
 

@@ -283,6 +283,7 @@ impl<'a> MinorantSearch<'a> {
     }
 }
 
+// The part with the least bound comes first.
 impl Ord for BoundedPart {
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)
