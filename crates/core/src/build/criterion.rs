@@ -174,7 +174,7 @@ impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
 
     fn answers(&self) -> impl RuleAnswers<Error = Infallible> {
         let (criterion, known) = (self.criterion, self.known.borrow());
-        AreaAnswers { criterion, known, squares: known.take() }
+        AreaAnswers { criterion, known, squares: Some(known.take()) }
     }
 
     fn questions_per_thread(&self) -> usize {
@@ -186,12 +186,13 @@ impl<K: Borrow<SettledPool> + Sync> SharedRule for SharedArea<'_, K> {
 struct AreaAnswers<'a> {
     criterion: &'a RefinementCriterion<'a>,
     known: &'a SettledPool,
-    squares: SettledSquares,
+    /// Some until it is put back.
+    squares: Option<SettledSquares>,
 }
 
 impl Drop for AreaAnswers<'_> {
     fn drop(&mut self) {
-        self.known.put_back(std::mem::take(&mut self.squares));
+        self.squares.take().into_iter().for_each(|squares| self.known.put_back(squares));
     }
 }
 
@@ -200,15 +201,17 @@ impl RuleAnswers for AreaAnswers<'_> {
 
     #[inline]
     fn levels_within(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<LevelsWithin, Infallible> {
-        let RefinementCriterion { domain, field, paint, .. } = self.criterion;
-        let by_field = || field.levels_within(&mut self.squares, paint, corners, level);
+        let Self { criterion: RefinementCriterion { domain, field, paint, .. }, squares, .. } = self;
+        let squares = squares.as_mut().expect("it is not put back yet");
+        let by_field = || field.levels_within(squares, paint, corners, level);
         Ok(domain.levels_within(corners, level, by_field))
     }
 
     #[inline]
     fn exceeds(&mut self, corners: [LatticePoint; 3], level: u32) -> Result<bool, Infallible> {
-        let RefinementCriterion { domain, field, paint, .. } = self.criterion;
-        let by_field = || Ok(field.asks_for_more_nearby(&mut self.squares, paint, corners, level));
+        let Self { criterion: RefinementCriterion { domain, field, paint, .. }, squares, .. } = self;
+        let squares = squares.as_mut().expect("it is not put back yet");
+        let by_field = || Ok(field.asks_for_more_nearby(squares, paint, corners, level));
         domain.exceeds_at(corners, level, by_field)
     }
 }

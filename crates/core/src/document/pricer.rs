@@ -181,14 +181,13 @@ fn paint_more(
         .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
         .collect();
     let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
-    match affected.into_iter().map(|area| area.rect).reduce(|a, b| a.union(&b)) {
+    let limits = follower.settings().limits();
+    match Forecast::of_changes(follower.mesh(), affected, &limits) {
         None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
             Work::Known(Price::Nothing(NoChange::OutsideField))
         }
         None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
-        Some(area) => {
-            let limits = follower.settings().limits();
-            let forecast = Forecast::new(follower.mesh(), area, &limits);
+        Some(forecast) => {
             Work::Counting(Box::new(Counting { forecast, paint, known: SettledPool::default() }))
         }
     }

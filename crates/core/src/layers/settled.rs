@@ -145,9 +145,7 @@ impl SizeField {
         let wider = square.around((square.bits + WIDER_BITS).min(u32::BITS - 1));
         let place = self.settled(squares, paint, wider);
         squares.squares[place].levels.exceeds(level).unwrap_or_else(|| {
-            let place = self.settled(squares, paint, square);
-            let settled = squares.squares[place].levels.exceeds(level);
-            settled.unwrap_or_else(|| self.asks_within(squares, place, paint, corners, level))
+            self.levels_within(squares, paint, corners, level).exceeds(level) == Some(true)
         })
     }
 
@@ -166,9 +164,41 @@ impl SizeField {
             return LevelsWithin::UNKNOWN
                 .decided_at(level, || self.asks_with(&mut squares.known, paint, corners, level, None));
         };
+        if let Some(levels) = self.levels_by_pixels(squares, paint, (corners, level), square) {
+            return levels;
+        }
         let place = self.settled(squares, paint, square);
         let levels = squares.squares[place].levels;
         levels.decided_at(level, || self.asks_within(squares, place, paint, corners, level))
+    }
+
+    /// Returns the answers for a triangle and all triangles within it from the pixels that touch it, unless
+    /// something is known of its square. `None` where pixels alone do not answer, or are too many.
+    #[inline]
+    fn levels_by_pixels(
+        &self,
+        squares: &SettledSquares,
+        paint: &PaintLayers,
+        (corners, level): ([LatticePoint; 3], u32),
+        square: Square,
+    ) -> Option<LevelsWithin> {
+        if !self.has_pixels_only() || squares.squares[place_of(square)].square == Some(square) {
+            return None;
+        }
+        let (asked, exceeds) = self.asked_by_pixels(paint, corners, level)?;
+        Some(self.levels_between(asked, square).decided_at(level, || exceeds))
+    }
+
+    /// Returns the answers for the triangles in a square whose h̄ is between two diameters everywhere.
+    fn levels_between(&self, [least, greatest]: [f64; 2], square: Square) -> LevelsWithin {
+        let Transfer { h_min, h_max, .. } = self.spec().transfer;
+        let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
+        let lengths = self.edge_lengths();
+        let [band, last_band] = lengths.bands_in(square.bits, [square.column, square.row]);
+        LevelsWithin {
+            exceed_below: lengths.first_level_within(last_band, greatest),
+            satisfied_from: lengths.first_level_within(band, least),
+        }
     }
 
     /// Returns the answer for a triangle in a square that has not settled it.
@@ -245,7 +275,7 @@ impl SizeField {
         let Transfer { h_min, h_max, .. } = self.spec().transfer;
         let [least, greatest] = [least, greatest].map(|diameter| diameter.clamp(h_min, h_max));
         let lengths = self.edge_lengths();
-        let [band, last_band] = lengths.bands_in(bits, [column, row]);
+        let [band, _] = lengths.bands_in(bits, [column, row]);
         let bounds = match self.slope() {
             None => GradedBounds { least, greatest, sources: Vec::new() },
             Some(slope) => {
@@ -256,10 +286,7 @@ impl SizeField {
                 graded_bounds(self, paint, known, (&cells, sources), slope, [least, greatest], is_level)
             }
         };
-        let levels = LevelsWithin {
-            exceed_below: lengths.first_level_within(last_band, bounds.greatest),
-            satisfied_from: lengths.first_level_within(band, bounds.least),
-        };
+        let levels = self.levels_between([bounds.least, bounds.greatest], square);
         Settled { square: Some(square), levels, least_asked: least, sources: bounds.sources }
     }
 }

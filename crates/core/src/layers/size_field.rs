@@ -64,6 +64,8 @@ pub struct SizeField {
     square_bits: Box<[u8; LEVELS]>,
     /// Visible layers, from the bottom to the top.
     layers: Vec<CompiledLayer>,
+    /// Whether the finest of some pixels counts everywhere, and nothing else.
+    has_pixels_only: bool,
 }
 
 /// Facts that hold for all triangles in a square.
@@ -95,9 +97,10 @@ impl SizeField {
         let plane =
             CompiledPlane { transfer, lattice, outline: outline.as_ref(), edge_lengths: &edge_lengths };
         let visible = spec.layers.iter().filter(|layer| layer.visible);
-        let layers = visible.map(|layer| CompiledLayer::new(layer, &spec.layers, &plane)).collect();
+        let layers: Vec<_> = visible.map(|layer| CompiledLayer::new(layer, &spec.layers, &plane)).collect();
+        let has_pixels_only = has_pixels_only(&layers, &spec);
         let square_bits = Box::new(settled::square_bits(lattice));
-        let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, spec };
+        let mut field = Self { lattice: *lattice, edge_lengths, square_bits, layers, has_pixels_only, spec };
         let is_minimum = field.layers.iter().all(CompiledLayer::is_plain);
         if let (Some(slope), true) = (field.slope(), is_minimum) {
             let Transfer { h_min, h_max, .. } = field.spec.transfer;
@@ -131,7 +134,8 @@ impl SizeField {
             ..self.spec
         };
         let (edge_lengths, square_bits) = (self.edge_lengths.clone(), self.square_bits.clone());
-        Some(Self { lattice: self.lattice, edge_lengths, square_bits, layers, spec })
+        let has_pixels_only = has_pixels_only(&layers, &spec);
+        Some(Self { lattice: self.lattice, edge_lengths, square_bits, layers, has_pixels_only, spec })
     }
 
     /// Returns this field without models of its functions: searches use bounds only.
@@ -203,6 +207,34 @@ impl SizeField {
                     || gradation::any_below(self, paint, known, corners, (slope, length), sources)
             }
         }
+    }
+
+    /// Returns whether the finest of some pixels counts everywhere, and nothing else: then those that touch a
+    /// triangle answer for it and for all triangles within it.
+    pub(super) fn has_pixels_only(&self) -> bool {
+        self.has_pixels_only
+    }
+
+    /// Returns the least and the greatest diameter that pixels which touch a triangle ask for, and whether
+    /// the triangle exceeds its target. For a field that [`Self::has_pixels_only`]; `None` where the pixels
+    /// are too many, or not quick to read.
+    pub(super) fn asked_by_pixels(
+        &self,
+        paint: &PaintLayers,
+        corners: [LatticePoint; 3],
+        level: u32,
+    ) -> Option<([f64; 2], bool)> {
+        let limit = self.edge_lengths.limit(corners, level)?;
+        let triangle = Octagon::triangle(corners);
+        let around = Cells::around(&triangle, self.lattice.extent());
+        let (mut asked, mut exceeds) = ([f64::INFINITY; 2], false);
+        for layer in &self.layers {
+            let (of_layer, asks) =
+                layer.asked_by_pixels(paint, (&triangle, &around), limit, &self.lattice)?;
+            asked = [asked[0].min(of_layer.least), asked[1].min(of_layer.greatest)];
+            exceeds |= asks;
+        }
+        Some((asked, self.limits_decide(limit).unwrap_or(exceeds)))
     }
 
     /// Returns the answer for all triangles with a limit that no layer can change: no point asks for less
@@ -282,4 +314,10 @@ impl SizeField {
         };
         (share, cut.or(rest_cut))
     }
+}
+
+/// Returns whether the finest of some pixels counts everywhere, and nothing else.
+fn has_pixels_only(layers: &[CompiledLayer], spec: &SizeFieldSpec) -> bool {
+    let is_one = |layer: &CompiledLayer| layer.is_plain() && layer.has_pixels_only();
+    spec.gradation.is_none() && layers.iter().all(is_one)
 }

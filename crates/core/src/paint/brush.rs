@@ -77,6 +77,7 @@ impl Brush {
     ///
     /// Size and strength change linearly along the segment; their values at the point nearest to the pixel
     /// count.
+    #[inline]
     pub(super) fn coverage_of_segment(&self, point: DVec2, [from, to]: [PathPoint; 2]) -> f64 {
         let (share, distance) = nearest_on_path(point, [from.at, to.at]);
         let between = |a: f64, b: f64| a + share * (b - a);
@@ -88,6 +89,7 @@ impl Brush {
     /// `blank`: 0 in a raster of risks, infinite in one of diameters, `f32::MAX` in one of errors.
     /// `coverage` is the coverage by the stroke, 0 to 1; `h_max` is the largest target diameter, in world
     /// units. A brush for another kind of raster changes nothing.
+    #[inline]
     pub(super) fn painted_value(&self, coverage: f32, old: f32, blank: f32, h_max: f64) -> f32 {
         let amount = f64::from(coverage) * self.strength;
         let is_of = |quantity: Quantity| blank == quantity.blank();
@@ -205,6 +207,7 @@ impl Mirror {
 
 /// Returns the point of a segment that is nearest to `point`: its share of the segment, 0 to 1, and its
 /// distance.
+#[inline]
 pub(super) fn nearest_on_path(point: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
     let share = nearest_share(point, [a, b]);
     (share, (point - a - (b - a) * share).length())

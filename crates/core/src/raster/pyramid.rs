@@ -119,6 +119,15 @@ impl RasterPyramid {
         known.unwrap_or_else(|| self.range_of_rare_square(scale, x, y, gap))
     }
 
+    /// Writes the values of pixels from [column, row] to the right, with the value `gap` for those that have
+    /// none.
+    #[inline]
+    pub(crate) fn copy_row(&self, [column, row]: [i32; 2], gap: f32, values: &mut [f32]) {
+        for (x, value) in (column..).zip(values) {
+            *value = self.value(x as u32, row as u32).unwrap_or(gap);
+        }
+    }
+
     /// Returns the result of [`Self::range_with_gaps`] for a square at the border of the raster, or with
     /// pixels without a value.
     #[cold]

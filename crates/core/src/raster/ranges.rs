@@ -103,6 +103,13 @@ pub trait ValueRanges {
         i32::MIN
     }
 
+    /// Writes the values of the squares from [column, row] `low` to `high`, both included, at a scale, row by
+    /// row. Returns false where they are not quick to read, or not each of them has one value.
+    #[inline]
+    fn copy_values(&self, _scale: i32, _low: [i32; 2], _high: [i32; 2], _values: &mut [f32]) -> bool {
+        false
+    }
+
     /// Returns the result of [`Self::range`] for a square in any column and row, however far from the pixels.
     #[inline]
     fn range_anywhere(&self, mut scale: i32, [mut x, mut y]: [i64; 2]) -> ValueRange {

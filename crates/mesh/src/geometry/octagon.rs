@@ -80,6 +80,16 @@ impl Octagon {
             && self.difference.contains(&other.difference)
     }
 
+    /// Returns numbers x₀ and x₁ for the rows from `low` to `high`: a rectangle from one to the other meets
+    /// the shape if its right side is at x₀ or beyond, and its left side at x₁ or before. The rows must meet
+    /// the shape along y.
+    #[inline]
+    pub fn span_between(&self, low: i64, high: i64) -> [i64; 2] {
+        let left = self.x.low.max(self.sum.low - high).max(self.difference.low + low);
+        let right = self.x.high.min(self.sum.high - low).min(self.difference.high + high);
+        [left, right]
+    }
+
     /// Returns the lower left and the upper right corner of the smallest rectangle around the shape.
     #[inline]
     pub fn bounds(&self) -> [[i64; 2]; 2] {

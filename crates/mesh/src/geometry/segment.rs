@@ -2,6 +2,7 @@ use glam::DVec2;
 
 /// Returns the place on the segment from `a` to `b` that is nearest to `p`: 0 at `a`, 1 at `b`; 0 where both
 /// are one point.
+#[inline]
 pub fn nearest_share(p: DVec2, [a, b]: [DVec2; 2]) -> f64 {
     let along = b - a;
     let length_squared = along.length_squared();

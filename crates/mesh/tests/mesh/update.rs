@@ -9,8 +9,8 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush_mesh::mesh::{
-    Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError, RuleAnswers,
-    SharedRule, TargetChange, Updater,
+    ChangedArea, Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError,
+    RuleAnswers, SharedRule, TargetChange, Updater,
 };
 
 type Answer = Result<bool, InvalidTarget>;
@@ -326,13 +326,20 @@ fn a_forecast_is_what_the_update_then_does() {
         let mut updater = Updater::new(Limits::default());
         let mut spots = Vec::new();
         for count in 0..edits / 9 {
-            let areas = areas_of(edit(&mut random, &mut spots, &mesh));
+            let changes = edit(&mut random, &mut spots, &mesh);
             let before = mesh.raw_triangle_count();
-            let mut forecast = Forecast::new(&mesh, hull(&areas), &Limits::default());
+            let mut forecast = match random.bool() {
+                true => Forecast::new(&mesh, hull(&areas_of(changes.clone())), &Limits::default()),
+                false => {
+                    let area = |&(rect, change)| ChangedArea { rect, change, falloff: None };
+                    let areas = changes.iter().map(area).collect();
+                    Forecast::of_changes(&mesh, areas, &Limits::default()).expect("there is an area")
+                }
+            };
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
             while forecast.advance(&mesh, &|| asks, |_, _| true, slice).unwrap() == Progress::More {}
-            areas.into_iter().for_each(|area| updater.add(area));
+            changes.into_iter().for_each(|(area, change)| updater.add_change(area, change));
             settle(&mut updater, &mut mesh, &spots);
             let (added, removed) = (forecast.added(), forecast.removed());
             assert_eq!(forecast.change(), added as i64 - removed as i64, "all belong");

@@ -202,6 +202,13 @@ impl GridOnLattice {
         self.lines(scale, axis).line(n)
     }
 
+    /// Writes the lattice coordinates of lines between squares at a scale, along an axis, from line `n` on.
+    #[inline]
+    pub fn lines_from(&self, scale: i32, axis: usize, n: i64, coordinates: &mut [i64]) {
+        let lines = self.lines(scale, axis);
+        (n..).zip(coordinates).for_each(|(n, coordinate)| *coordinate = lines.line(n));
+    }
+
     /// Returns the square [x, y] at a scale, see [`ValueRanges`].
     #[inline]
     pub fn square(&self, scale: i32, x: i64, y: i64) -> Cells {

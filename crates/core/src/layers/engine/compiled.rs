@@ -14,6 +14,7 @@ use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
 use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
+use super::pixels::range_touching;
 use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
 use super::steepness::Slopes;
@@ -169,6 +170,38 @@ impl CompiledLayer {
                 self.any_below_in_mask(paint, triangle, around, limit, lattice)
             }
         }
+    }
+
+    /// Returns whether the layer is given by pixels whose values ask for more or less in their order, and
+    /// counts everywhere, or has no values.
+    pub fn has_pixels_only(&self) -> bool {
+        let has_pixels = matches!(self.values, Values::Paint(_) | Values::Raster { .. });
+        let is_monotone = matches!(self.reading, Reading::Risk { .. } | Reading::Diameter { .. });
+        matches!(self.values, Values::Nothing) || (has_pixels && is_monotone && !self.is_masked())
+    }
+
+    /// Returns the diameters that pixels which touch a triangle ask for, and whether one of them is below a
+    /// limit, of a layer that [`Self::has_pixels_only`]. `None` where they are too many, or not quick to
+    /// read.
+    pub fn asked_by_pixels(
+        &self,
+        paint: &PaintLayers,
+        (triangle, around): (&Octagon, &Cells),
+        limit: usize,
+        lattice: &Lattice,
+    ) -> Option<(Diameters, bool)> {
+        let nothing = Some((Diameters::NOTHING, false));
+        let range = match &self.values {
+            Values::Paint(grid) => {
+                let Some(raster) = paint.get(self.id) else { return nothing };
+                range_touching(raster, &grid.on_lattice(raster.grid(), lattice), triangle, around)?
+            }
+            Values::Raster { raster, gap, grid } => {
+                range_touching(&WithGaps { raster, gap: *gap }, grid, triangle, around)?
+            }
+            Values::Nothing | Values::Constant(_) | Values::Analytic(_) | Values::Depth(_) => return nothing,
+        };
+        Some((self.reading.diameters(range), self.reading.question(limit).asks(range) != Share::None))
     }
 
     /// [`Self::any_below`] by rectangles of cells.

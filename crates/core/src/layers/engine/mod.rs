@@ -13,6 +13,7 @@ pub mod gradation;
 mod gradation_tests;
 pub mod least;
 pub mod parts;
+mod pixels;
 mod place;
 pub mod reading;
 pub mod search;

@@ -1,10 +1,11 @@
 //! Whether some cell that touches a triangle asks for more than its level.
 
 use crate::geometry::Octagon;
-use crate::raster::ValueRanges;
+use crate::raster::{ValueRange, ValueRanges};
 
 use super::asked::Share;
 use super::cells::{Cells, Cut, GridOnLattice};
+use super::pixels::range_touching;
 use super::reading::Question;
 
 /// Returns whether a cell of `cells` that touches the closed triangle asks, by dividing the rectangle where
@@ -53,7 +54,8 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
     /// `cells` are those around the triangle.
     ///
     /// It starts at the scale where the triangle spans at most two squares along both axes, skips squares
-    /// whose values do not ask or that do not touch the triangle, and ends at a square that asks.
+    /// whose values do not ask or that do not touch the triangle, and ends at a square that asks. Where a
+    /// square does not decide and the triangle spans few pixels, it looks at all of these.
     #[inline]
     pub fn any(&self, triangle: &Octagon, cells: &Cells) -> bool {
         if self.question.asks(self.raster.whole_range()) == Share::None {
@@ -63,16 +65,26 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         let [low, high] = self.grid.squares(scale, cells);
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
-                if self.square((triangle, cells), scale, [x, y], || self.grid.square(scale, x, y)) {
-                    return true;
+                match self.square((triangle, cells), scale, [x, y], || self.grid.square(scale, x, y)) {
+                    Square::Asks => return true,
+                    Square::DoesNot => {}
+                    Square::Undecided(square) => {
+                        if let Some(range) = self.range_touching(triangle, cells) {
+                            return self.question.asks(range) != Share::None;
+                        }
+                        if self.any_quarter((triangle, cells), scale, [x, y], &square) {
+                            return true;
+                        }
+                    }
                 }
             }
         }
         false
     }
 
-    /// Searches the square [x, y] at a scale, which has these cells. `around` are the cells of the lattice
-    /// around the triangle: a square beside the lattice can touch the triangle, and does not count.
+    /// Returns what is known of the square [x, y] at a scale, which has these cells. `around` are the cells
+    /// of the lattice around the triangle: a square beside the lattice can touch the triangle, and does not
+    /// count.
     #[inline]
     fn square(
         &self,
@@ -80,32 +92,51 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         scale: i32,
         [x, y]: [i64; 2],
         cells: impl FnOnce() -> Cells,
-    ) -> bool {
+    ) -> Square {
         // Most squares are decided by their values.
         let asks = self.question.asks(self.raster.range_anywhere(scale, [x, y]));
         if asks == Share::None {
-            return false;
+            return Square::DoesNot;
         }
         let cells = cells();
         let octagon = cells.octagon();
         // A square between two lattice lines has no cell.
         if cells.intersection(around).is_none() || !triangle.meets(&octagon) {
-            return false;
+            return Square::DoesNot;
         }
-        asks == Share::All
-            || (self.question.is_monotone() && triangle.contains(&octagon))
-            || self.any_quarter((triangle, around), scale, [x, y], &cells)
+        if asks == Share::All || (self.question.is_monotone() && triangle.contains(&octagon)) {
+            return Square::Asks;
+        }
+        Square::Undecided(cells)
+    }
+
+    /// Returns the range of the pixels that touch the triangle, where that answers the question and they are
+    /// few.
+    fn range_touching(&self, triangle: &Octagon, around: &Cells) -> Option<ValueRange> {
+        self.question.is_monotone().then(|| range_touching(self.raster, self.grid, triangle, around))?
     }
 
     /// Searches the quarters of a square.
     fn any_quarter(&self, around: (&Octagon, &Cells), scale: i32, [x, y]: [i64; 2], cells: &Cells) -> bool {
         let middle = self.grid.middle(scale, [x, y]);
-        for [i, j] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+        [[0, 0], [1, 0], [0, 1], [1, 1]].into_iter().any(|[i, j]| {
+            let (scale, place) = (scale - 1, [2 * x + i, 2 * y + j]);
             let quarter = || cells.quarter(middle, [i == 1, j == 1]);
-            if self.square(around, scale - 1, [2 * x + i, 2 * y + j], quarter) {
-                return true;
+            match self.square(around, scale, place, quarter) {
+                Square::Asks => true,
+                Square::DoesNot => false,
+                Square::Undecided(cells) => self.any_quarter(around, scale, place, &cells),
             }
-        }
-        false
+        })
     }
+}
+
+/// What is known of the pixels of a square that touch a triangle.
+enum Square {
+    /// One of them asks for more.
+    Asks,
+    /// None does.
+    DoesNot,
+    /// The square has these cells, and only parts of it tell.
+    Undecided(Cells),
 }

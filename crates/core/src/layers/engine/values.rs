@@ -102,4 +102,15 @@ impl ValueRanges for WithGaps<'_> {
     fn finest(&self) -> i32 {
         0
     }
+
+    fn copy_values(&self, scale: i32, low: [i32; 2], high: [i32; 2], values: &mut [f32]) -> bool {
+        let width = high[0].abs_diff(low[0]) as usize + 1;
+        let has_pixels = scale == 0;
+        if has_pixels {
+            for (row, values) in (low[1]..=high[1]).zip(values.chunks_exact_mut(width)) {
+                self.raster.copy_row([low[0], row], self.gap, values);
+            }
+        }
+        has_pixels
+    }
 }

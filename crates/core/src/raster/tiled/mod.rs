@@ -39,6 +39,8 @@ pub struct TiledRaster {
     scales: Vec<Arc<Blocks<Arc<Summary>>>>,
     /// The rectangle of the tiles of depth 0.
     extent: Option<Extent>,
+    /// The range of all values.
+    whole: ValueRange,
 }
 
 /// A tile, and the ranges of its pixels if it has children.
@@ -61,7 +63,8 @@ impl Node {
 impl TiledRaster {
     /// Creates a raster with the value `blank` everywhere. `grid` places the pixels of depth 0.
     pub fn new(grid: PixelGrid, blank: f32) -> Self {
-        Self { grid, blank, depths: Vec::new(), scales: Vec::new(), extent: None }
+        let whole = ValueRange::one(blank);
+        Self { grid, blank, depths: Vec::new(), scales: Vec::new(), extent: None, whole }
     }
 
     /// Creates a raster with the given tiles, parents before their children.
@@ -189,6 +192,21 @@ impl TiledRaster {
         })
     }
 
+    /// Returns the deepest tile, of at most the given depth, over the tile with the pixel in column `x` and
+    /// row `y` of that depth, and how many depths it is above it.
+    fn deepest_over(&self, depth: usize, x: i32, y: i32) -> Option<(&Node, usize)> {
+        let deepest = depth.min(self.depths.len().saturating_sub(1));
+        (0..=deepest).rev().find_map(|to| Some((self.ancestor(depth, to, x, y)?.0, depth - to)))
+    }
+
+    /// Returns the range of all values, found from the ranges of the largest squares.
+    fn range_of_all(&self) -> ValueRange {
+        let coarsest = self.coarsest();
+        let squares = self.extent.iter().flat_map(|extent| extent.squares(coarsest));
+        let ranges = squares.map(|[x, y]| self.range(coarsest, x, y));
+        ranges.fold(ValueRange::one(self.blank), ValueRange::union)
+    }
+
     /// Returns the tile of depth `to` over the pixel in column `x` and row `y` of a greater depth, and the
     /// index of the pixel in it.
     #[inline]
@@ -231,12 +249,65 @@ impl ValueRanges for TiledRaster {
         found.map_or(ValueRange::one(self.blank), |(node, index)| node.range(index))
     }
 
-    fn whole_range(&self) -> ValueRange {
-        let coarsest = self.coarsest();
-        let squares = self.extent.iter().flat_map(|extent| extent.squares(coarsest));
-        let ranges = squares.map(|[x, y]| self.range(coarsest, x, y));
-        ranges.fold(ValueRange::one(self.blank), ValueRange::union)
+    fn copy_values(&self, scale: i32, low: [i32; 2], high: [i32; 2], values: &mut [f32]) -> bool {
+        let (depth, width) = (scale.unsigned_abs() as usize, (high[0] - low[0] + 1) as usize);
+        if scale > 0 || scale < self.finest() {
+            return false;
+        }
+        for tile in tiles_between(low, high) {
+            let (tile, [x, y]) = (Span::of_tile(tile, [low, high]), tile.map(|n| n * TILE));
+            let found = self.deepest_over(depth, x, y);
+            if found.is_some_and(|(node, up)| up == 0 && node.summary.is_some()) {
+                return false;
+            }
+            for row in tile.rows() {
+                let at = (row - low[1]) as usize * width + (tile.first[0] - low[0]) as usize;
+                let values = &mut values[at..at + tile.width()];
+                match found {
+                    None => values.fill(self.blank),
+                    Some((node, 0)) => {
+                        values.copy_from_slice(node.tile.row_from([tile.first[0], row], values.len()))
+                    }
+                    // No tile is this fine here, so that the square has one value.
+                    Some((node, up)) => (tile.first[0]..).zip(values).for_each(|(column, value)| {
+                        *value = node.tile[index(column >> up, row >> up)];
+                    }),
+                }
+            }
+        }
+        true
     }
+
+    fn whole_range(&self) -> ValueRange {
+        self.whole
+    }
+}
+
+/// The pixels of a tile that lie in a rectangle of pixels.
+struct Span {
+    first: [i32; 2],
+    last: [i32; 2],
+}
+
+impl Span {
+    fn of_tile(tile: [i32; 2], [low, high]: [[i32; 2]; 2]) -> Self {
+        let first = [0, 1].map(|axis: usize| low[axis].max(tile[axis] * TILE));
+        Self { first, last: [0, 1].map(|axis: usize| high[axis].min(tile[axis] * TILE + TILE - 1)) }
+    }
+
+    fn rows(&self) -> std::ops::RangeInclusive<i32> {
+        self.first[1]..=self.last[1]
+    }
+
+    fn width(&self) -> usize {
+        (self.last[0] - self.first[0] + 1) as usize
+    }
+}
+
+/// Returns column and row of the tiles that have pixels from `low` to `high`.
+fn tiles_between(low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item = [i32; 2]> {
+    let [columns, rows] = [0, 1].map(|axis: usize| low[axis] >> TILE.ilog2()..=high[axis] >> TILE.ilog2());
+    rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
 }
 
 /// Rasters are equal if they have equal tiles at the same places.

@@ -88,6 +88,19 @@ impl SquareRange {
         let columns = self.x..self.x + self.side;
         (self.y..self.y + self.side).flat_map(move |y| columns.clone().map(move |x| (x, y)))
     }
+
+    /// Returns the ranges of these squares from those of their quarters, in the order of [`Self::squares`].
+    #[inline]
+    fn joined(self, quarter: impl Fn(i32, i32) -> ValueRange) -> Vec<ValueRange> {
+        let mut ranges = Vec::with_capacity((self.side * self.side) as usize);
+        for y in self.y..self.y + self.side {
+            ranges.extend((self.x..self.x + self.side).map(|x| {
+                let row = |y| quarter(2 * x, y).union(quarter(2 * x + 1, y));
+                row(2 * y).union(row(2 * y + 1))
+            }));
+        }
+        ranges
+    }
 }
 
 impl TiledRaster {
@@ -110,6 +123,7 @@ impl TiledRaster {
             self.fit_scales([place.x, place.y]);
         }
         self.summarize_above(place);
+        self.whole = self.range_of_all();
         old
     }
 
@@ -123,6 +137,7 @@ impl TiledRaster {
         }
         self.summarize(place);
         self.summarize_above(place);
+        self.whole = self.range_of_all();
     }
 
     fn put(&mut self, place: TilePlace, tile: Arc<Tile>) -> Option<Arc<Tile>> {
@@ -241,18 +256,19 @@ impl TiledRaster {
         let node = if scale <= 0 { at(-scale, x, y) } else { None };
         let summary = if scale > 0 { self.scales[scale as usize - 1].get(x, y) } else { None };
         let parent = if scale < 0 { at(-scale - 1, x >> 1, y >> 1) } else { None };
-        let finer = |x, y| match (node, summary) {
-            (Some(node), _) => Some(node.range(index(x, y))),
-            (_, summary) => summary.map(|summary| summary[index(x, y)]),
-        };
         let blank = ValueRange::one(self.blank);
-        let range = |(x, y)| {
-            let quarters = [(0, 0), (1, 0), (0, 1), (1, 1)];
-            let quarters = quarters.into_iter().filter_map(|(i, j)| finer(2 * x + i, 2 * y + j));
-            let without = || parent.map_or(blank, |node| ValueRange::one(node.tile[index(x, y)]));
-            quarters.reduce(ValueRange::union).unwrap_or_else(without)
-        };
-        coarser.squares().map(range).collect()
+        match (node, summary) {
+            (Some(Node { tile, summary: None }), _) => {
+                coarser.joined(|x, y| ValueRange::one(tile[index(x, y)]))
+            }
+            (Some(Node { summary: Some(summary), .. }), _) | (None, Some(summary)) => {
+                coarser.joined(|x, y| summary[index(x, y)])
+            }
+            (None, None) => {
+                let without = |(x, y)| parent.map_or(blank, |node| ValueRange::one(node.tile[index(x, y)]));
+                coarser.squares().map(without).collect()
+            }
+        }
     }
 
     /// Returns the range of the values in a square above the coarsest scale.

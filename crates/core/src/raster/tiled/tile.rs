@@ -83,6 +83,14 @@ impl Tile {
         Self([value; TILE_PIXELS])
     }
 
+    /// Returns the values of `count` pixels from one to the right. Column and row may be those of a pixel of
+    /// the raster.
+    #[inline]
+    pub(super) fn row_from(&self, [x, y]: [i32; 2], count: usize) -> &[f32] {
+        let first = index(x, y);
+        &self.0[first..first + count]
+    }
+
     /// Returns a tile with the given values; `None` if they are not 32 × 32.
     pub fn from_values(values: &[f32]) -> Option<Self> {
         values.try_into().ok().map(Self)

@@ -93,13 +93,25 @@ impl Bitset {
         }
     }
 
-    /// The array's last entry took the place `to`, as by `swap_remove`: its mark goes with it.
+    /// The entry at a place took another one's: its mark goes with it.
     #[inline]
-    pub(in crate::mesh) fn swap_removed(&mut self, last: usize, to: usize) {
-        if self.remove(last) && last != to {
+    pub(in crate::mesh) fn moved(&mut self, from: usize, to: usize) {
+        if self.remove(from) {
             self.insert(to);
         } else {
             self.remove(to);
+        }
+    }
+
+    /// Takes all places from this one on out: the array ends there.
+    pub(in crate::mesh) fn truncate(&mut self, end: usize) {
+        while let Some(last) = self.last().filter(|&last| last >= end) {
+            let word = last / 64;
+            // Fewer than 64, because the last place is in this word.
+            let kept = self.layers[0][word] & !(u64::MAX << end.saturating_sub(64 * word));
+            self.count -= (self.layers[0][word].count_ones() - kept.count_ones()) as usize;
+            self.layers[0][word] = kept;
+            self.forget_empty_word(word);
         }
     }
 
@@ -186,15 +198,19 @@ mod tests {
                         marks.last().map(|last| marks.remove(last)),
                         plain.pop_last().map(|_| true)
                     ),
-                    _ => {
+                    _ if random.bool() => {
                         let to = random.usize(..=place);
-                        marks.swap_removed(place, to);
-                        let was_in = plain.remove(&place) && place != to;
+                        marks.moved(place, to);
+                        let was_in = plain.remove(&place);
                         if was_in {
                             plain.insert(to)
                         } else {
                             plain.remove(&to)
                         };
+                    }
+                    _ => {
+                        marks.truncate(place);
+                        plain.split_off(&place);
                     }
                 }
                 assert_eq!((marks.last(), marks.count()), (plain.last().copied(), plain.len()));

@@ -42,6 +42,8 @@
 //! So the lattice knows the vertices of every triangle in their order: a mesh refined again after it was
 //! coarsened has the same triangles as one that never was, up to their numbers.
 
+use std::ops::Range;
+
 use super::changes::ChangeLog;
 use super::{Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId};
 use crate::geometry::{Lattice, LatticePoint};
@@ -250,35 +252,45 @@ impl Mesh {
         log.step();
     }
 
-    /// Removes an entry that nothing refers to any more. The last entry takes its place.
-    #[inline]
-    pub(super) fn remove_triangle(&mut self, id: TriangleId, log: &mut ChangeLog) {
-        let last = TriangleId::from_index(self.triangles.len() - 1);
-        debug_assert!(id.index() >= self.coarse_triangles(), "a coarse triangle's entry is never freed");
-        let moved = self.triangles[last.index()];
-        self.triangles.swap_remove(id.index());
-        log.triangles.swap_removed(last.index(), id.index());
-        if id == last {
-            return;
+    /// Removes entries that nothing refers to any more, given as ascending ranges. The last entries take
+    /// their places; `moved` is told of each (from, to).
+    pub(super) fn remove_triangles(
+        &mut self,
+        freed: &[Range<usize>],
+        log: &mut ChangeLog,
+        mut moved: impl FnMut(usize, usize),
+    ) {
+        debug_assert!(
+            freed.first().is_none_or(|range| range.start >= self.coarse_triangles()),
+            "a coarse triangle's entry is never freed"
+        );
+        let (left, moves) = closing_moves(freed, self.triangles.len());
+        for (from, to) in moves {
+            let triangle = self.triangles[from];
+            self.triangles[to] = triangle;
+            let [last, id] = [from, to].map(TriangleId::from_index);
+            for neighbour in triangle.raw_neighbours.iter().filter_map(|n| n.triangle()) {
+                self.replace_neighbour(neighbour, last.into(), id.into());
+                log.triangle(neighbour);
+            }
+            for vertex in triangle.vertices {
+                let noted = &mut self.triangle_at[vertex.index()];
+                *noted = if *noted == last { id } else { *noted };
+            }
+            log.triangle(id);
+            moved(from, to);
         }
-        log.triangle(id);
-        for neighbour in moved.raw_neighbours.iter().filter_map(|n| n.triangle()) {
-            self.replace_neighbour(neighbour, last.into(), id.into());
-            log.triangle(neighbour);
-        }
-        for vertex in moved.vertices {
-            let noted = &mut self.triangle_at[vertex.index()];
-            *noted = if *noted == last { id } else { *noted };
-        }
+        self.triangles.truncate(left);
+        log.triangles.truncate(left);
     }
 
-    /// Removes a node that no triangle has any more. The last node takes its place.
-    #[inline]
-    pub(super) fn remove_node(&mut self, id: NodeId, log: &mut ChangeLog) {
-        let last = NodeId::from_index(self.nodes.len() - 1);
-        log.nodes.swap_removed(last.index(), id.index());
-        if id != last {
-            // No coarse node is ever the last here, so that the triangles around it are joined by edges.
+    /// Removes nodes that no triangle has any more, given as ascending ranges. The last nodes take their
+    /// places.
+    pub(super) fn remove_nodes(&mut self, freed: &[Range<usize>], log: &mut ChangeLog) {
+        let (left, moves) = closing_moves(freed, self.nodes.len());
+        for (from, to) in moves {
+            let [last, id] = [from, to].map(NodeId::from_index);
+            // No coarse node is ever moved, so that the triangles around it are joined by edges.
             let mut round = [None; 8];
             let found = self.raw_triangles_around(last, self.raw_triangle_at(last));
             round.iter_mut().zip(found).for_each(|(place, id)| *place = Some(id));
@@ -287,11 +299,33 @@ impl Mesh {
                 *vertices = vertices.map(|v| if v == last { id } else { v });
                 log.triangle(triangle);
             }
+            self.nodes[to] = self.nodes[from];
+            self.triangle_at[to] = self.triangle_at[from];
             log.node(id);
         }
-        self.nodes.swap_remove(id.index());
-        self.triangle_at.swap_remove(id.index());
+        self.nodes.truncate(left);
+        self.triangle_at.truncate(left);
+        log.nodes.truncate(left);
     }
+}
+
+/// Returns how many entries an array keeps without those of some ascending ranges, and the moves (from, to)
+/// by which its last entries fill the gaps, from both ends in ascending order.
+///
+/// ```text
+///   0 1 2 x 4 x 6 x 8 9     three of ten are freed: 8 moves to 3, and 9 to 5
+/// ```
+fn closing_moves(
+    freed: &[Range<usize>],
+    length: usize,
+) -> (usize, impl Iterator<Item = (usize, usize)> + use<'_>) {
+    let left = length - freed.iter().map(ExactSizeIterator::len).sum::<usize>();
+    let gaps = freed.iter().flat_map(move |range| range.start.min(left)..range.end.min(left));
+    // What lies between the freed ranges behind the end.
+    let starts = std::iter::once(left).chain(freed.iter().map(move |range| range.end.max(left)));
+    let ends = freed.iter().map(move |range| range.start.max(left)).chain([length]);
+    let last = starts.zip(ends).flat_map(|(start, end)| start..end);
+    (left, last.zip(gaps))
 }
 
 #[cfg(test)]
@@ -301,6 +335,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Lattice, Rect};
     use crate::mesh::Limits;
+    use crate::mesh::kernel::Bitset;
 
     /// Returns a rectangle with a corner and a node cut out, so that diagonals and sides are on the boundary.
     fn coarse() -> Mesh {
@@ -340,6 +375,23 @@ mod tests {
     }
 
     #[test]
+    fn the_last_entries_fill_the_gaps() {
+        let mut random = fastrand::Rng::with_seed(3);
+        for _ in 0..300 {
+            let (length, share) = (random.usize(0..200), random.f64());
+            let is_freed: Vec<bool> = (0..length).map(|_| random.f64() < share).collect();
+            let mut freed = Bitset::default();
+            (0..length).filter(|&place| is_freed[place]).for_each(|place| _ = freed.insert(place));
+            let (freed, mut array) = (freed.take_ranges(), Vec::from_iter(0..length));
+            let (end, moves) = closing_moves(&freed, length);
+            moves.for_each(|(from, to)| array[to] = array[from]);
+            array.truncate(end);
+            array.sort_unstable();
+            assert!(array.into_iter().eq((0..length).filter(|&place| !is_freed[place])));
+        }
+    }
+
+    #[test]
     fn a_bisection_taken_back_leaves_no_trace() {
         let deepest = coarse().lattice().deepest_level();
         let (mut levels, mut at_boundary) = ([0; 61], [0; 2]);
@@ -363,8 +415,11 @@ mod tests {
                     let mut log = ChangeLog::default();
                     let mut again = mesh.clone();
                     again.merge(&star, &mesh.parents(&star), &mut log);
-                    star.freed().for_each(|freed| again.remove_triangle(freed, &mut log));
-                    again.remove_node(star.centre(), &mut log);
+                    let mut freed: Vec<_> = star.freed().map(|id| id.index()..id.index() + 1).collect();
+                    freed.reverse();
+                    again.remove_triangles(&freed, &mut log, |_, _| ());
+                    let centre = star.centre().index();
+                    again.remove_nodes(std::slice::from_ref(&(centre..centre + 1)), &mut log);
                     assert_eq!(again.nodes, before.nodes);
                     assert_eq!(again.triangles, before.triangles, "child {child:?} of {id:?}, level {level}");
                     assert!(step % 50 > 0 || again.violations().is_empty());

@@ -109,16 +109,18 @@ impl TreeTriangle {
 
     /// Returns the number of the coarse triangle that this lies in, and its entry; `None` beyond the domain.
     pub(in crate::mesh) fn coarse_entry(&self, mesh: &Mesh) -> Option<(usize, TriangleId)> {
-        let steps = 4 * u64::from(mesh.lattice().cell_steps());
-        // A point strictly inside, in quarters of a lattice step.
+        // A point strictly inside, in quarters of a lattice step; there are a power of two of these in a
+        // cell.
         let inner = |[apex, p, q]: [u32; 3]| 2 * u64::from(apex) + u64::from(p) + u64::from(q);
+        let bits = mesh.lattice().halvings() + 2;
+        let steps = 1 << bits;
         let (x, y) = (inner(self.corners().map(|c| c.x)), inner(self.corners().map(|c| c.y)));
         let [columns, rows] = mesh.lattice().cells().map(u64::from);
-        let (column, row) = (x / steps, y / steps);
+        let (column, row) = (x >> bits, y >> bits);
         if column >= columns || row >= rows {
             return None;
         }
-        let upper = x % steps + y % steps > steps;
+        let upper = (x & (steps - 1)) + (y & (steps - 1)) > steps;
         let number = 2 * (row * columns + column) as usize + usize::from(upper);
         mesh.coarse.get(number).map(|entry| (number, entry))
     }

@@ -20,8 +20,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
-    Bitset, LevelsWithin, Limits, Mesh, Progress, Questions, RectSearch, RefineError, RuleAnswers,
-    SharedRule, TreeTriangle, TriangleId, WalkEnd, any_exceeds, ask_all,
+    Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, Questions, RectSearch, RefineError,
+    RuleAnswers, SharedRule, TargetChange, TreeTriangle, TriangleId, WalkEnd, any_exceeds, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -53,13 +53,18 @@ const BATCH: usize = 4096;
 #[derive(Clone, Debug)]
 pub struct Forecast {
     level_cap: u32,
+    /// Where the rule has changed, and how.
+    areas: Vec<ChangedArea>,
     search: RectSearch,
     is_searching: bool,
     /// Triangles found by the search.
     reached: Bitset,
+    /// Nodes that are the newest vertex of all triangles around them, as far as found by the search.
+    centres: Bitset,
     /// Triangles that may exceed their target: entries of the mesh, or parts of such.
     open: Vec<Asked>,
-    /// Entries whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
+    /// Entries whose newest vertex can perhaps be removed, one for each of those, to be examined when all
+    /// triangles are satisfied.
     loose: Vec<TriangleId>,
     /// Triangles that coarsening would restore and whose newest vertex can perhaps be removed.
     restored: Vec<TreeTriangle>,
@@ -190,11 +195,21 @@ fn gain(triangle: &TreeTriangle, is_in_domain: &impl Fn([LatticePoint; 3], u32) 
 impl Forecast {
     /// Creates a forecast without counts. `area` contains all points where the rule has changed.
     pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
-        Self {
+        let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
+        Self::of_changes(mesh, vec![area], limits).expect("there is an area")
+    }
+
+    /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
+    /// what is known of the changes; `None` without an area.
+    pub fn of_changes(mesh: &Mesh, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+        let hull = areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))?;
+        Some(Self {
             level_cap: limits.level_cap(),
-            search: RectSearch::new(mesh, area),
+            areas,
+            search: RectSearch::new(mesh, hull),
             is_searching: true,
             reached: Bitset::default(),
+            centres: Bitset::default(),
             open: Vec::new(),
             loose: Vec::new(),
             restored: Vec::new(),
@@ -205,7 +220,7 @@ impl Forecast {
             removed: 0,
             change: 0,
             batch: Vec::new(),
-        }
+        })
     }
 
     /// Returns the triangles that would come, as far as counted.
@@ -269,10 +284,16 @@ impl Forecast {
                 continue;
             };
             self.search.spread_from(mesh, id, &mut self.reached);
-            found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            let [asks, loosens] = self.concerns(mesh, id);
+            if asks {
+                found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+            }
             // Where a triangle around it was bisected, the newest vertex is looked at once that one is
             // restored.
-            if mesh.star_of(id).is_some() {
+            if loosens
+                && let Some(star) = mesh.star_of(id)
+                && self.centres.insert(star.centre().index())
+            {
                 self.loose.push(id);
             }
         }
@@ -283,6 +304,18 @@ impl Forecast {
         found.clear();
         self.batch = found;
         asked.map(|()| looked)
+    }
+
+    /// Returns whether an entry can have begun to exceed its target, and whether its parent can have ceased
+    /// to.
+    #[inline]
+    fn concerns(&self, mesh: &Mesh, id: TriangleId) -> [bool; 2] {
+        let (corners, level) = (mesh.corners(id), mesh.triangle(id).level());
+        let touched = self.areas.iter().filter(|area| area.rect.touches(corners));
+        touched.fold([false; 2], |[asks, loosens], area| {
+            let of_area = area.concerns(mesh, corners, level);
+            [asks || of_area[0], loosens || of_area[1]]
+        })
     }
 
     /// Asks about up to `most` triangles, and notes that those are bisected that exceed their target.
@@ -388,9 +421,12 @@ impl Forecast {
         }
         let parent = triangle.parent(mesh.lattice())?;
         let parents = [Some(parent), parent.across(mesh)];
-        let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
-        if children.any(|child| self.is_bisected(mesh, &child, are_entries)) {
-            return None;
+        // An entry of the mesh is bisected only if a node comes.
+        if !are_entries || self.added > 0 {
+            let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
+            if children.any(|child| self.is_bisected(mesh, &child, are_entries)) {
+                return None;
+            }
         }
         self.fates.insert(at, Fate::Stays);
         Some(Loose { at, parents, is_needed: false })

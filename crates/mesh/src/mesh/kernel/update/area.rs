@@ -47,6 +47,9 @@ pub struct Falloff {
     pub slope: f64,
 }
 
+/// A little less than one, for rounding errors here and where the target diameters are computed.
+const ROUNDED_DOWN: f64 = 1.0 - 1e-9;
+
 impl ChangedArea {
     /// Returns whether a triangle can have begun to exceed its target, and whether its parent can have ceased
     /// to.
@@ -67,13 +70,15 @@ impl Falloff {
     #[inline]
     fn least_at(&self, mesh: &Mesh, [a, b, c]: [LatticePoint; 3]) -> f64 {
         let Self { core, least, slope } = self;
+        if *slope == 0.0 {
+            return least * ROUNDED_DOWN;
+        }
         let gap =
             |low: u32, high: u32, from: u32, to: u32| low.saturating_sub(to).max(from.saturating_sub(high));
         let x = gap(core.min.x, core.max.x, a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
         let y = gap(core.min.y, core.max.y, a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
         let step = mesh.lattice().step();
         let distance = (DVec2::new(f64::from(x), f64::from(y)) * step).length();
-        // A little less, for rounding errors here and where the target diameters are computed.
-        (least + slope * distance) * (1.0 - 1e-9)
+        (least + slope * distance) * ROUNDED_DOWN
     }
 }

@@ -1,9 +1,11 @@
 //! Removes the nodes that are no longer needed.
 
+use std::ops::Range;
+
 use super::Updater;
 use super::questions::{Loose, OfParents};
 use crate::mesh::kernel::coarsen::Star;
-use crate::mesh::kernel::{Mesh, NodeId, SharedRule, TriangleId, ask_all};
+use crate::mesh::kernel::{Bitset, Mesh, NodeId, SharedRule, TriangleId, ask_all};
 
 /// Entries that nothing refers to any more.
 #[derive(Clone, Debug, Default)]
@@ -75,22 +77,27 @@ impl Updater {
         self.freed.nodes.push(star.centre());
     }
 
-    /// Removes the entries that became free, the highest first: then the last entry, which takes the place
-    /// of another, is never one to be removed later.
+    /// Removes the entries that became free.
     fn remove_freed(&mut self, mesh: &mut Mesh) {
-        let Freed { triangles, nodes } = &mut self.freed;
-        triangles.sort_unstable_by(|a, b| b.cmp(a));
-        for &freed in &*triangles {
-            let last = mesh.raw_triangle_count() - 1;
-            self.exceeding.swap_removed(last, freed.index());
-            self.loose.swap_removed(last, freed.index());
-            mesh.remove_triangle(freed, &mut self.log);
-        }
-        nodes.sort_unstable_by(|a, b| b.cmp(a));
-        nodes.iter().for_each(|&freed| mesh.remove_node(freed, &mut self.log));
-        triangles.clear();
-        nodes.clear();
+        let Self { freed, reached, exceeding, loose, log, .. } = self;
+        let triangles = ranges(reached, freed.triangles.drain(..).map(TriangleId::index));
+        mesh.remove_triangles(&triangles, log, |from, to| {
+            exceeding.moved(from, to);
+            loose.moved(from, to);
+        });
+        exceeding.truncate(mesh.raw_triangle_count());
+        loose.truncate(mesh.raw_triangle_count());
+        let nodes = ranges(reached, freed.nodes.drain(..).map(NodeId::index));
+        mesh.remove_nodes(&nodes, log);
     }
+}
+
+/// Returns some places as ascending ranges that do not touch, by means of an empty set.
+fn ranges(set: &mut Bitset, places: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
+    places.for_each(|place| {
+        set.insert(place);
+    });
+    set.take_ranges()
 }
 
 fn emptied<T>(mut list: Vec<T>) -> Vec<T> {

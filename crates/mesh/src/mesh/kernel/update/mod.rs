@@ -70,12 +70,12 @@
 //!
 //! # How the work survives the moves
 //!
-//! Coarsening fills a gap in the arrays with the last entry. What is still to be done is a set of marks on
+//! Coarsening fills gaps in the arrays with the last entries. What is still to be done is a set of marks on
 //! places of the array, and the mark moves with its entry. The list of the triangles that may exceed their
 //! target, which also has what is known of those within them, is made again from the marks. A search from
 //! neighbour to neighbour remembers ids, and during it nothing moves. A search down the array has looked at
-//! all entries from some place on: bisection appends behind it, and the last entry, which fills a gap, lies
-//! behind it.
+//! all entries from some place on: bisection appends behind it, and the last entries, which fill gaps, lie
+//! behind it, or are still to be looked at.
 //!
 //! Triangles are taken from the end of the array: the youngest first. Those are near in space and in memory,
 //! and when a place is painted and erased again, entries leave from the end and no other has to move.
@@ -144,7 +144,7 @@ pub struct Updater {
     search: Option<Search>,
     /// The hull of the rectangles that were searched since the mesh had no marks.
     searched: Option<LatticeRect>,
-    /// Triangles found by a search from neighbour to neighbour; otherwise empty.
+    /// Triangles found by a search from neighbour to neighbour; otherwise empty, and used to sort places.
     reached: Bitset,
     /// Triangles that may exceed their target.
     exceeding: Bitset,
