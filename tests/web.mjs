@@ -54,7 +54,11 @@ async function browse(mode, options = {}) {
       request((time) => {
         const began = performance.now();
         frame(time);
-        window.frameTimes.push(performance.now() - began);
+        const took = performance.now() - began;
+        window.frameTimes.push(took);
+        if (took > 5) {
+          window.firstFrame ??= performance.now();
+        }
       });
   });
   page.shot = (name) => page.screenshot({ path: path.join(scratch, `${mode}-${name}.png`) });
@@ -109,7 +113,7 @@ async function paint(page, from = [300, 350], steps = 60) {
 }
 
 function times(list) {
-  const sorted = [...list].sort((a, b) => a - b);
+  const sorted = list.filter((time) => time > 1).sort((a, b) => a - b); // the others drew nothing
   const at = (share) => sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]?.toFixed(1);
   return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, worst ${at(1)} ms of ${sorted.length} frames`;
 }
@@ -133,12 +137,16 @@ const tests = {
   async "each example has the mesh of the desktop"({ page, mode }) {
     await page.goto(url);
     await settled(page);
-    for (const name of await page.evaluate(() => window.meshbrush.constructor.examples())) {
+    console.log(`    first frame after ${await page.evaluate(() => Math.round(window.firstFrame))} ms`);
+    const names = await page.evaluate(() => window.meshbrush.constructor.examples());
+    for (const name of names) {
+      // Painted work of one example is not offered in the next one.
+      const { browser, page } = await browse(mode);
+      await page.goto(url);
+      const before = await settled(page);
       await page.evaluate((name) => { window.frameTimes = []; window.meshbrush.openExample(name); }, name);
-      await sleep(200);
-      const began = Date.now();
+      await until("it is opened", async () => name === names[0] || (await fingerprint(page)) !== before);
       const found = await settled(page);
-      const took = Date.now() - began;
       const opening = await page.evaluate(() => window.frameTimes);
       await page.evaluate(() => { window.frameTimes = []; });
       assert.equal(found, onDesktop(await projectOf(page)), name);
@@ -146,9 +154,9 @@ const tests = {
       await paint(page);
       await settled(page);
       const painting = await page.evaluate(() => window.frameTimes);
-      await page.keyboard.press("Control+z"); // else the next one asks whether to save this one
-      await until("undo", async () => (await fingerprint(page)) === found);
-      console.log(`    ${name}: ${found}, shown in ${took} ms\n      opening ${times(opening)}\n      painting ${times(painting)}`);
+      console.log(`    ${name}: ${found}\n      opening ${times(opening)}\n      painting ${times(painting)}`);
+      assert.deepEqual(page.problems, [], name);
+      await browser.close();
     }
   },
 
