@@ -1,6 +1,6 @@
 //! How many edits ago triangles came: follows the session's edits and its mesh.
 
-use std::time::Instant;
+use crate::app::clock::Instant;
 
 use meshbrush_core::document::{Document, MeshChange};
 use meshbrush_core::explain::{Ages, AgesNow};

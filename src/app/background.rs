@@ -143,13 +143,19 @@ impl Background {
     /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was
     /// cancelled.
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
-        self.started += 1;
-        let (id, meter, name) = (WorkId(self.started), Meter::default(), name_of(path));
+        let meter = Meter::default();
         let (watched, threads) = (meter.clone(), self.threads);
         let kind = if aim == Aim::Read { Kind::Read } else { Kind::Write };
         let job = self.jobs.start(kind, move |output| {
             output.send(Threads::new(threads).run(|| work(&watched)));
         });
+        self.enter(aim, path, meter, job);
+    }
+
+    /// Enters the job of work on a file, and the meter that it checks.
+    pub fn enter(&mut self, aim: Aim, path: &Path, meter: Meter, job: Job<Outcome>) {
+        self.started += 1;
+        let (id, name) = (WorkId(self.started), name_of(path));
         self.works.push(Work { id, job, aim, name, meter, busy: Busy::now() });
     }
 

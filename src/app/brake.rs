@@ -12,7 +12,7 @@
 //! So an ordinary edit is applied at once, and the mesh of one that asks for millions has grown by little
 //! when the question is asked. Paint has its price beside the brush, and is never held.
 
-use std::time::Instant;
+use crate::app::clock::Instant;
 
 use super::session::Session;
 use super::slices::{Followed, draw_stroke, follow_document};

@@ -1,4 +1,4 @@
-use std::time::{Duration, Instant};
+use crate::app::clock::{Duration, Instant};
 
 /// Work shorter than this shows no progress: it would only flicker.
 pub const MOMENT: Duration = Duration::from_millis(250);

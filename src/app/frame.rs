@@ -12,16 +12,17 @@
 //! `advance` also runs while the window is hidden or the canvas has no room. The pointer acts on the canvas
 //! where it was in the last frame, and the mesh that it changed is drawn in the same frame.
 
-use std::time::{Duration, Instant};
+use crate::app::clock::{Duration, Instant};
 
 use eframe::egui::{self, Context, Event, Frame, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
 use super::App;
 use super::canvas::Toast;
 use super::catalog::catalog;
-use super::command::{Command, FileCommand, ShellCommand};
+use super::command::{Command, ShellCommand};
 use super::dialogs::FileFacts;
 use super::features::{ROWS, stepping};
+use super::host;
 use super::journal::JournalKeeper;
 use super::keys::Receiver;
 use super::readout::Readout;
@@ -42,6 +43,8 @@ const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40))
 /// The share and the most time for work on the mesh where drawing is slow and the pointer draws nothing. The
 /// mesh should be complete soon, and nobody waits for the next frame.
 const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
+/// The most time for work on the mesh in a page: a browser does nothing else meanwhile.
+const MOST_IN_PAGE: Duration = Duration::from_millis(20);
 
 /// Returns whether a command moves the focus between parts of the window.
 fn is_for_parts(command: &Command) -> bool {
@@ -84,8 +87,7 @@ impl App {
             return;
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
-        self.commands
-            .extend(dropped.iter().map(|file| Command::File(FileCommand::AddData(file.path().to_owned()))));
+        self.commands.extend(host::take_dropped(&dropped, &mut self.background, &self.jobs));
         let events = ctx.input(|input| input.events.clone());
         let mut used_keys = Vec::new();
         for (index, event) in events.iter().enumerate() {
@@ -186,6 +188,7 @@ impl App {
     fn mesh_budget(&self, ctx: &Context) -> Duration {
         let draws = ctx.input(|input| input.pointer.any_down());
         let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
+        let most = if host::IS_PAGE { most.min(MOST_IN_PAGE) } else { most };
         let frame_time = ctx.input(|input| input.stable_dt);
         Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
     }

@@ -1,6 +1,6 @@
 //! A line on standard error for each frame, for whoever measures how long frames take.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use crate::app::clock::{SystemTime, UNIX_EPOCH};
 
 use super::notices::{Notice, Notices};
 use super::session::Session;

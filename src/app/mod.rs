@@ -12,10 +12,13 @@ mod brake;
 mod busy;
 mod canvas;
 mod catalog;
+mod clock;
 pub mod command;
 mod contours;
 mod cuts;
 mod derivation;
+#[cfg(not(target_family = "wasm"))]
+mod desktop;
 mod dialogs;
 mod dock;
 mod document_id;
@@ -29,7 +32,6 @@ mod heights;
 mod help;
 mod home;
 mod jobs;
-mod journal;
 mod kept_keys;
 mod keys;
 mod kit;
@@ -41,6 +43,7 @@ mod presentation;
 mod project;
 
 pub mod readout;
+mod recovery;
 mod replacing;
 mod screenshots;
 pub mod session;
@@ -54,23 +57,29 @@ pub mod theme;
 mod threads;
 pub mod tools;
 pub mod view;
+#[cfg(target_family = "wasm")]
+mod web;
 pub mod widgets;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
-use eframe::egui::{self, Context, Ui, vec2};
+use eframe::egui::{Context, Ui};
 use eframe::egui_wgpu;
 
 use background::Background;
 use canvas::{Canvas, CanvasGpu};
+use clock::{Duration, Instant};
 use command::{Command, FileCommand};
+#[cfg(not(target_family = "wasm"))]
+use desktop as host;
 use dialogs::Dialogs;
 use features::Features;
 use frame_log::FrameLog;
 use help::HelpTopic;
+use host::journal;
+pub use host::run;
 use jobs::Jobs;
 use journal::JournalKeeper;
 use kit::Keymap;
@@ -80,24 +89,23 @@ use session::Session;
 use threads::Threads;
 use tools::Tools;
 use view::View;
+#[cfg(target_family = "wasm")]
+use web as host;
 
 use meshbrush_core::document::{Document, Example};
 use meshbrush_render::render::gpu::device_descriptor;
 
 /// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);
-/// Identifies the window to the desktop: the name of the desktop entry in `packaging`.
-const APP_ID: &str = "org.meshbrush.Meshbrush";
-/// The name of the program's folder among the user's data.
-const DATA_FOLDER: &str = "meshbrush";
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
 const REPORT: &str = "Mesh Generation via Local Bisection Refinement of Triangulated Grids";
-/// Initial size of the window, in points: it fits a screen of 1440 × 900 with its frame.
-const FIRST_SIZE: [f32; 2] = [1360.0, 800.0];
+/// The message where nothing can be drawn.
+const NO_DRIVER: &str = "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
+                         mesa-vulkan-drivers, or use the command line: meshbrush mesh --help.";
 /// Size of the window in screenshots, in points.
 const WINDOW_SIZE: [f32; 2] = [1440.0, 900.0];
 /// Size below which the panels no longer fit, in points. A screen of 1920 × 1080 pixels at 200 % has
@@ -142,6 +150,23 @@ impl App {
     /// Fails when the graphics driver cannot draw a mesh.
     pub fn new(ctx: &Context, render_state: Option<&egui_wgpu::RenderState>) -> Result<Self, String> {
         Self::with_document(ctx, render_state, files::example(Example::ALL[0]))
+    }
+
+    /// Returns the app in a window of the system, on a file or on its first example.
+    fn in_window(cc: &eframe::CreationContext<'_>, file: Option<PathBuf>) -> Result<Self, String> {
+        let (ctx, render_state) = (&cc.egui_ctx, cc.wgpu_render_state.as_ref());
+        let mut app = match file {
+            Some(file) => Self::with_file(ctx, render_state, file)?,
+            None => Self::new(ctx, render_state)?,
+        };
+        // In a page the browser draws the panels: it shows pictures of the whole window late.
+        let window = if host::IS_PAGE { None } else { app.canvas.software_window() };
+        if let Some(window) = window {
+            ctx.add_plugin(window);
+        }
+        app.dialogs.use_system();
+        app.keep_in(cc);
+        Ok(app)
     }
 
     /// Returns the app on a file, which is being read: until then the canvas stays empty.
@@ -209,7 +234,7 @@ impl App {
                 self.limit_threads(count);
             }
         }
-        if let Some(folder) = eframe::storage_dir(DATA_FOLDER) {
+        if let Some(folder) = host::data_folder() {
             self.keep_journal_in(folder.join("journals"));
             self.project.keep_claims_in(folder.join("open"));
         }
@@ -236,6 +261,13 @@ impl App {
     /// Sends a command, to be run in the next frame.
     fn send(&mut self, command: Command) {
         self.commands.push(command);
+    }
+}
+
+/// Opens a device with all that its adapter can do.
+fn set_up_gpu(wgpu: &mut egui_wgpu::WgpuConfiguration) {
+    if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut wgpu.wgpu_setup {
+        setup.device_descriptor = Arc::new(device_descriptor);
     }
 }
 
@@ -270,61 +302,5 @@ impl eframe::App for App {
         if let Some(keeper) = &mut self.journal {
             keeper.end(remove, &self.jobs);
         }
-    }
-}
-
-/// Opens the window on a file or on the first example, and returns when it is closed.
-///
-/// # Errors
-/// Fails with a sentence when there is no display or no usable graphics driver.
-pub fn run(file: Option<PathBuf>) -> Result<(), String> {
-    let mut options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_title("Meshbrush")
-            .with_app_id(APP_ID)
-            .with_icon(window_icon())
-            .with_inner_size(FIRST_SIZE)
-            .with_min_inner_size(vec2(SMALLEST_SIZE[0], SMALLEST_SIZE[1])),
-        persistence_path: eframe::storage_dir(DATA_FOLDER).map(|folder| folder.join("app.ron")),
-        ..eframe::NativeOptions::default()
-    };
-    if let egui_wgpu::WgpuSetup::CreateNew(setup) = &mut options.wgpu_options.wgpu_setup {
-        setup.device_descriptor = Arc::new(device_descriptor);
-    }
-    let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
-        let (ctx, render_state) = (&cc.egui_ctx, cc.wgpu_render_state.as_ref());
-        let mut app = match file {
-            Some(file) => App::with_file(ctx, render_state, file)?,
-            None => App::new(ctx, render_state)?,
-        };
-        if let Some(window) = app.canvas.software_window() {
-            ctx.add_plugin(window);
-        }
-        app.dialogs.use_system();
-        app.keep_in(cc);
-        Ok(Box::new(app))
-    };
-    eframe::run_native(APP_ID, options, Box::new(create)).map_err(failure_to_open)
-}
-
-fn window_icon() -> egui::IconData {
-    let icon = include_bytes!("../../assets/icon.png");
-    eframe::icon_data::from_png_bytes(icon).unwrap_or_default()
-}
-
-/// The message where nothing can be drawn.
-const NO_DRIVER: &str = "There is no usable graphics driver. Install a Vulkan or OpenGL driver, for example the package \
-                         mesa-vulkan-drivers, or use the command line: meshbrush mesh --help.";
-
-/// Returns the message when the window did not open.
-fn failure_to_open(error: eframe::Error) -> String {
-    match error {
-        eframe::Error::WinitEventLoop(_) | eframe::Error::Winit(_) => {
-            "There is no display to open a window on. Set DISPLAY or WAYLAND_DISPLAY, or use the command line: \
-             meshbrush mesh --help."
-                .into()
-        }
-        eframe::Error::Wgpu(_) => NO_DRIVER.into(),
-        other => format!("The window could not be opened: {other}."),
     }
 }

@@ -1,7 +1,7 @@
 //! The document, the mesh that follows it, edits on their way to the document, and the queried point.
 
+use crate::app::clock::{Duration, Instant};
 use std::cell::RefCell;
-use std::time::{Duration, Instant};
 
 use glam::DVec2;
 

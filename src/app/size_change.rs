@@ -1,6 +1,6 @@
 //! What an edit of the size did to the number of triangles, and what another one would do.
 
-use std::time::Instant;
+use crate::app::clock::Instant;
 
 use super::session::Session;
 use meshbrush_core::document::{Document, Follower, Price, Setting, SettingKind, SizePricer};

@@ -1,6 +1,6 @@
 //! Work on the mesh in slices, until a frame's time is spent.
 
-use std::time::Instant;
+use crate::app::clock::Instant;
 
 use meshbrush_core::build::BuildError;
 use meshbrush_core::document::{Document, Follower, Pace, Stage};

@@ -182,6 +182,10 @@ pub struct View {
     pub aids: CanvasAids,
     /// Whether the panels are shown.
     pub panels: bool,
+    /// Whether menus, status and panels surround the canvas: not in a page that embeds it.
+    pub surrounds: bool,
+    /// Whether the strip of the tool is above the canvas.
+    pub strip: bool,
     /// Which tab of the lower dock is shown.
     pub dock: Dock,
     /// The mode for a projector, while it is on.
@@ -213,6 +217,8 @@ impl Default for View {
             overlay: FieldOverlay::None,
             aids: CanvasAids::default(),
             panels: true,
+            surrounds: true,
+            strip: true,
             dock: Dock::default(),
             presentation: None,
             lone_level: None,

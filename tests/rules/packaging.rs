@@ -20,7 +20,7 @@ fn between<'a>(text: &'a str, before: &str, after: &str) -> &'a str {
 /// A desktop finds name and icon of a window by the identity that the window has.
 #[test]
 fn the_window_has_the_identity_of_its_desktop_entry() {
-    let window = read("src/app/mod.rs");
+    let window = read("src/app/desktop/mod.rs");
     assert_eq!(between(&window, "const APP_ID: &str = \"", "\""), ID);
     let entry = read(&format!("packaging/{ID}.desktop"));
     for line in [format!("Icon={ID}"), format!("StartupWMClass={ID}")] {

@@ -5,6 +5,7 @@ mod packaging;
 mod public_api;
 mod python;
 mod source;
+mod web;
 
 /// The root of the repository.
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");

@@ -52,18 +52,21 @@ struct Sending {
 }
 
 impl CanvasGpu {
-    /// Readies the GPU behind a window.
+    /// Readies the GPU behind a window. Where it cannot draw a mesh at all, as through WebGL, the mesh is
+    /// drawn in software.
     ///
     /// # Errors
-    /// Fails when it cannot draw a mesh at all.
+    /// Fails when it cannot draw a mesh and the environment asks that it does.
     pub fn new(state: &RenderState) -> Result<Self, GpuError> {
-        let renderer = GpuRenderer::new(&state.device, &state.queue, state.target_format)?;
-        state.renderer.write().callback_resources.insert(CanvasResources { renderer, failed: None });
+        let (device, queue, format) = (&state.device, &state.queue, state.target_format);
+        let renderer = GpuRenderer::new(device, queue, format);
         let in_software = match std::env::var(DRAW_VARIABLE).as_deref() {
             Ok("software") => true,
             Ok("gpu") => false,
-            _ => emulates_gpu(&state.adapter),
+            _ => renderer.is_err() || emulates_gpu(&state.adapter),
         };
+        let renderer = if in_software { GpuRenderer::in_software(device, queue, format) } else { renderer? };
+        state.renderer.write().callback_resources.insert(CanvasResources { renderer, failed: None });
         let sending = Sending { behind: true, refused: None };
         Ok(Self { state: state.clone(), in_software, in_software_window: false, sending })
     }

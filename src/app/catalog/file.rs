@@ -8,6 +8,7 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
+use crate::app::host;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// Recent files in the menu; the palette has all.
@@ -59,16 +60,33 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             .enabled(has_paths),
         CatalogItem::new(File, "Export as test…", Command::File(FileCommand::Ask(&EXPORT_TEST))),
     ];
+    items.extend(recent(state));
+    items.push(last());
+    items
+}
+
+/// Files that were opened or saved.
+fn recent(state: &FrameState<'_>) -> Vec<CatalogItem> {
+    let mut items = Vec::new();
     for (i, path) in state.project.recent().iter().enumerate() {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let item = CatalogItem::new(
-            File,
+            Menu::File,
             format!("Open recent {name}"),
             Command::File(FileCommand::Open(path.clone())),
         );
         let item = item.id(format!("open-recent-{}", i + 1)).in_menu(i < MOST_RECENT_IN_MENU);
         items.push(if i == 0 { item.group() } else { item });
     }
-    items.push(CatalogItem::new(File, "Quit", Command::File(FileCommand::Quit)).ctrl(Key::Q).group());
     items
+}
+
+/// Ends the window; a page is closed with its tab, and can be sent.
+fn last() -> CatalogItem {
+    let item = if host::IS_PAGE {
+        CatalogItem::new(Menu::File, "Copy link", Command::File(FileCommand::CopyLink))
+    } else {
+        CatalogItem::new(Menu::File, "Quit", Command::File(FileCommand::Quit)).ctrl(Key::Q)
+    };
+    item.group()
 }

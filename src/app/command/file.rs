@@ -18,6 +18,8 @@ pub enum FileCommand {
     NewFromPage,
     /// Opens one of the documents that come with the program.
     OpenExample(Example),
+    /// Copy a link to the page of the program with the document in it.
+    CopyLink,
     /// Asks for a file.
     Ask(FileRequest),
     /// Opens a file; its ending says what it is.

@@ -18,6 +18,7 @@ use super::REPORT;
 use super::catalog::{PLACES, catalog, words_of};
 use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use super::document_id::DocumentId;
+use super::host;
 use super::jobs::Jobs;
 use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
@@ -25,8 +26,9 @@ pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
+pub use system::{Answer, Question};
 
-use system::{Answer, Question, SystemDialog};
+use system::SystemDialog;
 
 /// Chooses the file dialog: `window` for the one in the window, `system` for the desktop's own.
 const DIALOG_VARIABLE: &str = "MESHBRUSH_FILE_DIALOG";
@@ -111,7 +113,7 @@ impl Dialogs {
     ) {
         let folder = self.folders.of(request, beside);
         let question = Question { request, document, folder, name: name.to_owned() };
-        if self.uses_system {
+        if self.uses_system && host::has_dialog(request) {
             self.system.ask(question, jobs);
         } else {
             self.open_file_dialog(&question, jobs);

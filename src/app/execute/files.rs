@@ -12,11 +12,14 @@ use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
 use crate::app::home::{self, Home};
+use crate::app::host;
 use crate::app::journal::JournalKeeper;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, journal, project};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
+use meshbrush_io::io::link;
+use meshbrush_io::io::project::Project;
 
 impl App {
     /// Opens an example, and shows what it is about.
@@ -41,6 +44,7 @@ impl App {
                 self.dialogs.open(Dialog::Start);
             }
             FileCommand::OpenExample(example) => self.open_example(example),
+            FileCommand::CopyLink => self.copy_link(ctx),
             FileCommand::Ask(request) => self.ask_for_file(request),
             FileCommand::Open(path) => match project::open_command(path) {
                 Ok(command) => self.send(command),
@@ -87,6 +91,17 @@ impl App {
             FileCommand::AnswerRecovery(answer) => {
                 self.commands.extend(self.journal.as_mut().and_then(|keeper| keeper.answer(answer)));
             }
+        }
+    }
+
+    /// Copies a link to the page of the program with the document in it.
+    fn copy_link(&mut self, ctx: &Context) {
+        match link::write(&Project::of(self.session.document())) {
+            Ok(link) => {
+                ctx.copy_text(format!("{}#{link}", host::address()));
+                self.session.tell("The link was copied. Whoever opens it gets this document.".into());
+            }
+            Err(problem) => self.session.report(problem),
         }
     }
 
@@ -298,7 +313,7 @@ impl App {
     }
 
     fn finish_saving(&mut self) {
-        if let Some(keeper) = self.journal.as_ref().filter(|_| !self.project.is_edited(&self.session)) {
+        if let Some(keeper) = self.journal.as_mut().filter(|_| !self.project.is_edited(&self.session)) {
             keeper.note_saved(&self.project);
         }
         self.project.save_again(&mut self.session, &mut self.background);

@@ -1,5 +1,6 @@
 //! A page of the manual, drawn.
 
+use std::io::Cursor;
 use std::sync::Arc;
 
 use eframe::egui::{
@@ -13,6 +14,7 @@ use super::manual::{Page, page_of, picture};
 use super::markdown::{Block, Span, blocks, plain};
 use crate::app::command::{Command, ShellCommand};
 use crate::app::theme::{font, metrics, tokens};
+use meshbrush_io::io::png::decode_picture;
 
 /// Space between cells of a table.
 const CELL_GAP: f32 = 16.0;
@@ -176,8 +178,8 @@ fn texture(ui: &Ui, file: &str) -> Option<TextureHandle> {
     if let Some(texture) = ui.data(|data| data.get_temp::<TextureHandle>(id)) {
         return Some(texture);
     }
-    let decoded = eframe::icon_data::from_png_bytes(picture(file)?).ok()?;
-    let size = [decoded.width as usize, decoded.height as usize];
+    let decoded = decode_picture(Cursor::new(picture(file)?)).ok()?;
+    let size = decoded.size.map(|side| side as usize);
     let image = ColorImage::from_rgba_unmultiplied(size, &decoded.rgba);
     let texture = ui.ctx().load_texture(file, image, TextureOptions::LINEAR);
     ui.data_mut(|data| data.insert_temp(id, texture.clone()));

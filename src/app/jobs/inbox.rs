@@ -1,8 +1,8 @@
 //! The one channel on which all jobs of a window send, and the one place where the window waits for them.
 
+use crate::app::clock::{Duration, Instant};
 use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::{Duration, Instant};
 
 /// How long a frame waits for jobs, all of them together: what takes a moment is shown in the frame that
 /// asked for it.

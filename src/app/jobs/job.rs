@@ -1,11 +1,11 @@
 //! A job, seen from the window and from its thread.
 
+use crate::app::clock::Instant;
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
-use std::time::Instant;
 
 use super::Jobs;
 use super::inbox::Parcel;

@@ -7,6 +7,10 @@
 //!                              └─ panic ─→ Jobs::take_problems     one message, and no second attempt
 //! ```
 //!
+//! Where the system starts no threads, as in a browser, each frame does some of the work before it begins: at
+//! least one slice, and for 8 ms at most where slices are short. While a button is held it pauses four times
+//! as long as it worked, so that painting stays fluent. Nothing waits then.
+//!
 //! A [`Job`] belongs to the document that was open when it began, and to whoever holds it: dropped, it ends
 //! the work. So a window that is closed ends all work but the files that are being written.
 //!
@@ -37,7 +41,6 @@ mod waker;
 
 use std::cell::Cell;
 use std::rc::Rc;
-use std::time::Duration;
 
 use eframe::egui::Context;
 
@@ -49,6 +52,13 @@ pub use succession::Succession;
 use waker::Waker;
 
 use super::document_id::DocumentId;
+use crate::app::clock::{Duration, Instant};
+use meshbrush_mesh::mesh::Progress;
+
+/// How long a frame works on jobs where there are no threads for them.
+const SHARE: Duration = Duration::from_millis(8);
+/// How many times as long it then pauses while a button is held.
+const PAUSE: u32 = 4;
 
 /// The purpose of a job. There are so many threads for each at most; more jobs wait their turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +78,9 @@ pub enum Kind {
 
 impl Kind {
     const ALL: [Self; 5] = [Self::Compute, Self::Read, Self::Write, Self::Ask, Self::Journal];
+    /// Kinds of work that frames can do, those that a person waits for first. That of the journal waits for
+    /// gestures, and would not return.
+    const IN_FRAMES: [Self; 4] = [Self::Ask, Self::Read, Self::Write, Self::Compute];
 
     /// Returns the most threads.
     fn most(self) -> usize {
@@ -103,6 +116,8 @@ struct Shared {
     frame: Cell<u64>,
     /// The time of the frame, in seconds.
     time: Cell<f64>,
+    /// When frames may work on jobs again while a button is held.
+    pause_ends: Cell<Option<Instant>>,
 }
 
 /// Jobs may go on for a moment when their window is closed.
@@ -124,6 +139,7 @@ impl Jobs {
             document: Cell::default(),
             frame: Cell::default(),
             time: Cell::default(),
+            pause_ends: Cell::default(),
         }))
     }
 
@@ -141,7 +157,30 @@ impl Jobs {
     pub fn begin_frame(&self, time: f64) {
         self.0.time.set(time);
         self.0.frame.set(self.0.frame.get() + 1);
+        if self.0.queue.is_without_threads() {
+            self.work_in_frame();
+        }
         if self.0.inbox.begin_frame() {
+            self.wake();
+        }
+    }
+
+    /// Does some of the work that waits, where there are no threads.
+    fn work_in_frame(&self) {
+        let began = Instant::now();
+        let draws = self.0.ctx.input(|input| input.pointer.any_down());
+        if let Some(left) = self.0.pause_ends.get().and_then(|end| end.checked_duration_since(began))
+            && draws
+        {
+            self.wake_after(left.as_secs_f64());
+            return;
+        }
+        let mut goes_on = true;
+        while goes_on && (began.elapsed() < SHARE || self.waits_for_all()) {
+            goes_on = self.0.queue.run_slice(&Kind::IN_FRAMES);
+        }
+        self.0.pause_ends.set(Some(Instant::now() + PAUSE * began.elapsed()));
+        if goes_on {
             self.wake();
         }
     }
@@ -156,7 +195,7 @@ impl Jobs {
     }
 
     /// Makes another frame follow this one.
-    fn wake(&self) {
+    pub fn wake(&self) {
         self.0.ctx.request_repaint();
     }
 
@@ -176,14 +215,65 @@ impl Jobs {
         kind: Kind,
         work: impl FnOnce(&Output<T>) + Send + 'static,
     ) -> Job<T> {
-        let Shared { waker, queue, inbox, started, .. } = &*self.0;
-        started.set(started.get() + 1);
-        let (job, output) = Job::new(started.get(), self.document(), inbox.sender(), waker);
-        queue.push(kind, move || {
-            let done = if output.is_wanted() { failure::caught(|| work(&output)) } else { Ok(()) };
-            output.end(done.err().filter(|_| kind.reports_panic()));
+        let mut work = Some(work);
+        self.start_slices(kind, move |output| {
+            if let Some(work) = work.take() {
+                work(output);
+            }
+            Progress::Done
+        })
+    }
+
+    /// Starts a job as [`Self::start`] does, whose work is done in slices: the first one makes a state, and
+    /// the others are called until they are done, or until no more values are wanted. On a thread that is one
+    /// loop; without threads a frame takes as many slices as it has time for.
+    pub fn start_in_slices<T: Send + 'static, S: Send + 'static>(
+        &self,
+        kind: Kind,
+        begin: impl FnOnce() -> Option<S> + Send + 'static,
+        mut slice: impl FnMut(&mut S, &Output<T>) -> Progress + Send + 'static,
+    ) -> Job<T> {
+        let (mut begin, mut state) = (Some(begin), None);
+        self.start_slices(kind, move |output| {
+            if let Some(begin) = begin.take() {
+                state = begin();
+            } else if let Some(state) = &mut state {
+                return slice(state, output);
+            }
+            if state.is_some() { Progress::More } else { Progress::Done }
+        })
+    }
+
+    fn start_slices<T: Send + 'static>(
+        &self,
+        kind: Kind,
+        mut slice: impl FnMut(&Output<T>) -> Progress + Send + 'static,
+    ) -> Job<T> {
+        let (job, output) = self.expect();
+        let mut output = Some(output);
+        self.0.queue.push(kind, move || {
+            let Some(running) = &output else { return Progress::Done };
+            let done =
+                if running.is_wanted() { failure::caught(|| slice(running)) } else { Ok(Progress::Done) };
+            if matches!(done, Ok(Progress::More)) {
+                return Progress::More;
+            }
+            if let Some(output) = output.take() {
+                output.end(done.err().filter(|_| kind.reports_panic()));
+            }
+            Progress::Done
         });
+        if self.0.queue.is_without_threads() {
+            self.wake(); // the next frame does it
+        }
         job
+    }
+
+    /// Returns a job whose values come from elsewhere, and what sends them.
+    pub fn expect<T: Send + 'static>(&self) -> (Job<T>, Output<T>) {
+        let Shared { waker, inbox, started, .. } = &*self.0;
+        started.set(started.get() + 1);
+        Job::new(started.get(), self.document(), inbox.sender(), waker)
     }
 
     /// Messages about jobs that ended with a panic, since the last call.
@@ -200,12 +290,24 @@ impl Jobs {
     /// Waits until a job has ended, however long it takes: for a window that is being closed.
     pub fn wait_for_end<T: Send + 'static>(&self, job: &Job<T>) {
         while !matches!(job.take_ready(), Taken::Ended) {
-            self.0.inbox.receive_within(Duration::MAX);
+            if !self.0.queue.is_without_threads() {
+                self.0.inbox.receive_within(Duration::MAX);
+            } else if self.0.queue.run_slice(&Kind::IN_FRAMES) {
+                self.0.inbox.drain();
+            } else {
+                return;
+            }
         }
     }
 
     /// Waits for the next value of any job as long as the frame may still wait. Returns whether one came.
     fn receive(&self) -> bool {
+        if self.0.queue.is_without_threads() {
+            // What was requested in this frame is done in the next one, except where frames wait.
+            let worked = self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES);
+            self.0.inbox.drain();
+            return worked;
+        }
         self.0.inbox.receive()
     }
 
@@ -215,7 +317,7 @@ impl Jobs {
     }
 
     /// Wakes the window after so many seconds.
-    fn wake_after(&self, seconds: f64) {
+    pub fn wake_after(&self, seconds: f64) {
         self.0.ctx.request_repaint_after(Duration::from_secs_f64(seconds));
     }
 }
@@ -223,6 +325,11 @@ impl Jobs {
 /// Tests that decide when the window hears of its jobs, and that wait for them without a clock.
 #[cfg(test)]
 impl Jobs {
+    /// Starts no threads from now on, as in a browser.
+    pub fn do_without_threads(&self) {
+        self.0.queue.do_without_threads();
+    }
+
     /// Holds back all later values of jobs until [`Self::release`] delivers them.
     pub fn hold(&self) {
         self.0.inbox.hold();

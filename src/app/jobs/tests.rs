@@ -197,3 +197,70 @@ fn values_of_each_job_come_in_their_order_whatever_the_order_of_the_jobs() {
         assert!(started.iter().all(|job| matches!(job.take_ready(), Taken::Ended)), "seed {seed}");
     }
 }
+
+/// Work that takes longer than a frame has for it.
+fn long_slice() {
+    let began = Instant::now();
+    while began.elapsed() <= SHARE {
+        std::hint::spin_loop();
+    }
+}
+
+#[test]
+fn without_threads_a_frame_does_one_long_slice_and_jobs_take_turns() {
+    let jobs = Jobs::new(&Context::default());
+    jobs.do_without_threads();
+    let counts = |first: u32| {
+        let slice = |next: &mut u32, output: &Output<u32>| {
+            long_slice();
+            output.send(*next);
+            *next += 1;
+            if *next % 10 == 3 { Progress::Done } else { Progress::More }
+        };
+        jobs.start_in_slices(Kind::Compute, move || Some(first), slice)
+    };
+    let (one, other) = (counts(0), counts(10));
+    assert!(matches!(one.take(&jobs), Taken::Working), "no frame waits");
+    let mut order = Vec::new();
+    for frame in 0..20 {
+        jobs.begin_frame(f64::from(frame));
+        let before = order.len();
+        for job in [&one, &other] {
+            while let Taken::Value(value) = job.take(&jobs) {
+                order.push(value);
+            }
+        }
+        assert!(order.len() <= before + 1, "frame {frame}: {order:?}");
+    }
+    assert_eq!(order, [0, 10, 1, 11, 2, 12]);
+    assert!([one, other].iter().all(|job| matches!(job.take_ready(), Taken::Ended)));
+}
+
+#[test]
+fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_at_all() {
+    let jobs = Jobs::new(&Context::default());
+    jobs.do_without_threads();
+    let done = Arc::new(std::sync::Mutex::new(Vec::new()));
+    let work = |kind: Kind| {
+        let done = done.clone();
+        jobs.start(kind, move |_: &Output<()>| done.lock().unwrap().push(kind))
+    };
+    let _kept = [work(Kind::Compute), work(Kind::Read), work(Kind::Write), work(Kind::Journal)];
+    drop(work(Kind::Ask));
+    jobs.begin_frame(0.0);
+    assert_eq!(*done.lock().unwrap(), [Kind::Read, Kind::Write, Kind::Compute]);
+    // Work that is requested in a frame makes another one follow.
+    let ctx = Context::default();
+    let others = Jobs::new(&ctx);
+    others.do_without_threads();
+    for _ in 0..3 {
+        ctx.run_ui(eframe::egui::RawInput::default(), |_| {}).drop_without_applying_deltas();
+    }
+    assert!(!ctx.has_requested_repaint());
+    let _job = others.start(Kind::Compute, |_: &Output<()>| {});
+    assert!(ctx.has_requested_repaint());
+    // A window that is closed completes what is being written.
+    let _writing = work(Kind::Write);
+    jobs.wait_for_writing(Duration::ZERO);
+    assert_eq!(done.lock().unwrap().len(), 4);
+}

@@ -34,6 +34,12 @@ static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];
 /// Draws all panels, from the rim inwards. The menus have the `entries`.
 pub fn show(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], commands: &mut Vec<Command>) {
     show_bars(ui, state, entries, commands);
+    if !state.view.surrounds {
+        if state.view.strip {
+            strip::show(ui, state, commands);
+        }
+        return;
+    }
     if !state.view.panels {
         return;
     }
@@ -74,14 +80,16 @@ fn show_bars(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], comma
     // egui puts the row of a menu bar at its top: the margin centres it.
     let above = ((metrics::MENU_BAR - metrics::ROW) / 2.0) as i8;
     let menu = bar.inner_margin(Margin::symmetric(metrics::PANEL_MARGIN as i8, above));
-    egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
-        mark(ui, Part::Menus);
-        bars::menu_bar(ui, state, entries, commands);
-    });
-    egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
-        mark(ui, Part::Status);
-        status::status_bar(ui, state);
-    });
+    if state.view.surrounds {
+        egui::Panel::top("menu").frame(menu).exact_size(metrics::MENU_BAR).show(ui, |ui| {
+            mark(ui, Part::Menus);
+            bars::menu_bar(ui, state, entries, commands);
+        });
+        egui::Panel::bottom("status").frame(bar).exact_size(metrics::STATUS_BAR).show(ui, |ui| {
+            mark(ui, Part::Status);
+            status::status_bar(ui, state);
+        });
+    }
     if let Some(steps) = state.features.stepping.steps() {
         egui::Panel::bottom("steps")
             .frame(bar)

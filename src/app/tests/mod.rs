@@ -41,6 +41,7 @@ mod steady;
 mod threads;
 pub mod tips;
 mod view;
+mod without_threads;
 
 pub use places::*;
 

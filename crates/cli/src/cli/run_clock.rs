@@ -1,6 +1,6 @@
 //! The clock by which the runs of the experiment are timed.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use meshbrush_study::report::RunTime;
 

@@ -378,10 +378,15 @@ impl Settings {
 
     /// Returns the limits of the size of the mesh.
     pub fn limits(&self) -> Limits {
-        let max_memory = Some(MemoryLimit::for_two_meshes(self.max_memory));
+        let memory = MOST_MEMORY.map_or(self.max_memory, |most| self.max_memory.min(most));
+        let max_memory = Some(MemoryLimit::for_two_meshes(memory));
         Limits { max_triangles: self.max_triangles, max_level: None, max_memory }
     }
 }
+
+/// Most memory that meshes get, whatever the document allows, in bytes, where that is limited: a page of a
+/// browser has 4 GB for everything.
+const MOST_MEMORY: Option<usize> = if cfg!(target_family = "wasm") { Some(1_500_000_000) } else { None };
 
 impl Settings {
     /// Most triangles unless the user says otherwise: 760 MB.

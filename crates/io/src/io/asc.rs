@@ -6,13 +6,13 @@
 
 use std::collections::HashMap;
 use std::fmt;
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
 
 use glam::DVec2;
 
 use super::coordinate_system::CoordinateSystem;
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::samples::single;
@@ -51,7 +51,7 @@ fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, 
 /// Reads a grid over the given rectangle, or else over that of its header.
 fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         parse_over(BufReader::with_capacity(1 << 16, meter.count(file)), place)
     });
     read.map_err(|flaw| flaw.in_file(path))

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::Meter;
+use super::{Meter, disk};
 
 /// The end of the names of temporary files.
 const PART: &str = ".part";
@@ -16,25 +16,29 @@ const MOST_LINKS: usize = 40;
 /// # Errors
 /// Fails with the errors of the file system.
 pub fn make_folder(path: &Path) -> io::Result<()> {
-    fs::create_dir_all(path)
+    if disk::is_in_memory() { Ok(()) } else { fs::create_dir_all(path) }
 }
 
 /// Removes files that this run has made, when they are of no use without others. What cannot be removed
 /// stays.
 pub fn remove_new(files: &[PathBuf]) {
     for file in files {
+        disk::remove(file);
         let _ = fs::remove_file(file); // the failure that made them useless is the one to report
     }
 }
 
 /// Returns whether a file or folder exists at a path.
 pub fn exists(path: &Path) -> bool {
-    path.exists()
+    if disk::is_in_memory() { disk::is_file(path) } else { path.exists() }
 }
 
 /// Returns why no file can be written at a path, as the end of a sentence; `None` if nothing is known against
 /// it.
 pub fn obstacle(path: &Path) -> Option<String> {
+    if disk::is_in_memory() {
+        return None;
+    }
     let target = match behind_links(path) {
         Ok(target) => target,
         Err(problem) => return Some(problem),
@@ -106,6 +110,8 @@ pub(super) struct Draft {
     target: PathBuf,
     /// `None` if the target is not a regular file and was written directly.
     temporary: Option<PathBuf>,
+    /// The content, where files are kept in memory.
+    in_memory: Option<Vec<u8>>,
     /// The temporary file. It is locked until it is in its place, so that other runs can tell that somebody
     /// works on it.
     _lock: Option<File>,
@@ -121,6 +127,12 @@ impl Draft {
         meter: &Meter,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<Self> {
+        if disk::is_in_memory() {
+            let mut content = Vec::new();
+            write(&mut content)?;
+            let target = path.to_owned();
+            return Ok(Self { target, temporary: None, in_memory: Some(content), _lock: None });
+        }
         if let Some(obstacle) = obstacle(path) {
             return Err(io::Error::other(obstacle));
         }
@@ -128,12 +140,13 @@ impl Draft {
         let before = fs::metadata(&target).ok();
         if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
             filled(File::options().write(true).open(&target)?, write)?;
-            return Ok(Self { target, temporary: None, _lock: None });
+            return Ok(Self { target, temporary: None, in_memory: None, _lock: None });
         }
         remove_abandoned(&target);
         let (file, temporary) = new_part(&target)?;
         // From here on dropping the draft removes the temporary file.
-        let draft = Self { target, temporary: Some(temporary), _lock: Some(file.try_clone()?) };
+        let lock = Some(file.try_clone()?);
+        let draft = Self { target, temporary: Some(temporary), in_memory: None, _lock: lock };
         let file = filled(file, write)?;
         if let Some(before) = before {
             file.set_permissions(before.permissions())?;
@@ -145,6 +158,9 @@ impl Draft {
     }
 
     fn put_in_place(mut self) -> io::Result<()> {
+        if let Some(content) = self.in_memory.take() {
+            disk::put_written(&self.target, content);
+        }
         if let Some(temporary) = &self.temporary {
             fs::rename(temporary, &self.target)?;
         }

@@ -3,13 +3,13 @@
 //! What a file says is kept as it is, and tells the unit of coordinates.
 
 use std::f64::consts::PI;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use glam::DVec2;
 
 use super::coordinates::{self, FileCoordinates};
+use super::disk::File;
 use super::wkt_projection::projection;
 use meshbrush_core::earth::Coordinates;
 use meshbrush_mesh::text::LengthUnit;

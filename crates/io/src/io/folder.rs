@@ -6,6 +6,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::disk;
+
 /// Most entries of a folder that are listed.
 pub const MOST_ENTRIES: usize = 20_000;
 
@@ -35,6 +37,12 @@ pub struct FolderListing {
 /// Fails when it is not a folder or cannot be read.
 pub fn list_folder(path: &Path) -> io::Result<FolderListing> {
     let mut listing = FolderListing::default();
+    if let Some(names) = disk::names() {
+        let entry =
+            |(name, bytes): (PathBuf, u64)| FolderEntry { name: name.into(), is_folder: false, bytes };
+        listing.entries = names.into_iter().map(entry).collect();
+        return Ok(listing);
+    }
     for entry in fs::read_dir(path)? {
         if listing.entries.len() == MOST_ENTRIES {
             listing.is_cut = true;
@@ -54,7 +62,7 @@ pub fn list_folder(path: &Path) -> io::Result<FolderListing> {
 
 /// Returns whether there is a folder at a path.
 pub fn is_folder(path: &Path) -> bool {
-    path.is_dir()
+    if disk::is_in_memory() { path.as_os_str().is_empty() } else { path.is_dir() }
 }
 
 /// Returns the path that a person means by a text: `~` is the home folder, and a relative path begins at

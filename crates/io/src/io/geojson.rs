@@ -1,10 +1,10 @@
 //! `.geojson`: polygons with holes, as geographic programs write them (RFC 7946).
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Take, Write};
 use std::path::Path;
 
 use super::coordinates::{self, DocumentPlane, FileCoordinates};
+use super::disk::File;
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::features::{Object, Wanted};
 use super::shape_format::ShapeFormatSpec;
@@ -151,7 +151,7 @@ pub(super) fn read_metered<T>(
 ) -> Result<T, ReadError> {
     let read = || -> Result<T, PlacedFlaw> {
         let file = File::open(path)?;
-        let bytes = file.metadata()?.len();
+        let bytes = file.length()?;
         if bytes > MOST_BYTES {
             return Err(too_long(bytes));
         }

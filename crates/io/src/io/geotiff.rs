@@ -9,7 +9,6 @@ mod place;
 #[cfg(test)]
 mod tests;
 
-use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read, Seek};
 use std::path::Path;
 
@@ -18,6 +17,7 @@ use tiff::tags::{CompressionMethod, PhotometricInterpretation, PlanarConfigurati
 use tiff::{ColorType, TiffError};
 
 use super::coordinate_system::CoordinateSystem;
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::samples::{NoData, SampleType, single};
@@ -80,7 +80,7 @@ fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, 
 
 fn read_pixels(path: &Path, meter: &Meter) -> Result<Pixels, ReadError> {
     let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         Ok(Pixels::decode(BufReader::with_capacity(1 << 16, meter.count(file)))?)
     });
     decoded.map_err(|flaw| flaw.in_file(path))

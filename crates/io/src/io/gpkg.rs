@@ -39,12 +39,13 @@ mod database {
     use std::path::Path;
 
     use crate::io::Meter;
+    use crate::io::disk;
     use crate::io::error::{Flaw, PlacedFlaw};
     use crate::io::geojson::Outline;
     use crate::io::shapes::ShapeFile;
 
     fn absent<T>(path: &Path) -> Result<T, PlacedFlaw> {
-        std::fs::metadata(path)?;
+        disk::find(path)?;
         let problem = "this program was built without the reader of GeoPackages, the feature `gpkg`. Export the layer \
                        as GeoJSON.";
         Err(Flaw::Syntax(problem.into()).into())

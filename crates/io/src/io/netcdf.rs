@@ -15,7 +15,6 @@ mod packing;
 mod tests;
 mod window;
 
-use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -23,6 +22,7 @@ use std::path::{Path, PathBuf};
 use glam::{DVec2, dvec2};
 
 use super::coordinate_system::CoordinateSystem;
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster};
 use contents::{Sample, Source};
@@ -66,11 +66,12 @@ pub fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGr
 /// Returns the file that a path means, and the variable in it that follows its name, as in `a.nc#depth`.
 pub(super) fn file_and_variable(path: &Path) -> (PathBuf, Option<String>) {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let named = name.rsplit_once(BEFORE_VARIABLE).filter(|_| !path.exists()).and_then(|(file, variable)| {
-        let ending = Path::new(file).extension()?;
-        let is_known = RASTER.endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
-        is_known.then(|| (path.with_file_name(file), Some(variable.to_owned())))
-    });
+    let named =
+        name.rsplit_once(BEFORE_VARIABLE).filter(|_| !super::exists(path)).and_then(|(file, variable)| {
+            let ending = Path::new(file).extension()?;
+            let is_known = RASTER.endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
+            is_known.then(|| (path.with_file_name(file), Some(variable.to_owned())))
+        });
     named.unwrap_or_else(|| (path.to_owned(), None))
 }
 

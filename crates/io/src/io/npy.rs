@@ -3,10 +3,10 @@
 //! Arrays with two dimensions are read: the first counts rows from the top, the second columns. Samples are
 //! whole or floating-point numbers of 8 to 64 bits, in either order of bytes, row by row or column by column.
 
-use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::Path;
 
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::samples::single;
@@ -32,7 +32,7 @@ const BLOCK: usize = 1 << 13;
 /// pixels for a raster, or a value beyond single precision; and when the work was cancelled.
 pub fn read(path: &Path, place: Rect, meter: &Meter) -> Result<Raster, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         Ok(decode(BufReader::with_capacity(1 << 16, meter.count(file)), place)?)
     });
     read.map_err(|flaw| flaw.in_file(path))

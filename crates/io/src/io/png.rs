@@ -1,6 +1,5 @@
 //! `.png`: greyscale images in, pictures out.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use png::{
     Reader, Transformations,
 };
 
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
 use super::{Flaw, Meter, Provenance, RasterFormatSpec, ReadError, ReadRaster};
@@ -49,7 +49,7 @@ pub fn read(path: &Path, bounds: Rect, behind: Behind) -> Result<Raster, ReadErr
 /// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, bounds: Rect, behind: Behind, meter: &Meter) -> Result<Raster, ReadError> {
     let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         Ok(decode(BufReader::new(meter.count(file)), bounds, behind)?)
     });
     decoded.map_err(|flaw| flaw.in_file(path))
@@ -119,7 +119,7 @@ fn value_of_pixel(pixel: &[u8], color: ColorType, depth: BitDepth, behind: Behin
 /// pixels, and when the work was cancelled.
 pub fn read_picture(path: &Path, meter: &Meter) -> Result<Picture, ReadError> {
     let decoded = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         Ok(decode_picture(BufReader::new(meter.count(file)))?)
     });
     decoded.map_err(|flaw| flaw.in_file(path))

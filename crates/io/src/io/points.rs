@@ -1,12 +1,12 @@
 //! `points.csv`: a table with columns `x` and `y`, or `lon` and `lat`, and perhaps others.
 
-use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use glam::DVec2;
 
 use super::ReadError;
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::table::Rows;
 

@@ -1,10 +1,10 @@
 //! A stamp of the contents of a file, to find out whether another program changed it.
 
-use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::Path;
 
 use super::Meter;
+use super::disk::{self, File};
 
 /// The number of bytes of a file, and their CRC-32.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl FileStamp {
     /// # Errors
     /// Fails with the errors of the file system, and when the work was cancelled.
     pub fn of_file(path: &Path, meter: &Meter) -> io::Result<Option<Self>> {
-        if !fs::metadata(path).is_ok_and(|metadata| metadata.is_file()) {
+        if !disk::is_file(path) {
             return Ok(None);
         }
         let (mut file, mut stamping) = (File::open(path)?, Stamping::new(io::sink()));

@@ -1,8 +1,9 @@
 //! Small text files.
 
-use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
+
+use super::disk::File;
 
 /// Reads a text file of at most `most_bytes` bytes.
 ///

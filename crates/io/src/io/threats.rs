@@ -1,11 +1,11 @@
 //! Threats as a table with columns `x`, `y`, `range` and `peak`, and perhaps `law`.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
 
 use glam::DVec2;
 
+use super::disk::File;
 use super::error::PlacedFlaw;
 use super::table::Rows;
 use super::{Flaw, Meter, Number, ReadError};
@@ -28,7 +28,7 @@ const NAMES: [&[&str]; 5] =
 /// the column; and when the work was cancelled.
 pub fn read(path: &Path, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
-        meter.expect(file.metadata()?.len());
+        meter.expect(file.length()?);
         parse(BufReader::new(meter.count(file)))
     });
     read.map_err(|flaw| flaw.in_file(path))

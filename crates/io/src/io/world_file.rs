@@ -1,10 +1,11 @@
 //! World files (`.pgw`, `.tfw`, `.wld`): six lines with the position of a picture.
 
-use std::fs;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use glam::dvec2;
 
+use super::disk::{self, File};
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use meshbrush_mesh::geometry::Rect;
 
@@ -27,13 +28,15 @@ const MOST_BYTES: u64 = 4096;
 /// Fails when the file cannot be read, has no six numbers, or turns or mirrors the picture.
 pub fn bounds_beside(picture: &Path, size: [u32; 2]) -> Result<Option<Rect>, ReadError> {
     let mut files = endings(picture).into_iter().map(|ending| picture.with_extension(ending));
-    let Some(file) = files.find(|file: &PathBuf| file.is_file()) else { return Ok(None) };
+    let Some(file) = files.find(|file: &PathBuf| disk::is_file(file)) else { return Ok(None) };
     let read = || -> Result<Rect, PlacedFlaw> {
-        if fs::metadata(&file)?.len() > MOST_BYTES {
+        let source = File::open(&file)?;
+        if source.length()? > MOST_BYTES {
             return Err(Flaw::Syntax("a world file has six lines, and this one is far longer.".into()).into());
         }
         // Bytes that are no text are in no number.
-        let text = fs::read(&file)?;
+        let mut text = Vec::new();
+        source.take(MOST_BYTES).read_to_end(&mut text)?;
         Ok(bounds(&String::from_utf8_lossy(&text), size).map_err(Flaw::Syntax)?)
     };
     read().map(Some).map_err(|flaw| flaw.in_file(&file))
@@ -62,6 +65,8 @@ fn bounds(text: &str, [columns, rows]: [u32; 2]) -> Result<Rect, String> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -1,6 +1,6 @@
 //! The offer to lower the smallest diameter, after a smaller one was painted.
 
-use std::time::{Duration, Instant};
+use crate::app::clock::{Duration, Instant};
 
 use eframe::egui::{self, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, vec2};
 use glam::DVec2;

@@ -7,6 +7,7 @@ use super::prover::Known;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use meshbrush_core::path::{Alternatives, Difference, Solution};
 use meshbrush_mesh::geometry::nearest_on_segment;
+use meshbrush_mesh::mesh::Progress;
 
 /// Alternatives of a path, at most.
 pub const MOST_ALTERNATIVES: usize = 5;
@@ -124,16 +125,17 @@ impl AlternativesFinder {
     fn start(&mut self, best: &Solution, places: Vec<DVec2>, basis: &Known, jobs: &Jobs) {
         (self.paths, self.pointed, self.best) = (Vec::new(), None, Some(best.clone()));
         let (mesh, best, density) = (basis.mesh.clone(), best.clone(), basis.density.clone());
-        let find = move |output: &Output<Solution>| {
-            let mut search = Alternatives::new(mesh, places, best, Difference::default());
-            while output.is_wanted() && !search.is_done() && search.paths().len() <= MOST_ALTERNATIVES {
-                match search.advance(&*density) {
-                    Ok(Some(path)) if !output.send(path.clone()) => break,
-                    Ok(_) => {}
-                    Err(_) => break,
-                }
+        let begin = move || Some(Alternatives::new(mesh, places, best, Difference::default()));
+        let advance = move |search: &mut Alternatives, output: &Output<Solution>| {
+            if search.is_done() || search.paths().len() > MOST_ALTERNATIVES {
+                return Progress::Done;
+            }
+            match search.advance(&*density) {
+                Ok(Some(path)) if !output.send(path.clone()) => Progress::Done,
+                Ok(_) => Progress::More,
+                Err(_) => Progress::Done,
             }
         };
-        self.running = Some(jobs.start(Kind::Compute, find));
+        self.running = Some(jobs.start_in_slices(Kind::Compute, begin, advance));
     }
 }

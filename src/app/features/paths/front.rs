@@ -11,6 +11,7 @@ use meshbrush_core::document::KeepOut;
 use meshbrush_core::domain::{Domain, DomainShape};
 use meshbrush_core::layers::{Layer, PaintLayers, RiskField};
 use meshbrush_core::path::{Front, FrontPoint, PathMesh, Weights};
+use meshbrush_mesh::mesh::Progress;
 
 /// Paths of a front, at most.
 pub const FRONT_PATHS: usize = 20;
@@ -145,17 +146,12 @@ impl FrontFinder {
         let risk = RiskField::new(&of.layers, &of.paint).within(&of.domain.bounds);
         let domain = of.domain.clone();
         self.of = Some(of);
-        let find = move |output: &Output<News>| {
-            let front = Front::new(mesh, risk, places, FRONT_PATHS);
-            let mut front = front.measured_on(domain.ground());
-            while output.is_wanted() {
-                let goes_on = front.advance().unwrap_or(false);
-                let news = News { points: front.points().to_vec(), remaining: front.remaining() };
-                if !output.send(news) || !goes_on {
-                    break;
-                }
-            }
+        let begin = move || Some(Front::new(mesh, risk, places, FRONT_PATHS).measured_on(domain.ground()));
+        let advance = |front: &mut Front, output: &Output<News>| {
+            let goes_on = front.advance().unwrap_or(false);
+            let news = News { points: front.points().to_vec(), remaining: front.remaining() };
+            if output.send(news) && goes_on { Progress::More } else { Progress::Done }
         };
-        self.running = Some(jobs.start(Kind::Compute, find));
+        self.running = Some(jobs.start_in_slices(Kind::Compute, begin, advance));
     }
 }

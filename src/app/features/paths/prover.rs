@@ -9,6 +9,7 @@ use meshbrush_core::domain::Domain;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, PathCertificate, PathMesh, Solution,
 };
+use meshbrush_mesh::mesh::Progress;
 
 /// Certifies one path after the other.
 pub struct Prover {
@@ -98,17 +99,15 @@ impl Prover {
         let (path, upper) = (solution.points.clone(), solution.upper);
         let task = CertificateTask::in_rectangle(domain.bounds, density, path, upper, self.width).ok()?;
         let (domain, solution) = (domain.clone(), solution.clone());
-        let prove = move |output: &Output<Proof>| {
+        let begin = move || {
             let task = task.in_domain(&domain).in_area(mesh.area().clone());
-            let Ok(certificate) = PathCertificate::new(&solution, &task) else { return };
-            let mut certificate = certificate.with_search(mesh);
-            while output.is_wanted() {
-                let Ok(end) = certificate.advance() else { break };
-                if !output.send(Proof { solution: certificate.solution(), end }) || end.is_some() {
-                    break;
-                }
-            }
+            Some(PathCertificate::new(&solution, &task).ok()?.with_search(mesh))
         };
-        Some(jobs.start(Kind::Compute, prove))
+        let advance = |certificate: &mut PathCertificate, output: &Output<Proof>| {
+            let Ok(end) = certificate.advance() else { return Progress::Done };
+            let goes_on = output.send(Proof { solution: certificate.solution(), end }) && end.is_none();
+            if goes_on { Progress::More } else { Progress::Done }
+        };
+        Some(jobs.start_in_slices(Kind::Compute, begin, advance))
     }
 }

@@ -1,8 +1,8 @@
 //! Commands about pins.
 
+use crate::app::clock::{Duration, Instant};
 use std::collections::HashSet;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use glam::DVec2;
 

@@ -1,8 +1,8 @@
 //! The table of the pins: their triangles and values.
 
+use crate::app::clock::Instant;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
 
 use glam::DVec2;
 

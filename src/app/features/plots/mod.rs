@@ -24,9 +24,13 @@ use crate::app::session::Session;
 use meshbrush_cli::cli::RunClock;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_io::io;
+use meshbrush_mesh::mesh::Progress;
 use meshbrush_study::levels::{LevelFigures, bisections_plot, diameters_plot, triangles_plot};
 use meshbrush_study::plot::{self, Plot};
 use meshbrush_study::report::{Experiment, ExperimentRun};
+
+/// The runs that are left of an experiment, each as its round and level.
+type Order = Box<dyn Iterator<Item = (u32, u32)> + Send>;
 
 const WITHOUT_SURFACE: &str =
     "The error is that from a surface. Add a layer of one, with the + above the layers.";
@@ -246,19 +250,17 @@ impl Plots {
             return;
         }
         (self.experiment, self.runs_done) = (Experiment::default(), 0);
-        let order = self.order();
-        let measure = move |output: &Output<_>| {
-            for (round, level) in order {
-                let clock = RunClock::start();
-                let run = ExperimentRun::measure(level, || clock.now(), || output.is_wanted());
-                let Some(run) = run.map_err(|error| error.to_string()).transpose() else { break };
-                let failed = run.is_err();
-                if !output.is_wanted() || !output.send(run.map(|run| (round, run))) || failed {
-                    break;
-                }
-            }
+        let order: Order = Box::new(self.order());
+        let measure = |order: &mut Order, output: &Output<_>| {
+            let Some((round, level)) = order.next() else { return Progress::Done };
+            let clock = RunClock::start();
+            let run = ExperimentRun::measure(level, || clock.now(), || output.is_wanted());
+            let Some(run) = run.map_err(|error| error.to_string()).transpose() else { return Progress::Done };
+            let failed = run.is_err();
+            let goes_on = output.is_wanted() && output.send(run.map(|run| (round, run))) && !failed;
+            if goes_on { Progress::More } else { Progress::Done }
         };
-        self.measuring = Some(jobs.start(Kind::Compute, measure));
+        self.measuring = Some(jobs.start_in_slices(Kind::Compute, || Some(order), measure));
     }
 
     /// Ends the experiment. What was measured stays.

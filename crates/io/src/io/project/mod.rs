@@ -41,13 +41,13 @@ mod stored_layers;
 mod tiled;
 
 use std::borrow::Cow;
-use std::fs::File;
 use std::io::{self, Cursor, Read, Write};
 use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::{FileStamp, Meter, geojson, png};
+use crate::io::disk::File;
 use archive::{Archive, ArchivePart, ArchiveWriter};
 use meshbrush_core::document::{Document, Picture, Settings};
 use meshbrush_core::domain::Polygon;
@@ -140,7 +140,7 @@ pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp),
     let bytes = || -> Result<Vec<u8>, PlacedFlaw> {
         let mut bytes = Vec::new();
         let file = File::open(path)?;
-        meter.expect(2 * file.metadata()?.len());
+        meter.expect(2 * file.length()?);
         let mut file = meter.count(file.take(MOST_BYTES + 1));
         (&mut file).take(archive::FIRST_BYTES.len() as u64).read_to_end(&mut bytes)?;
         if bytes != archive::FIRST_BYTES {

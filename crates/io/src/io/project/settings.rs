@@ -75,7 +75,7 @@ pub(super) struct Saved {
     rule: SavedRule,
     max_triangles: usize,
     /// The memory budget in bytes.
-    max_memory: usize,
+    max_memory: u64,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -254,7 +254,7 @@ impl Saved {
             gradation: settings.gradation,
             rule: settings.rule.into(),
             max_triangles: settings.max_triangles,
-            max_memory: settings.max_memory,
+            max_memory: settings.max_memory as u64,
         }
     }
 
@@ -337,7 +337,7 @@ impl Saved {
             gradation: self.gradation,
             rule: self.rule.into(),
             max_triangles: self.max_triangles,
-            max_memory: self.max_memory,
+            max_memory: usize::try_from(self.max_memory).unwrap_or(usize::MAX),
         };
         settings.checked().map_err(sentence)
     }

@@ -13,7 +13,6 @@ mod text;
 mod values;
 mod write;
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +21,7 @@ use super::layers::FindFile;
 use super::netcdf::file_and_variable;
 use super::settings::SavedSettings;
 use super::{Flaw, KeyFault, ReadError};
+use crate::io::disk::{self, File};
 pub use export::RecipeFiles;
 pub use files::{LoadError, Loaded, Loading};
 pub use open::{OpenedRecipe, open};
@@ -97,9 +97,9 @@ impl Recipe {
 fn found_in(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
     let (file, _) = file_and_variable(&path);
-    match file.metadata() {
-        Ok(found) if found.is_file() => Ok(path),
-        Ok(_) => Err(format!("{} is not a file.", path.display())),
+    match disk::find(&file) {
+        Ok(true) => Ok(path),
+        Ok(false) => Err(format!("{} is not a file.", path.display())),
         Err(error) => Err(format!(
             "the file {} cannot be found ({error}). Files are named from the folder of the recipe.",
             path.display()

@@ -1,4 +1,3 @@
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
 use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
 use super::{FORMAT, VERSION};
+use crate::io::disk::File;
 use meshbrush_mesh::text::excerpt;
 
 /// Largest file read.

@@ -68,8 +68,8 @@ pub(in crate::mesh) fn try_make_room<T>(
         return Ok(());
     }
     let (size, most) = (size_of::<T>(), most.max(array.len() + more));
-    // Windows charges for a reservation as if it were used.
-    if !cfg!(windows) && size * 2 * (array.len() + more) > PAGE {
+    // Windows charges for a reservation as if it were used, and WebAssembly takes the memory at once.
+    if !cfg!(any(windows, target_family = "wasm")) && size * 2 * (array.len() + more) > PAGE {
         // The system may refuse to promise so much: ask for less, down to doubling.
         let mut wanted = most;
         while wanted > 2 * array.len() + more {

@@ -1,10 +1,11 @@
 //! One copy of a mesh and of the pieces in place of some of its triangles.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use super::GpuError;
 use super::arrangement::{Arrangement, Span};
-use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS, new_buffer};
+use super::chunks::{ChunkLimits, ChunkedArray, NODE_BUFFERS};
 use super::mesh_pass::{uniform_buffer, uniform_entry};
 use super::sending::{joined, send, send_joined, send_ranges};
 use crate::render::draw_flags::DrawFlags;
@@ -29,25 +30,39 @@ const PART_BYTES: usize = 16;
 pub(super) struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    pub(super) layout: wgpu::BindGroupLayout,
     limits: ChunkLimits,
+    /// Made for the first mesh: a device for the software renderer may have no storage buffers.
+    layout: OnceLock<wgpu::BindGroupLayout>,
     /// A buffer that is bound in place of buffers that are not needed.
-    nothing: wgpu::Buffer,
+    nothing: OnceLock<wgpu::Buffer>,
 }
 
 impl Gpu {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        limits: ChunkLimits,
-    ) -> Result<Self, GpuError> {
-        Ok(Self {
-            device: device.clone(),
-            queue: queue.clone(),
-            layout: bind_group_layout(device),
-            limits,
-            nothing: new_buffer(device, "nothing", size_of::<LatticePoint>() as u64)?,
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, limits: ChunkLimits) -> Self {
+        let (layout, nothing) = (OnceLock::new(), OnceLock::new());
+        Self { device: device.clone(), queue: queue.clone(), limits, layout, nothing }
+    }
+
+    pub(super) fn layout(&self) -> &wgpu::BindGroupLayout {
+        self.layout.get_or_init(|| bind_group_layout(&self.device))
+    }
+
+    fn nothing(&self) -> &wgpu::Buffer {
+        self.nothing.get_or_init(|| {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("nothing"),
+                size: size_of::<LatticePoint>() as u64,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            })
         })
+    }
+
+    /// Fails where shaders cannot read as many buffers as a mesh needs.
+    pub(super) fn check_device(&self) -> Result<(), GpuError> {
+        let available = self.device.limits().max_storage_buffers_per_shader_stage;
+        let needed = STORAGE_BUFFERS;
+        if available < needed { Err(GpuError::TooFewStorageBuffers { available, needed }) } else { Ok(()) }
     }
 
     pub(super) fn limits(&self) -> ChunkLimits {
@@ -339,7 +354,7 @@ impl Arrays {
     /// Makes one bind group for each chunk of triangles, with all nodes, all flags and all lists.
     fn bind(&mut self, gpu: &Gpu, flags: Option<&wgpu::Buffer>, arrangement: Option<&Arrangement>) {
         let nodes: [&wgpu::Buffer; NODE_BUFFERS] =
-            std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(&gpu.nothing));
+            std::array::from_fn(|i| self.nodes.chunks().get(i).unwrap_or(gpu.nothing()));
         let bind = |(chunk, triangles): (usize, &wgpu::Buffer)| {
             let part = uniform_buffer(&gpu.device, "part of a mesh", PART_BYTES);
             let first = (chunk * gpu.limits.triangles) as u32;
@@ -348,7 +363,7 @@ impl Arrays {
             let lists = arrangement.and_then(Arrangement::buffer);
             let buffers = [triangles].into_iter().chain(nodes);
             let buffers =
-                buffers.chain([flags.unwrap_or(&gpu.nothing), lists.unwrap_or(&gpu.nothing), &part]);
+                buffers.chain([flags.unwrap_or(gpu.nothing()), lists.unwrap_or(gpu.nothing()), &part]);
             let entries: Vec<_> = (0..)
                 .zip(buffers)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -358,7 +373,7 @@ impl Arrays {
                 .collect();
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("mesh"),
-                layout: &gpu.layout,
+                layout: gpu.layout(),
                 entries: &entries,
             })
         };

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::GpuError;
 use super::arrangement::Span;
 use super::chunks::ChunkLimits;
-use super::mesh_copy::{Counts, Gpu, MeshCopy, STORAGE_BUFFERS};
+use super::mesh_copy::{Counts, Gpu, MeshCopy};
 use super::mesh_pass::MeshSight;
 use crate::scene::{Camera, Style};
 use meshbrush_mesh::geometry::{Lattice, LatticeRect};
@@ -45,24 +45,20 @@ struct Upload {
 }
 
 impl MeshMirror {
-    pub(super) fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        limits: ChunkLimits,
-    ) -> Result<Self, GpuError> {
-        let available = device.limits().max_storage_buffers_per_shader_stage;
-        let needed = STORAGE_BUFFERS;
-        if available < needed {
-            return Err(GpuError::TooFewStorageBuffers { available, needed });
-        }
-        Ok(Self {
-            gpu: Gpu::new(device, queue, limits)?,
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, limits: ChunkLimits) -> Self {
+        Self {
+            gpu: Gpu::new(device, queue, limits),
             front: MeshCopy::new(limits),
             back: MeshCopy::new(limits),
             upload: None,
             shown: None,
             generation: 0,
-        })
+        }
+    }
+
+    /// Fails where the device cannot draw a mesh at all.
+    pub(super) fn check_device(&self) -> Result<(), GpuError> {
+        self.gpu.check_device()
     }
 
     /// Begins to upload a mesh; an unfinished upload is dropped. `revision` is the caller's name for the
@@ -72,6 +68,7 @@ impl MeshMirror {
     /// Fails when the device cannot hold the mesh. The mesh on the screen stays.
     pub fn begin_upload(&mut self, mesh: &Mesh, revision: u64) -> Result<(), GpuError> {
         self.upload = None;
+        self.check_device()?;
         self.gpu.check_nodes(mesh.raw_nodes().len())?;
         self.back.begin(&self.gpu, mesh)?;
         self.upload = Some(Upload { revision, sent: Counts::NONE });
@@ -230,7 +227,7 @@ impl MeshMirror {
     }
 
     pub(super) fn layout(&self) -> &wgpu::BindGroupLayout {
-        &self.gpu.layout
+        self.gpu.layout()
     }
 
     /// Returns the buffers of the mesh, each with its number of triangles.

@@ -154,11 +154,33 @@ impl GpuRenderer {
         target_format: wgpu::TextureFormat,
         chunks: ChunkLimits,
     ) -> Result<Self, GpuError> {
+        let renderer = Self::of_any(device, queue, target_format, chunks);
+        renderer.mirror.check_device()?;
+        Ok(renderer)
+    }
+
+    /// Creates a renderer that only shows pictures of the software renderer, for canvases of `target_format`
+    /// (see [`Self::new`]). That needs nothing but a texture: WebGL and old drivers let no shader read the
+    /// arrays of a mesh.
+    pub fn in_software(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
+    ) -> Self {
+        Self::of_any(device, queue, target_format, ChunkLimits::of_device(&device.limits()))
+    }
+
+    fn of_any(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        target_format: wgpu::TextureFormat,
+        chunks: ChunkLimits,
+    ) -> Self {
         debug_assert!(!target_format.is_srgb(), "colours are sRGB bytes, written as they are");
-        let mirror = MeshMirror::new(device, queue, chunks)?;
-        let picture = MeshPicture::new(device, target_format, &mirror);
+        let mirror = MeshMirror::new(device, queue, chunks);
+        let picture = MeshPicture::new(device, target_format);
         let overlay = OverlayPass::new(device, target_format);
-        Ok(Self { mirror, picture, overlay })
+        Self { mirror, picture, overlay }
     }
 
     /// Returns the copy of the mesh.

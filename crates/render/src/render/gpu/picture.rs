@@ -13,7 +13,8 @@ use crate::scene::{Camera, NodeHeights, ShownMesh, ShownRevision, ShownSurface, 
 ///
 /// A window repaints whenever the pointer moves in a panel; that must not redraw a large mesh.
 pub(super) struct MeshPicture {
-    mesh_pass: MeshPass,
+    /// Made for the first picture of a mirror.
+    mesh_pass: Option<MeshPass>,
     /// Made for the first picture in space.
     space_pass: Option<SpacePass>,
     format: wgpu::TextureFormat,
@@ -61,9 +62,9 @@ impl Drawn {
 }
 
 impl MeshPicture {
-    pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat, mirror: &MeshMirror) -> Self {
+    pub(super) fn new(device: &wgpu::Device, format: wgpu::TextureFormat) -> Self {
         Self {
-            mesh_pass: MeshPass::new(device, format, mirror),
+            mesh_pass: None,
             space_pass: None,
             format,
             texture: ShownImage::new(device, format),
@@ -90,8 +91,10 @@ impl MeshPicture {
         self.drawn = None;
         self.texture.fit(device, camera.size_px())?;
         if let Some(view) = self.texture.view() {
+            let new_pass = || MeshPass::new(device, self.format, mirror);
+            let mesh_pass = self.mesh_pass.get_or_insert_with(new_pass);
             let mut pass = begin_pass(encoder, view, style.clear_color());
-            self.mesh_pass.draw(queue, &mut pass, mirror, camera, style);
+            mesh_pass.draw(queue, &mut pass, mirror, camera, style);
         }
         self.keep(wanted);
         Ok(())

@@ -4,15 +4,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use eframe::egui::Context;
 
-use super::command::{Command, FileCommand};
-use super::jobs::{Job, Jobs, Kind, Output, Taken};
-use super::project::ProjectFile;
-use super::session::Session;
-use super::widgets::{Answer, ConfirmDialog};
+use crate::app::clock::{Duration, Instant};
+use crate::app::command::{Command, FileCommand};
+use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
+use crate::app::project::ProjectFile;
+use crate::app::recovery::{self, now};
+use crate::app::session::Session;
+use crate::app::widgets::Answer;
 use meshbrush_core::document::{Edits, Settings};
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::journal::{self, Abandoned, Left};
@@ -236,11 +237,6 @@ fn wait_for_disk(written: &Receiver<ToDisk>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Returns the seconds since 1970.
-fn now() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs())
-}
-
 /// Hands finished gestures to the journal.
 pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
     let edited = project.is_edited(session);
@@ -278,52 +274,7 @@ pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &Proje
 
 /// Asks whether to restore what an earlier run left behind.
 pub fn question(ctx: &Context, keeper: &JournalKeeper, project: &ProjectFile, commands: &mut Vec<Command>) {
-    if project.is_asking() || project.is_leaving() {
-        // The user chose to restore, and decides first about the current document.
-        return;
-    }
-    let Some(left) = &keeper.offered else { return };
-    let name = &left.project.settings.name;
-    let home = left.home.as_deref().and_then(Path::file_name);
-    let name = home.map_or(name.clone(), |home| home.to_string_lossy().into_owned());
-    let ago = ago(now().saturating_sub(left.time));
-    let body = format!("“{name}” was not saved when Meshbrush ended unexpectedly, {ago}.");
-    let dialog = ConfirmDialog::new("Restore unsaved work?", &body, "Restore");
-    commands.extend(
-        dialog
-            .alternative("Discard")
-            .cancel("Later")
-            .show(ctx)
-            .map(|answer| Command::File(FileCommand::AnswerRecovery(answer))),
-    );
-}
-
-/// Returns a time in the past, in words.
-fn ago(seconds: u64) -> String {
-    let units = [(86_400, "day"), (3600, "hour"), (60, "minute")];
-    match units.into_iter().find(|&(length, _)| seconds >= length) {
-        None => "less than a minute ago".into(),
-        Some((length, unit)) => {
-            let count = seconds / length;
-            format!("{count} {unit}{} ago", if count == 1 { "" } else { "s" })
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::ago;
-
-    #[test]
-    fn a_time_is_given_in_its_largest_unit() {
-        for (seconds, words) in [
-            (0, "less than a minute ago"),
-            (60, "1 minute ago"),
-            (7199, "1 hour ago"),
-            (7200, "2 hours ago"),
-            (200_000, "2 days ago"),
-        ] {
-            assert_eq!(ago(seconds), words);
-        }
+    if let Some(Abandoned { project: left, home, time, .. }) = &keeper.offered {
+        recovery::question(ctx, (left, home.as_deref(), *time), project, commands);
     }
 }

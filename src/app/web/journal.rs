@@ -1,0 +1,230 @@
+//! Unsaved work, kept in the storage of the browser while one paints, and offered after a reload or a crash.
+//!
+//! Each tab keeps the whole document under a name of its own, a moment after the last edit. Writing goes on
+//! beside the frames; a storage that is full or forbidden is told once.
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use eframe::egui::Context;
+use js_sys::{Array, Uint8Array};
+use wasm_bindgen::prelude::*;
+use wasm_bindgen_futures::spawn_local;
+
+use crate::app::clock::{Duration, Instant};
+use crate::app::command::{Command, FileCommand};
+use crate::app::jobs::{Job, Jobs, Kind, Taken};
+use crate::app::project::ProjectFile;
+use crate::app::recovery::{self, now};
+use crate::app::session::Session;
+use crate::app::widgets::Answer;
+use meshbrush_io::io::project::{self, Project};
+
+#[wasm_bindgen(module = "/web/storage.js")]
+extern "C" {
+    fn live();
+    #[wasm_bindgen(catch)]
+    async fn keep(bytes: Uint8Array, home: Option<String>, time: f64) -> Result<JsValue, JsValue>;
+    #[wasm_bindgen(catch)]
+    async fn forget(tab: Option<String>) -> Result<JsValue, JsValue>;
+    #[wasm_bindgen(catch)]
+    async fn left() -> Result<JsValue, JsValue>;
+}
+
+/// How long after an edit the document is kept, so that several edits are kept at once.
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// The work that a tab left behind.
+#[derive(Clone)]
+pub struct Abandoned {
+    /// The document.
+    pub project: Project,
+    /// The name of its file.
+    pub home: Option<PathBuf>,
+    tab: String,
+    time: u64,
+}
+
+/// What comes from the storage, sooner or later.
+#[derive(Default)]
+struct Came {
+    left: Vec<Abandoned>,
+    /// Work that cannot be read, and why nothing can be kept: sentences.
+    problems: Vec<String>,
+    /// Whether the storage takes nothing. Nothing is tried again.
+    is_broken: bool,
+}
+
+/// Keeps the document.
+pub struct JournalKeeper {
+    came: Rc<RefCell<Came>>,
+    jobs: Jobs,
+    /// The work that the user is asked about.
+    offered: Option<Abandoned>,
+    /// The first edit that is not kept yet.
+    edited: Option<Instant>,
+    /// Packs the document, and the name of its file.
+    packing: Option<(Job<Vec<u8>>, Option<String>)>,
+}
+
+impl JournalKeeper {
+    /// Begins to keep work, and looks for what earlier tabs left behind.
+    pub fn new(_folder: PathBuf, jobs: &Jobs) -> Self {
+        live();
+        let came = Rc::new(RefCell::<Came>::default());
+        let (to, waker) = (came.clone(), jobs.expect::<()>().1);
+        spawn_local(async move {
+            match left().await {
+                Ok(found) => Array::from(&found).iter().for_each(|work| to.borrow_mut().take(&work)),
+                Err(problem) => to.borrow_mut().fail(&problem),
+            }
+            waker.wake();
+        });
+        Self { came, jobs: jobs.clone(), offered: None, edited: None, packing: None }
+    }
+
+    /// Returns whether the user is being asked about the work of an earlier tab.
+    pub fn is_asking(&self) -> bool {
+        self.offered.is_some()
+    }
+
+    /// Offers the next work that a tab left behind. Returns a sentence about a problem.
+    pub fn offer_next(&mut self) -> Option<String> {
+        let mut came = self.came.borrow_mut();
+        if self.offered.is_none() {
+            self.offered = came.left.pop();
+        }
+        came.problems.pop()
+    }
+
+    /// Takes the answer about the work of an earlier tab, and returns the command to run now.
+    pub fn answer(&mut self, answer: Answer) -> Option<Command> {
+        if answer == Answer::Confirmed {
+            // It stays offered: the user may still decide to keep the current document.
+            return self.offered.as_ref().map(|_| Command::File(FileCommand::Restore));
+        }
+        let left = self.offered.take()?;
+        if answer == Answer::Alternative {
+            self.forget(left);
+        }
+        None
+    }
+
+    /// Takes the work that is offered, to restore it.
+    pub fn take_offered(&mut self) -> Option<Abandoned> {
+        self.offered.take()
+    }
+
+    /// Forgets what an earlier tab left behind. What this tab keeps of it is written first.
+    pub fn forget(&self, left: Abandoned) {
+        spawn_local(async move { _ = forget(Some(left.tab)).await });
+    }
+
+    /// Forgets the work of this tab: nothing is unsaved.
+    pub fn note_saved(&mut self, _: &ProjectFile) {
+        (self.edited, self.packing) = (None, None);
+        spawn_local(async { _ = forget(None).await });
+    }
+
+    /// Completes what is being packed, or forgets the work of this tab.
+    pub fn end(&mut self, remove: bool, jobs: &Jobs) {
+        if let Some((job, home)) = self.packing.take().filter(|_| !remove) {
+            if let Taken::Value(bytes) = job.take_ready() {
+                self.write(bytes, home);
+            }
+            jobs.wait_for_end(&job);
+        } else if remove {
+            spawn_local(async { _ = forget(None).await });
+        }
+    }
+
+    /// Keeps the document a moment after its last edit.
+    fn advance(&mut self, session: &Session, project: &ProjectFile) {
+        if let Some((job, home)) = self.packing.take() {
+            match job.take_ready() {
+                Taken::Working => self.packing = Some((job, home)),
+                Taken::Value(bytes) => self.write(bytes, home),
+                Taken::Ended => {}
+            }
+            return;
+        }
+        let Some(since) = self.edited.filter(|_| !self.came.borrow().is_broken) else { return };
+        if let Some(left) = PAUSE.checked_sub(since.elapsed()) {
+            return self.jobs.wake_after(left.as_secs_f64());
+        }
+        self.edited = None;
+        let packed = Project::of(session.document());
+        let job = self.jobs.start(Kind::Write, move |output| {
+            let mut bytes = Vec::new();
+            if project::write(&mut bytes, &packed).is_ok() {
+                output.send(bytes);
+            }
+        });
+        self.packing = Some((job, project.path().map(|path| path.to_string_lossy().into_owned())));
+    }
+
+    fn write(&self, bytes: Vec<u8>, home: Option<String>) {
+        let (came, waker) = (self.came.clone(), self.jobs.expect::<()>().1);
+        let bytes = Uint8Array::from(&*bytes);
+        spawn_local(async move {
+            if let Err(problem) = keep(bytes, home, now() as f64).await {
+                came.borrow_mut().fail(&problem);
+                waker.wake();
+            }
+        });
+    }
+}
+
+impl Came {
+    /// Takes [tab, bytes, home, time].
+    fn take(&mut self, work: &JsValue) {
+        let parts = Array::from(work);
+        let home = parts.get(2).as_string().map(PathBuf::from);
+        let (tab, bytes) = (parts.get(0).as_string().unwrap_or_default(), Uint8Array::new(&parts.get(1)));
+        let name = home.clone().unwrap_or_else(|| "Unsaved work".into());
+        match project::from_bytes(&bytes.to_vec(), &name) {
+            Ok(project) => {
+                let time = parts.get(3).as_f64().unwrap_or_default() as u64;
+                self.left.push(Abandoned { project, home, tab, time });
+            }
+            Err(problem) => {
+                self.problems.push(format!("Unsaved work of an earlier tab cannot be read. {problem}"))
+            }
+        }
+    }
+
+    fn fail(&mut self, problem: &JsValue) {
+        if !std::mem::replace(&mut self.is_broken, true) {
+            let reason =
+                js_sys::Reflect::get(problem, &"message".into()).ok().and_then(|text| text.as_string());
+            let reason = reason.unwrap_or_else(|| "it is full or forbidden".into());
+            self.problems.push(format!(
+                "Unsaved work is not kept in the storage of the browser ({}). Save the project from time to time.",
+                reason.trim_end_matches('.')
+            ));
+        }
+    }
+}
+
+/// Keeps finished gestures.
+pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &ProjectFile) {
+    if session.document().is_in_gesture() {
+        return;
+    }
+    if !session.document_mut().take_edits().is_empty() {
+        if project.is_edited(session) {
+            keeper.edited.get_or_insert_with(Instant::now);
+        } else {
+            keeper.note_saved(project);
+        }
+    }
+    keeper.advance(session, project);
+}
+
+/// Asks whether to restore what an earlier tab left behind.
+pub fn question(ctx: &Context, keeper: &JournalKeeper, project: &ProjectFile, commands: &mut Vec<Command>) {
+    if let Some(Abandoned { project: left, home, time, .. }) = &keeper.offered {
+        recovery::question(ctx, (left, home.as_deref().map(Path::new), *time), project, commands);
+    }
+}

@@ -1,0 +1,389 @@
+// Drives the page in Chromium as a person does, without a GPU: node tests/web.mjs FOLDER PROGRAM SCRATCH
+// FOLDER has the page, PROGRAM is the desktop program, SCRATCH is a folder for files and pictures. `sh tests/web` calls it.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import http from "node:http";
+import { createRequire } from "node:module";
+import path from "node:path";
+
+const [folder, program, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
+const { chromium } = createRequire(path.join(scratch, "x.js"))("playwright-core");
+const assets = path.resolve(import.meta.dirname, "../assets");
+const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
+
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".png": "image/png" };
+// Without a GPU Chromium emulates one for WebGL, and another one for WebGPU.
+const WEBGL = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader"];
+const WEBGPU = [...WEBGL, "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+
+/** Serves the folder, as any static server does. */
+async function serve() {
+  const server = http.createServer((request, response) => {
+    const name = decodeURIComponent(new URL(request.url, "http://localhost").pathname).replace(/\/$/, "/index.html");
+    const file = path.join(folder, name);
+    if (!file.startsWith(folder) || !fs.existsSync(file)) {
+      response.writeHead(404).end();
+      return;
+    }
+    const bytes = fs.readFileSync(file);
+    response.writeHead(200, { "Content-Type": TYPES[path.extname(file)] ?? "application/octet-stream", "Content-Length": bytes.length });
+    response.end(bytes);
+  });
+  await new Promise((resolve) => server.listen(0, resolve));
+  return [server, `http://localhost:${server.address().port}/`];
+}
+
+const [server, url] = await serve();
+const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+let open;
+
+/** Opens a browser with a page, which counts its errors and the script time of its frames. */
+async function browse(mode, options = {}) {
+  const browser = await chromium.launch({ executablePath: browserPath, args: mode === "webgpu" ? WEBGPU : [...WEBGL, "--disable-features=WebGPU"] });
+  const context = await browser.newContext({ viewport: { width: 1360, height: 800 }, acceptDownloads: true, permissions: ["clipboard-read", "clipboard-write"], ...options });
+  const page = await context.newPage();
+  page.problems = [];
+  page.on("pageerror", (problem) => page.problems.push(String(problem)));
+  page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
+  await page.addInitScript(() => {
+    window.frameTimes = [];
+    const request = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (frame) =>
+      request((time) => {
+        const began = performance.now();
+        frame(time);
+        const took = performance.now() - began;
+        window.frameTimes.push(took);
+        if (took > 5) {
+          window.firstFrame ??= performance.now();
+        }
+      });
+  });
+  page.shot = (name) => page.screenshot({ path: path.join(scratch, `${mode}-${name}.png`) });
+  open = { browser, page };
+  return open;
+}
+
+const fingerprint = (page) => page.evaluate(() => window.meshbrush?.fingerprint());
+const message = (page) => page.evaluate(() => window.meshbrush?.message());
+
+/** Waits until the mesh follows the document, and stays so for a while. */
+async function settled(page) {
+  await page.waitForFunction(() => window.meshbrush?.fingerprint(), null, { timeout: 90_000, polling: 50 });
+  for (let last, same = 0; same < 6; ) {
+    const now = await fingerprint(page);
+    same = now && now === last ? same + 1 : 0;
+    last = now;
+    await sleep(50);
+  }
+  return fingerprint(page);
+}
+
+async function until(what, condition) {
+  for (let tries = 0; tries < 200; tries++) {
+    const value = await condition();
+    if (value) {
+      return value;
+    }
+    await sleep(50);
+  }
+  await open.page.shot("failed");
+  throw new Error(`${what}: waited for 10 s in vain`);
+}
+
+/** Returns the fingerprint that the desktop program finds for the bytes of a project. */
+function onDesktop(bytes) {
+  const file = path.join(scratch, "from-page.meshbrush");
+  fs.writeFileSync(file, bytes);
+  return JSON.parse(execFileSync(program, ["mesh", "--project", file, "--json"], { encoding: "utf8", maxBuffer: 1 << 26 })).hash;
+}
+
+const projectOf = async (page) => Buffer.from(await page.evaluate(() => Array.from(window.meshbrush.project())));
+
+async function paint(page, from = [300, 350], steps = 60) {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  for (let step = 0; step < steps; step++) {
+    await page.mouse.move(from[0] + 8 * step, from[1] + 60 * Math.sin(step / 8));
+    await sleep(16);
+  }
+  await page.mouse.up();
+}
+
+function times(list) {
+  const sorted = list.filter((time) => time > 1).sort((a, b) => a - b); // the others drew nothing
+  const at = (share) => sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]?.toFixed(1);
+  return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, worst ${at(1)} ms of ${sorted.length} frames`;
+}
+
+/** Drops files on the page. */
+async function drop(page, names) {
+  const files = names.map((name) => [path.basename(name), fs.readFileSync(name).toString("base64")]);
+  await page.evaluate((files) => {
+    const data = new DataTransfer();
+    for (const [name, base64] of files) {
+      data.items.add(new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
+    }
+    const canvas = document.querySelector("canvas");
+    for (const type of ["dragenter", "dragover", "drop"]) {
+      canvas.dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    }
+  }, files);
+}
+
+const tests = {
+  async "each example has the mesh of the desktop"({ page, mode }) {
+    await page.goto(url);
+    await settled(page);
+    console.log(`    first frame after ${await page.evaluate(() => Math.round(window.firstFrame))} ms`);
+    const names = await page.evaluate(() => window.meshbrush.constructor.examples());
+    for (const name of names) {
+      // Painted work of one example is not offered in the next one.
+      const { browser, page } = await browse(mode);
+      await page.goto(url);
+      const before = await settled(page);
+      await page.evaluate((name) => { window.frameTimes = []; window.meshbrush.openExample(name); }, name);
+      await until("it is opened", async () => name === names[0] || (await fingerprint(page)) !== before);
+      const found = await settled(page);
+      const opening = await page.evaluate(() => window.frameTimes);
+      await page.evaluate(() => { window.frameTimes = []; });
+      assert.equal(found, onDesktop(await projectOf(page)), name);
+      await page.shot(`example-${name.replace(/\W+/g, "-")}`);
+      await paint(page);
+      await settled(page);
+      const painting = await page.evaluate(() => window.frameTimes);
+      console.log(`    ${name}: ${found}\n      opening ${times(opening)}\n      painting ${times(painting)}`);
+      assert.deepEqual(page.problems, [], name);
+      await browser.close();
+    }
+  },
+
+  async "a stroke is painted, undone and done again"({ page }) {
+    await page.goto(url);
+    const before = await settled(page);
+    await paint(page);
+    const painted = await settled(page);
+    assert.notEqual(painted, before);
+    assert.equal(painted, onDesktop(await projectOf(page)));
+    await page.keyboard.press("Control+z");
+    await until("undo", async () => (await fingerprint(page)) === before);
+    await page.keyboard.press("Control+Shift+z");
+    await until("redo", async () => (await fingerprint(page)) === painted);
+  },
+
+  async "work is offered again after a reload"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await paint(page);
+    const painted = await settled(page);
+    await sleep(2000);
+    await page.reload();
+    const fresh = await settled(page);
+    assert.notEqual(fresh, painted);
+    await sleep(2000);
+    await page.shot("restore");
+    await page.keyboard.press("Enter");
+    await until("the work is restored", async () => (await fingerprint(page)) === painted);
+  },
+
+  async "a saved project is a download that the desktop opens"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await paint(page);
+    const painted = await settled(page);
+    await page.keyboard.press("Control+s");
+    await sleep(500);
+    await page.shot("save");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Enter")]);
+    assert.equal(download.suggestedFilename(), "Radar threats.meshbrush");
+    assert.equal(onDesktop(fs.readFileSync(await download.path())), painted);
+    // Saved again, it goes to the same file without a question; and nothing is offered after a reload.
+    const [again] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Control+s")]);
+    assert.equal(again.suggestedFilename(), "Radar threats.meshbrush");
+    await sleep(1000);
+    await page.reload();
+    await settled(page);
+    await page.keyboard.press("Enter");
+    await sleep(500);
+    assert.notEqual(await fingerprint(page), painted);
+  },
+
+  async "a mesh is exported as the desktop writes it"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("The report's diamond"));
+    await settled(page);
+    const project = path.join(scratch, "diamond.meshbrush");
+    fs.writeFileSync(project, await projectOf(page));
+    await page.keyboard.press("Control+e");
+    await sleep(500);
+    await page.keyboard.press("Control+a");
+    await page.keyboard.type("diamond.msh");
+    await page.shot("export");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Enter")]);
+    const expected = path.join(scratch, "diamond.msh");
+    execFileSync(program, ["mesh", "--project", project, "-o", expected], { stdio: "ignore" });
+    const lines = (file) => fs.readFileSync(file, "latin1").split("\n").length;
+    assert.equal(lines(await download.path()), lines(expected));
+  },
+
+  async "a recipe is dropped with its rasters, and alone it names what is missing"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("Celtic Sea with depths"));
+    await sleep(200);
+    const example = await settled(page);
+    await page.reload();
+    await settled(page);
+    await drop(page, [path.join(assets, "celtic_sea.toml")]);
+    const problem = await until("a sentence", () => message(page));
+    assert.match(problem, /celtic_sea\.geojson/);
+    await drop(page, ["celtic_sea.toml", "celtic_sea.geojson", "celtic_sea_depths.tif"].map((name) => path.join(assets, name)));
+    await until("the recipe is shown", async () => (await fingerprint(page)) === example);
+    await page.shot("dropped");
+  },
+
+  async "a file is chosen in the browser's dialog"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("Threats and a path"));
+    await sleep(200);
+    const shown = await settled(page);
+    const file = path.join(scratch, "chosen.meshbrush");
+    fs.writeFileSync(file, await projectOf(page));
+    await page.reload();
+    await settled(page);
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Control+o")]);
+    await chooser.setFiles([file]);
+    await sleep(500);
+    await until("the project is shown", async () => (await fingerprint(page)) === shown);
+  },
+
+  async "a link has the same mesh, and one that is no good is a sentence"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("Threats and a path"));
+    await sleep(200);
+    const shown = await settled(page);
+    const link = await page.evaluate(() => window.meshbrush.link());
+    const visit = async (hash) => {
+      await page.goto("about:blank");
+      await page.goto(`${url}#${hash}`);
+      return settled(page);
+    };
+    assert.equal(await visit(link), shown);
+    for (const [hash, words] of [
+      [link.slice(0, -9), /The link is damaged/],
+      ["nonsense", /The link is damaged/],
+      [link.replace("1.", "9."), /newer Meshbrush/],
+      [`1.${"A".repeat(1_000_000)}`, /The link is damaged/],
+    ]) {
+      const empty = await visit(hash);
+      assert.match(await until("a sentence", () => message(page)), words);
+      await paint(page);
+      assert.notEqual(await settled(page), empty, "the empty document can be painted");
+    }
+  },
+
+  async "pages embed it: a slide, an article, a comparison"({ page }) {
+    const frames = async (count) => {
+      await until("the frames", () => page.frames().length === count + 1);
+      for (const frame of page.frames().slice(1)) {
+        await frame.waitForFunction(() => window.meshbrush?.fingerprint(), null, { timeout: 60_000 });
+      }
+      return page.frames().slice(1);
+    };
+    await page.goto(`${url}slide.html`);
+    await frames(1);
+    await sleep(1500);
+    await page.click("#forward");
+    await sleep(1000);
+    await page.shot("slide");
+    await page.goto(`${url}article.html`);
+    const [mesh] = await frames(1);
+    const triangles = () => mesh.evaluate(() => window.meshbrush.triangles());
+    await sleep(1000);
+    const before = await triangles();
+    await page.fill("#size", "7");
+    await until("a finer mesh", async () => (await triangles()) > 2 * before);
+    await page.shot("article");
+    // The wheel moves the page until the canvas is clicked.
+    await page.evaluate(() => { document.body.style.height = "3000px"; });
+    await page.mouse.move(400, 400);
+    await page.mouse.wheel(0, 300);
+    await until("the page scrolls", () => page.evaluate(() => window.scrollY > 0));
+    await page.goto(`${url}comparison.html`);
+    const both = await frames(2);
+    await sleep(2000);
+    const prints = await Promise.all(both.map((frame) => frame.evaluate(() => window.meshbrush.fingerprint())));
+    assert.notEqual(prints[0], prints[1]);
+    await page.shot("comparison");
+  },
+
+  async "a small screen, a dense one, and a second tab"({ page, browser }) {
+    await page.goto(url);
+    await page.setViewportSize({ width: 360, height: 640 });
+    await settled(page);
+    await sleep(500);
+    await page.shot("small");
+    const dense = await browser.newContext({ viewport: { width: 1000, height: 600 }, deviceScaleFactor: 3 });
+    const other = await dense.newPage();
+    await other.goto(url);
+    await settled(other);
+    await other.screenshot({ path: path.join(scratch, "dense.png") });
+  },
+
+  async "without storage one is told once, and can paint and save"({ page }) {
+    await page.addInitScript(() => { IDBFactory.prototype.open = () => { throw new Error("storage is switched off"); }; });
+    await page.goto(url);
+    await settled(page);
+    assert.match(await until("a sentence", () => message(page)), /not kept in the storage of the browser/);
+    await paint(page);
+    await settled(page);
+  },
+
+  async "a page from a file, or without WebAssembly or drawing, is a sentence"({ page }) {
+    const text = () => page.textContent("#text");
+    await page.goto(`file://${folder}/index.html`);
+    assert.match(await text(), /does not run programs from a file/);
+    await page.addInitScript(() => { if (location.search === "?none") { delete window.WebAssembly; } });
+    await page.goto(`${url}?none`);
+    await until("a sentence", async () => /WebAssembly/.test(await text()));
+    await page.addInitScript(() => {
+      if (location.search === "?blind") {
+        HTMLCanvasElement.prototype.getContext = () => null;
+        Object.defineProperty(navigator, "gpu", { value: undefined });
+      }
+    });
+    await page.goto(`${url}?blind`);
+    await until("a sentence", async () => /neither with WebGPU nor with WebGL/.test(await text()));
+    page.problems = []; // the browser's own words about it
+  },
+};
+
+const wanted = process.env.ONLY;
+let failed = 0;
+for (const mode of process.env.MODES?.split(" ") ?? ["webgl", "webgpu"]) {
+  for (const [name, test] of Object.entries(tests)) {
+    if (wanted && !name.includes(wanted)) {
+      continue;
+    }
+    const began = Date.now();
+    const { browser, page } = await browse(mode);
+    try {
+      await test({ page, browser, mode });
+      assert.deepEqual(page.problems, [], "errors on the console");
+      console.log(`ok   ${mode}: ${name} (${Date.now() - began} ms)`);
+    } catch (problem) {
+      failed++;
+      await page.shot("failed").catch(() => {});
+      console.log(`FAIL ${mode}: ${name}\n  ${problem.stack ?? problem}`);
+      console.log(page.problems.join("\n"));
+    }
+    await browser.close();
+  }
+}
+server.close();
+process.exit(failed > 0 ? 1 : 0);
