@@ -1,8 +1,8 @@
 //! The range of the pixels that touch a triangle, read one by one.
 //!
 //! ```text
-//!   +---+---+---+---+     In each row of pixels, those that touch a closed triangle are neighbours: the first
-//!   |   |  /|   |   |     and the last one follow from the triangle's extents along x, x + y and x − y.
+//!   +---+---+---+---+     In each row of pixels, those that touch a closed triangle are neighbours: the
+//!   |   |  /|   |   |     first and the last one follow from its extents along x, x + y and x − y.
 //!   +---+-/-+---+---+
 //!   |   |/__|___|   |
 //!   +---+---+---+---+
@@ -13,13 +13,14 @@ use crate::raster::{ValueRange, ValueRanges};
 
 use super::cells::{Cells, GridOnLattice};
 
-/// Pixels are read one by one where a triangle spans at most 2⁴ of them, and those that it touches beside them.
+/// Pixels are read one by one where a triangle spans at most 2⁴ of them, and those that it touches beside
+/// them.
 const FINER_SCALES: i32 = 4;
 /// The most pixels along an axis that are read one by one.
 const MOST_PIXELS: usize = (1 << FINER_SCALES) + 2;
 
-/// Returns the range of the values of the pixels that touch a closed triangle; `None` where they are too many,
-/// or not quick to read. `around` are the cells around the triangle.
+/// Returns the range of the values of the pixels that touch a closed triangle; `None` where they are too
+/// many, or not quick to read. `around` are the cells around the triangle.
 ///
 /// All triangles within this one touch no other pixels.
 pub fn range_touching(

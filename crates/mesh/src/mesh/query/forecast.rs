@@ -18,10 +18,11 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
+use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::{
-    Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, Questions, RectSearch, RefineError,
-    RuleAnswers, SharedRule, TargetChange, TreeTriangle, TriangleId, WalkEnd, any_exceeds, ask_all,
+    Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
+    TargetChange, TreeTriangle, TriangleId, WalkEnd, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -79,14 +80,6 @@ pub struct Forecast {
     batch: Vec<Asked>,
 }
 
-/// A triangle that may exceed its target.
-#[derive(Clone, Copy, Debug)]
-struct Asked {
-    triangle: TreeTriangle,
-    /// The known answers for it and for all triangles within it.
-    known: LevelsWithin,
-}
-
 /// The change of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
@@ -94,65 +87,6 @@ enum Fate {
     Goes,
     /// A triangle that was cut there would exceed its target.
     Stays,
-}
-
-/// The newest vertex of triangles that coarsening would remove.
-struct Loose {
-    at: LatticePoint,
-    parents: [Option<TreeTriangle>; 2],
-    /// Whether a parent exceeds its target.
-    is_needed: bool,
-}
-
-/// Asks about triangles of the tree, and about those within them.
-struct OfTree {
-    level_cap: u32,
-}
-
-impl Questions for OfTree {
-    type Question = Asked;
-
-    #[inline]
-    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
-        let (corners, level) = (asked.triangle.corners(), asked.triangle.level());
-        if level < self.level_cap {
-            asked.known = asked.known.or_ask(level, || answers.levels_within(corners, level))?;
-        }
-        Ok(())
-    }
-}
-
-/// Asks about entries of the mesh, most of which satisfy their target.
-struct OfMesh {
-    level_cap: u32,
-}
-
-impl Questions for OfMesh {
-    type Question = Asked;
-
-    #[inline]
-    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
-        let level = asked.triangle.level();
-        let exceeds = level < self.level_cap && answers.exceeds(asked.triangle.corners(), level)?;
-        asked.known = LevelsWithin::of_one(level, exceeds);
-        Ok(())
-    }
-}
-
-/// Asks whether parents exceed their targets.
-struct OfParents {
-    level_cap: u32,
-}
-
-impl Questions for OfParents {
-    type Question = Loose;
-
-    #[inline]
-    fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
-        let parents = loose.parents.iter().flatten().map(|parent| (parent.corners(), parent.level()));
-        loose.is_needed = any_exceeds(answers, self.level_cap, parents)?;
-        Ok(())
-    }
 }
 
 /// A hash of lattice points and small numbers: their coordinates differ in high bits too, and a product
@@ -461,16 +395,5 @@ impl Forecast {
         };
         *near = id;
         mesh.corners(id).contains(&point)
-    }
-}
-
-impl Asked {
-    fn level(&self) -> u32 {
-        self.triangle.level()
-    }
-
-    /// Returns whether the triangle is known to exceed its target.
-    fn exceeds(&self) -> bool {
-        self.known.exceeds(self.level()) == Some(true)
     }
 }

@@ -8,6 +8,7 @@ mod check;
 mod cleaning;
 mod fingerprint;
 mod forecast;
+mod forecast_questions;
 mod forest;
 mod interpolate;
 mod locate;

@@ -1,0 +1,82 @@
+//! What forecasts ask a rule.
+
+use crate::geometry::LatticePoint;
+use crate::mesh::kernel::{LevelsWithin, Questions, RuleAnswers, TreeTriangle, any_exceeds};
+
+/// A triangle that may exceed its target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    pub(super) triangle: TreeTriangle,
+    /// The known answers for it and for all triangles within it.
+    pub(super) known: LevelsWithin,
+}
+
+impl Asked {
+    pub(super) fn level(&self) -> u32 {
+        self.triangle.level()
+    }
+
+    /// Returns whether the triangle is known to exceed its target.
+    pub(super) fn exceeds(&self) -> bool {
+        self.known.exceeds(self.level()) == Some(true)
+    }
+}
+
+/// The newest vertex of triangles that coarsening would remove.
+pub(super) struct Loose {
+    pub(super) at: LatticePoint,
+    pub(super) parents: [Option<TreeTriangle>; 2],
+    /// Whether a parent exceeds its target.
+    pub(super) is_needed: bool,
+}
+
+/// Asks about triangles of the tree, and about those within them.
+pub(super) struct OfTree {
+    pub(super) level_cap: u32,
+}
+
+impl Questions for OfTree {
+    type Question = Asked;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+        let (corners, level) = (asked.triangle.corners(), asked.triangle.level());
+        if level < self.level_cap {
+            asked.known = asked.known.or_ask(level, || answers.levels_within(corners, level))?;
+        }
+        Ok(())
+    }
+}
+
+/// Asks about entries of the mesh, most of which satisfy their target.
+pub(super) struct OfMesh {
+    pub(super) level_cap: u32,
+}
+
+impl Questions for OfMesh {
+    type Question = Asked;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, asked: &mut Asked, answers: &mut A) -> Result<(), A::Error> {
+        let level = asked.triangle.level();
+        let exceeds = level < self.level_cap && answers.exceeds(asked.triangle.corners(), level)?;
+        asked.known = LevelsWithin::of_one(level, exceeds);
+        Ok(())
+    }
+}
+
+/// Asks whether parents exceed their targets.
+pub(super) struct OfParents {
+    pub(super) level_cap: u32,
+}
+
+impl Questions for OfParents {
+    type Question = Loose;
+
+    #[inline]
+    fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
+        let parents = loose.parents.iter().flatten().map(|parent| (parent.corners(), parent.level()));
+        loose.is_needed = any_exceeds(answers, self.level_cap, parents)?;
+        Ok(())
+    }
+}
