@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use eframe::egui::Context;
 
 use crate::app::clock::{Duration, Instant};
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::Command;
 use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
@@ -119,15 +119,9 @@ impl JournalKeeper {
 
     /// Takes the answer about the work of an earlier run, and returns the command to run now.
     pub fn answer(&mut self, answer: Answer) -> Option<Command> {
-        if answer == Answer::Confirmed {
-            // It stays offered: the user may still decide to keep the current document.
-            return self.offered.as_ref().map(|_| Command::File(FileCommand::Restore));
-        }
-        let left = self.offered.take()?;
-        if answer == Answer::Alternative {
-            self.forget(left);
-        }
-        None
+        let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
+        forgotten.into_iter().for_each(|left| self.forget(left));
+        command
     }
 
     /// Takes the work that is offered, to restore it.

@@ -63,15 +63,18 @@ impl<R: ValueRanges> RasterSearch<'_, R> {
         }
         let scale = self.grid.scale_of(cells).max(self.raster.finest());
         let [low, high] = self.grid.squares(scale, cells);
+        let mut may_read_pixels = true;
         for y in low[1]..=high[1] {
             for x in low[0]..=high[0] {
                 match self.square((triangle, cells), scale, [x, y], || self.grid.square(scale, x, y)) {
                     Square::Asks => return true,
                     Square::DoesNot => {}
                     Square::Undecided(square) => {
-                        if let Some(range) = self.range_touching(triangle, cells) {
+                        if may_read_pixels && let Some(range) = self.range_touching(triangle, cells) {
                             return self.question.asks(range) != Share::None;
                         }
+                        // They are those of the whole triangle: another square would not tell more.
+                        may_read_pixels = false;
                         if self.any_quarter((triangle, cells), scale, [x, y], &square) {
                             return true;
                         }
