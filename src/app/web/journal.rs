@@ -1,7 +1,7 @@
 //! Unsaved work, kept in the storage of the browser while one paints, and offered after a reload or a crash.
 //!
 //! Each tab keeps the whole document under a name of its own, a moment after the last edit. Writing goes on
-//! beside the frames; a storage that is full or forbidden is told once.
+//! beside the frames; a storage that is full or forbidden is reported once.
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};

@@ -253,7 +253,7 @@ impl Mesh {
     }
 
     /// Removes entries that nothing refers to any more, given as ascending ranges. The last entries take
-    /// their places; `moved` is told of each (from, to).
+    /// their places; `moved` is called with each (from, to).
     pub(super) fn remove_triangles(
         &mut self,
         freed: &[Range<usize>],
