@@ -83,9 +83,10 @@ pub use meshbrush_mesh::text::LengthUnit;
 // Find paths.
 #[doc(inline)]
 pub use meshbrush_core::path::{
-    Certificate, CertificateEnd, CertificateTask, Corridor, CostDensity, CostModel, CostRange, Effort,
-    FormulaCost, GroundCost, Passage, PathArea, PathCertificate, PathError, PathMesh, PathRequest,
-    PathSample, Placement, PlacementTest, Planner, Solution, TriangleCosts, Waypoint, WeightedCost, Weights,
+    Certificate, CertificateEnd, CertificateTask, Corridor, CostDensity, CostModel, CostRange, DualFunction,
+    Effort, FormulaCost, GroundCost, LegProof, Passage, PathArea, PathCertificate, PathError, PathMesh,
+    PathRequest, PathSample, Placement, PlacementTest, Planner, Solution, TriangleCosts, Waypoint,
+    WeightedCost, Weights,
 };
 
 // Query a mesh.

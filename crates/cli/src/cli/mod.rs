@@ -24,6 +24,7 @@ mod options;
 pub mod output;
 mod path;
 mod path_args;
+mod path_proof;
 mod points;
 mod quantities;
 mod recipe;

@@ -3,13 +3,12 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use glam::DVec2;
 use serde::Serialize;
 
-use super::build::{FinishedMesh, build_from};
+use super::build::build_from;
 use super::details::provenance;
 use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
@@ -18,16 +17,16 @@ use super::lengths;
 use super::mesh::note_capped;
 use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
+use super::path_proof::{About, Proof, task, write_certificate};
 use super::points::TypedPoint;
 use super::terminal::Terminal;
 use meshbrush_core::document::{PathCost, PathPlan};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::earth::{EarthPlane, Speed, hours_and_minutes, metres_along};
+use meshbrush_core::earth::{EarthPlane, Projection, Speed, hours_and_minutes, metres_along};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
-    CertificateEnd, CertificateTask, CostDensity, PathArea, PathCertificate, PathError, PathMesh,
-    PathRequest, Planner, Solution, Weights,
+    CostDensity, PathArea, PathError, PathMesh, PathRequest, Planner, Solution, Weights,
 };
 use meshbrush_io::io::path::PathLengths;
 use meshbrush_io::io::{self as files, DocumentPlane, Interruption, Meter, Provenance};
@@ -53,18 +52,17 @@ pub fn run(
     let outputs = typed.output.iter().map(|path| PathOutput::new(path)).collect::<Result<Vec<_>, _>>()?;
     let input = Input::new(&typed.input)?;
     let inputs = [input.files(), typed.keep_out.clone()].concat();
-    outputs.iter().try_for_each(|output| check_place(&output.path, &inputs))?;
+    let files = outputs.iter().map(|output| &output.path).chain(&typed.certificate);
+    files.into_iter().try_for_each(|file| check_place(file, &inputs))?;
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
     let ask = |saved: &PathPlan, plane: Option<&DocumentPlane>| Asked::new(typed, formula, saved, plane);
     let (read, mut asked) = read_and_ask(&input, terminal, ask)?;
     let (projection, unit) = (read.spec.domain.projection, read.unit);
-    if let Some(places) = places {
-        asked.places =
-            places.iter().map(|place| place.in_domain(projection, unit)).collect::<Result<_, _>>()?;
+    if let Some(places) = &places {
+        asked.places = in_domain(places, projection, unit)?;
     }
-    check_lengths(typed, unit)?;
     let plane = EarthPlane::new(projection, unit);
-    check_times(typed, plane, unit)?;
+    check_units(typed, plane, unit)?;
     outputs.iter().try_for_each(|output| output.format.check(&output.path, plane)).map_err(usage)?;
     let finished = build_from(read, terminal)?;
     note_capped(&finished, terminal);
@@ -76,11 +74,11 @@ pub fn run(
     let (mut solution, mesh) = terminal
         .while_working("finding the path", search)
         .map_err(|error| error.in_domain(finished.domain(), &asked.places))?;
-    if let Some(width) = within.filter(|&width| solution.gap() > width) {
+    let width = within.filter(|&width| solution.gap() > width || typed.certificate.is_some());
+    let certificate = width.and_then(|width| {
         let task = task(&finished, density.clone(), area, &solution, width);
-        let end = prove(&mut solution, &task, mesh, terminal);
-        note_end(end, &solution, width, terminal);
-    }
+        Proof::search(&mut solution, &task, mesh, terminal).noted(&solution, width, terminal)
+    });
     let seconds = start.elapsed().as_secs_f64();
     let simplify = typed.simplify.as_ref().map(|length| length.value);
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
@@ -89,22 +87,24 @@ pub fn run(
     let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
     outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
+    let about = asked.about(finished.domain());
+    let write = |file| write_certificate(file, certificate.as_ref(), &about, &provenance, terminal);
+    typed.certificate.as_deref().map_or(Ok(()), write)?;
     let answer = Answer::new(&export, extract.triangles().len(), seconds);
-    match typed.json {
-        true => {
-            let json = serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?;
-            writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)
-        }
-        false => writeln!(out, "{}", answer.for_people(export.solution().gap())).map_err(Failure::Print),
-    }
+    let text = match typed.json {
+        true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?,
+        false => answer.for_people(export.solution().gap()),
+    };
+    writeln!(out, "{text}").and_then(|()| out.flush()).map_err(Failure::Print)
 }
 
-/// Checks that lengths with a unit have a meaning in the document.
-fn check_lengths(typed: &PathArguments, unit: LengthUnit) -> Result<(), Failure> {
+/// Checks that lengths with a unit, and times, have a meaning in the document.
+fn check_units(typed: &PathArguments, plane: Option<EarthPlane>, unit: LengthUnit) -> Result<(), Failure> {
     [("--clearance", &typed.clearance), ("--simplify", &typed.simplify)]
         .into_iter()
         .filter_map(|(option, length)| Some((option, length.as_ref()?)))
-        .try_for_each(|(option, length)| lengths::check(option, length, unit))
+        .try_for_each(|(option, length)| lengths::check(option, length, unit))?;
+    check_times(typed, plane, unit)
 }
 
 /// The requested path: from the options, and from the project or recipe where an option is missing.
@@ -140,6 +140,12 @@ impl Asked {
     /// Returns where the path may go.
     fn area(&self, domain: &Domain) -> Result<PathArea, PathError> {
         PathArea::new(domain, self.keep_out.clone(), self.clearance)
+    }
+
+    /// Returns what a certificate is about.
+    fn about<'a>(&'a self, domain: &'a Domain) -> About<'a> {
+        let clearance = domain.greatest_scale() * self.clearance;
+        About { cost: &self.cost, domain, keep_out: &self.keep_out, clearance }
     }
 
     /// Returns the path, and the triangles that it was sought in.
@@ -181,6 +187,15 @@ fn places(typed: &PathArguments) -> Result<Option<Vec<TypedPoint>>, Failure> {
     let Some((from, to)) = typed.from.as_ref().zip(typed.to.as_ref()) else { return Ok(None) };
     let texts = std::iter::once(from).chain(&typed.via).chain([to]);
     texts.map(|text| TypedPoint::parse(text)).collect::<Result<_, _>>().map(Some)
+}
+
+/// Returns places in the coordinates of the domain.
+fn in_domain(
+    places: &[TypedPoint],
+    projection: Option<Projection>,
+    unit: LengthUnit,
+) -> Result<Vec<DVec2>, Failure> {
+    places.iter().map(|place| place.in_domain(projection, unit)).collect()
 }
 
 /// Returns the number, from 0, of the path of the project or the recipe that is asked for.
@@ -267,69 +282,6 @@ fn mask(path: &Path, plane: Option<&DocumentPlane>) -> Result<Mask, Failure> {
     let named = files::shape_format::read_polygons(path, plane, &Meter::default())?;
     Mask::new(&files::geojson::without_names(named))
         .map_err(|error| Failure::Work(format!("{}: {error}", path.display())))
-}
-
-/// Returns the statement to prove about a path.
-fn task(
-    finished: &FinishedMesh,
-    cost: Arc<dyn CostDensity>,
-    area: PathArea,
-    solution: &Solution,
-    width: f64,
-) -> CertificateTask {
-    let domain = finished.domain();
-    CertificateTask::in_rectangle(domain.bounds, cost, solution.points.clone(), solution.upper, width)
-        .expect("the bounds of a domain are a rectangle")
-        .in_domain(domain)
-        .in_area(area)
-}
-
-/// Raises the lower bound, and takes better paths. Returns why that ended.
-///
-/// # Errors
-/// Fails when there is no proof, or none beyond what the solution has then.
-fn prove(
-    solution: &mut Solution,
-    task: &CertificateTask,
-    mesh: Arc<PathMesh>,
-    terminal: &mut Terminal,
-) -> Result<Option<CertificateEnd>, PathError> {
-    let gap = AtomicU64::new(solution.gap().to_bits());
-    let line = |elapsed: Duration| {
-        let reached = percent_above(f64::from_bits(gap.load(Ordering::Relaxed)));
-        format!("within {reached} of the best, {} s", elapsed.as_secs())
-    };
-    terminal.while_shown(line, || {
-        let mut certificate = PathCertificate::new(solution, task)?.with_search(mesh);
-        let mut end = certificate.end();
-        while end.is_none() {
-            end = certificate.advance()?;
-            solution.take(certificate.solution());
-            gap.store(solution.gap().to_bits(), Ordering::Relaxed);
-        }
-        Ok(end)
-    })
-}
-
-/// Says why a path is not proved to be as good as asked for. The path itself is there all the same.
-fn note_end(
-    end: Result<Option<CertificateEnd>, PathError>,
-    solution: &Solution,
-    width: f64,
-    terminal: &mut Terminal,
-) {
-    let asked = percent_above(width);
-    match end {
-        Ok(Some(end)) if solution.gap() > width => {
-            let reached = percent_above(solution.gap());
-            terminal
-                .note(&format!("The path is proved to be within {reached} of the best, not {asked}. {end}"));
-        }
-        Ok(_) => {}
-        Err(error) => {
-            terminal.note(&format!("The path is not proved to be within {asked} of the best. {error}"));
-        }
-    }
 }
 
 /// A file of the path.

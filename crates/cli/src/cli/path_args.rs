@@ -73,6 +73,14 @@ pub struct PathArguments {
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true, help_heading = "Path")]
     pub within: Option<String>,
 
+    /// File to write with what proves the lower bound, as numbers that other programs can check (.json)
+    ///
+    /// For each leg of the path a function on triangles, whose gradient is nowhere greater than the cost: the
+    /// path costs at least the difference of its values at goal and start. tests/check_certificate.py of the
+    /// source code is such a program.
+    #[arg(long, value_name = "FILE", requires = "within", help_heading = "Output")]
+    pub certificate: Option<PathBuf>,
+
     /// Say how long the path takes at this speed, as in '12 kn', '6 m/s' or '20 km/h'
     ///
     /// In the plane of a projection, and for longitudes and latitudes, lengths are those on the ellipsoid;

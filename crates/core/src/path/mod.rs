@@ -58,7 +58,8 @@ pub use alternatives::{Alternatives, Difference};
 pub use area::PathArea;
 pub(crate) use area::check_clearance;
 pub use certificate::{
-    Certificate, CertificateEnd, CertificateTask, PathCertificate, Placement, PlacementTest,
+    Certificate, CertificateEnd, CertificateTask, DualFunction, LegProof, PathCertificate, Placement,
+    PlacementTest,
 };
 pub use corridor::Corridor;
 pub use cost::{CostDensity, CostModel, CostRange, FormulaCost, WeightedCost, Weights, checked_range};

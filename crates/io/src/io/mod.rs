@@ -23,6 +23,7 @@ pub mod asc;
 mod atomic;
 mod blocks;
 mod boundary_strings;
+pub mod certificate;
 mod claim;
 mod coordinate_system;
 mod coordinates;

@@ -1,7 +1,9 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::{Certificate, CertificateEnd, CertificateTask};
+use glam::DVec2;
+
+use super::{Certificate, CertificateEnd, CertificateTask, DualFunction};
 use crate::path::{CostDensity, PathError, PathMesh, PathRequest, Planner, Solution};
 
 /// Upper bounds are above the cost by about this part of the requested width.
@@ -30,6 +32,19 @@ struct Leg {
     solution: Solution,
     /// How often a better one may still be sought.
     searches: usize,
+}
+
+/// What is proved of a leg, and what proves it.
+#[derive(Clone, Debug)]
+pub struct LegProof {
+    /// The best path that is known, in world units, from the start of the leg to its goal.
+    pub path: Vec<DVec2>,
+    /// No path costs less.
+    pub lower: f64,
+    /// What the path costs, rounded up.
+    pub upper: f64,
+    /// The function that proves the lower bound; `None` where that is 0.
+    pub dual: Option<Arc<DualFunction>>,
 }
 
 impl PathCertificate {
@@ -75,6 +90,17 @@ impl PathCertificate {
         let mut solution = Solution::joined(self.legs.iter().map(|leg| leg.solution.clone()));
         solution.tighten(self.lower());
         solution
+    }
+
+    /// Returns what is proved of each leg. The bounds of the whole path are sums of theirs, rounded.
+    pub fn proofs(&self) -> Vec<LegProof> {
+        let proof = |Leg { certificate, .. }: &Leg| LegProof {
+            path: certificate.task.path.clone(),
+            lower: certificate.lower(),
+            upper: certificate.upper(),
+            dual: certificate.dual().cloned(),
+        };
+        self.legs.iter().map(proof).collect()
     }
 
     /// Returns the largest share of its cost by which the known path can be improved.

@@ -36,6 +36,7 @@
 //! rounded down. A programme that fails leaves the bound of those before.
 
 mod clipped;
+mod dual;
 mod edges;
 mod legs;
 mod marking;
@@ -65,7 +66,8 @@ use proof::proven_gain;
 use quadratic::{QuadraticElement, QuadraticSpace};
 use triangle::FlatTriangle;
 
-pub use legs::PathCertificate;
+pub use dual::DualFunction;
+pub use legs::{LegProof, PathCertificate};
 pub use task::{CertificateEnd, CertificateTask, Placement, PlacementTest};
 
 /// Each round aims to reduce the interval by this share of the requested width.
@@ -123,6 +125,8 @@ pub struct Certificate {
     /// The bounds of the cost density in each triangle, by its id, with the level that it had then.
     minorants: Vec<Option<(u32, Minorant)>>,
     lower: f64,
+    /// What proves the lower bound.
+    dual: Option<Arc<DualFunction>>,
     programmes: usize,
     nodes: usize,
     /// The work of all programmes so far: nodes times steps of the solver.
@@ -148,6 +152,7 @@ impl Certificate {
             mesh,
             minorants: Vec::new(),
             lower: 0.0,
+            dual: None,
             programmes: 0,
             nodes: 0,
             work: 0,
@@ -160,6 +165,11 @@ impl Certificate {
     /// Returns the proved lower bound: no path costs less.
     pub fn lower(&self) -> f64 {
         self.lower
+    }
+
+    /// Returns the function that proves the lower bound; `None` before the first bound.
+    pub(super) fn dual(&self) -> Option<&Arc<DualFunction>> {
+        self.dual.as_ref()
     }
 
     /// Returns the cost of the known path.
@@ -242,8 +252,12 @@ impl Certificate {
         self.nodes = space.nodes;
         self.work += (space.nodes as u64) * u64::from(solution.steps);
         let before = self.width();
-        let lower = proven_gain(&space, &minorants, &solution.function, &gain) * self.without_strips(&space);
-        self.lower = self.lower.max(lower.min(self.task.upper));
+        let proved = proven_gain(&space, &minorants, &solution.function, &gain);
+        let lower = (proved.gain * self.without_strips(&space)).min(self.task.upper);
+        if lower > self.lower {
+            self.lower = lower;
+            self.dual = Some(Arc::new(DualFunction::new(&space, &minorants, &solution, proved.scale)));
+        }
         let estimates = estimates(&space, &minorants, &solution, &kept);
         let lost = estimates.iter().sum::<f64>() / self.task.upper;
         self.end = self.reason_to_end(before, lost);

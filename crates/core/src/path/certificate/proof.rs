@@ -6,18 +6,28 @@ use super::quadratic::QuadraticSpace;
 /// Bound of the effect of rounding on a sum, as a share of its terms.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// λ (v(goal) − v(start)), rounded down, with the greatest λ for which λ v is feasible.
+/// What is proved by a function v.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Proved {
+    /// λ, rounded down: with it λ v is feasible.
+    pub scale: f64,
+    /// λ (v(goal) − v(start)), rounded down; 0 where nothing is proved.
+    pub gain: f64,
+}
+
+/// Returns λ (v(goal) − v(start)) with the greatest λ for which λ v is feasible, both rounded down.
 pub(super) fn proven_gain(
     space: &QuadraticSpace,
     minorants: &[Minorant],
     function: &[f64],
     gain: &[(u32, f64)],
-) -> f64 {
+) -> Proved {
     let terms = gain.iter().map(|&(number, weight)| weight * function[number as usize]);
     let (sum, size) = terms.fold((0.0, 0.0), |(sum, size), term| (sum + term, size + term.abs()));
     let least = sum - ROUNDING * size;
     let scale = feasible_scale(space, minorants, function) * (1.0 - ROUNDING);
-    if least > 0.0 && scale > 0.0 && scale.is_finite() { least * scale } else { 0.0 }
+    let is_proof = least > 0.0 && scale > 0.0 && scale.is_finite();
+    if is_proof { Proved { scale, gain: least * scale } } else { Proved { scale: 0.0, gain: 0.0 } }
 }
 
 /// Returns the least ℓ / |∇v| over the corners of all triangles.
