@@ -406,6 +406,21 @@ mod tests {
     }
 
     #[test]
+    fn edges_on_both_sides_of_an_edit_are_skipped() {
+        let ring = |radius: f64| {
+            let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / 1000.0;
+            (0..1000).map(|k| DVec2::splat(0.5) + radius * DVec2::from_angle(angle(k))).collect::<Ring>()
+        };
+        let region = unit(&[vec![ring(0.3)]]);
+        let edited = region.without(&[square(dvec2(0.8, 0.5), 0.001)]);
+        let mut comparison = RegionComparison::new(Arc::new(region), Arc::new(edited));
+        let steps = (0..).find(|_| comparison.advance(1) == Progress::Done).unwrap();
+        // Each edge once, and those of the edit in the three passes.
+        assert!(steps < 1100, "{steps}");
+        assert!(!comparison.areas().is_empty());
+    }
+
+    #[test]
     fn removing_the_whole_frame_leaves_an_empty_region() {
         let region = unit(&[vec![square(DVec2::splat(0.5), 0.3)]]);
         assert!(region.without(&[square(DVec2::splat(0.5), 5.0)]).is_empty());

@@ -26,6 +26,14 @@ fn place(middle: DVec2, half: DVec2) -> ModelPlace {
 }
 
 #[test]
+fn the_rectangle_of_a_place_is_hardly_larger() {
+    let rectangle = Rect::new(dvec2(3.0, -2.0), dvec2(3.5, -1.0));
+    let rect = ModelPlace::of_rectangle(&rectangle).rect();
+    assert!(rect.contains(rectangle.min) && rect.contains(rectangle.max));
+    assert!((rect.size() - rectangle.size()).max_element() < 1e-9);
+}
+
+#[test]
 fn the_risk_lies_within_its_model() {
     let mut random = fastrand::Rng::with_seed(51);
     let mut narrow = 0;

@@ -321,6 +321,14 @@ mod tests {
     }
 
     #[test]
+    fn a_union_has_the_costs_of_both() {
+        let range = |least, greatest| CostRange { least, greatest };
+        assert_eq!(range(1.0, 3.0).union(range(2.0, 5.0)), range(1.0, 5.0));
+        assert_eq!(range(2.0, 5.0).union(range(1.0, 3.0)), range(1.0, 5.0));
+        assert_eq!(range(1.0, 5.0).union(range(2.0, 3.0)), range(1.0, 5.0));
+    }
+
+    #[test]
     fn a_formula_uses_the_risk_and_only_costs_may() {
         let cost = formula("1 + 20*risk^2 + y", "x");
         assert_eq!(cost.at(dvec2(0.5, 1.0)), 7.0);

@@ -19,6 +19,7 @@ mod follower;
 #[path = "../../../../tests/shared/formula_mesh/mod.rs"]
 mod formula_mesh;
 mod golden;
+mod guards;
 mod layers;
 mod many_directions;
 mod mirrored;

@@ -79,6 +79,33 @@ mod tests {
     }
 
     #[test]
+    fn a_cone_is_little_wider_than_its_rectangle_is_seen() {
+        let mut random = fastrand::Rng::with_seed(6);
+        for _ in 0..300 {
+            let away = 3.0 * DVec2::from_angle(std::f64::consts::TAU * random.f64());
+            let rect = Rect::around(away, 0.02 + 0.4 * random.f64());
+            let cone = Cone::from_point(DVec2::ZERO, &rect).unwrap();
+            let corners = [rect.min, rect.max, dvec2(rect.min.x, rect.max.y), dvec2(rect.max.x, rect.min.y)];
+            let widest =
+                corners.map(|p| p.normalize().distance(cone.toward())).into_iter().fold(0.0, f64::max);
+            assert!(widest <= cone.spread() && cone.spread() < 1.8 * widest, "{widest} {cone:?}");
+        }
+    }
+
+    #[test]
+    fn a_turned_step_goes_as_far_across() {
+        let mut random = fastrand::Rng::with_seed(7);
+        for _ in 0..300 {
+            let rect = Rect::around(near(&mut random), 0.01);
+            let Some(cone) = Cone::from_point(near(&mut random), &rect) else { continue };
+            let wanted = near(&mut random);
+            let across = |step: DVec2| cone.toward().perp_dot(step);
+            assert!((across(cone.turned(wanted)) - across(wanted)).abs() < 1e-12);
+            assert!(cone.rises_along(cone.turned(wanted)));
+        }
+    }
+
+    #[test]
     fn steps_that_a_cone_permits_go_along_all_of_its_vectors() {
         let mut random = fastrand::Rng::with_seed(5);
         let (mut cones, mut turned) = (0, 0);

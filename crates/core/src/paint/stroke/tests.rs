@@ -379,6 +379,12 @@ fn a_hair_across_everything_and_a_pen_that_touches_down_take_few_tiles() {
     assert!((1000..8000).contains(&tiles) && depth > 4, "{tiles} tiles of depth {depth}");
     let (tiles, depth) = count(0.01, [end(0.5, 0.0), end(0.5, 0.0)]);
     assert!((1..5).contains(&tiles) && depth == 4, "{tiles} tiles of depth {depth}");
+    let (_, narrow) = count(0.001, [end(0.5, 0.25), end(0.51, 0.25)]);
+    let (_, wide) = count(0.001, [end(0.5, 1.0), end(0.51, 1.0)]);
+    for ends in [[end(0.5, 0.25), end(0.51, 1.0)], [end(0.5, 1.0), end(0.51, 0.25)]] {
+        assert_eq!(count(0.001, ends).1, narrow, "the narrower end decides");
+    }
+    assert!(narrow > wide);
     let (tiles, _) = count(0.01, [end(0.5, 0.01), end(0.6, 1.0)]);
     assert!(tiles < 4000, "{tiles}");
     let (tiles, depth) = count(1e30, [end(0.5, 1.0), end(1e200, 1.0)]);

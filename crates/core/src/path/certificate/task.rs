@@ -201,3 +201,61 @@ impl CertificateTask {
         if is_cost { Ok(()) } else { Err(PathError::InvalidCost { at: self.start(), value: self.upper }) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::CostFormula;
+    use crate::layers::RiskField;
+    use crate::mesh::{Limits, Mesh};
+    use crate::path::FormulaCost;
+
+    /// A clearance counts where the shape of a triangle does: both ways round it must say the same, and never
+    /// that a point which may be on a path is outside.
+    #[test]
+    fn triangles_of_either_orientation_are_placed_by_their_points() {
+        let ring = vec![dvec2(0.3, 0.3), dvec2(0.7, 0.35), dvec2(0.6, 0.7)];
+        let keep_out = Mask::new(&[vec![ring]]).unwrap();
+        let clearance = 0.06;
+        let domain = Domain::rectangle(Rect::UNIT);
+        let area = PathArea::new(&domain, vec![keep_out.clone()], clearance).unwrap();
+        let formula = CostFormula::parse("1").unwrap();
+        let cost = Arc::new(FormulaCost { formula, risk: RiskField::default() });
+        let ends = vec![dvec2(0.1, 0.1), dvec2(0.9, 0.9)];
+        let task = CertificateTask::in_rectangle(Rect::UNIT, cost, ends, 1.2, 0.01).unwrap().in_area(area);
+        let mut mesh = Mesh::coarse_grid(&task.lattice, |_| true, &Limits::default()).unwrap();
+        mesh.refine(&Limits::default(), |element| element.triangle.level() < 7).unwrap();
+        let sides = |[a, b, c]: [DVec2; 3]| [[a, b], [b, c], [c, a]];
+        let may_pass = |point: DVec2| {
+            let ring = &keep_out.polygons()[0][0];
+            let distance =
+                |[a, b]: [DVec2; 2]| point.distance(crate::geometry::nearest_on_segment(point, [a, b]));
+            !keep_out.contains(point)
+                && sides([ring[0], ring[1], ring[2]]).into_iter().all(|side| distance(side) > clearance)
+        };
+        let mut seen = [[0; 3]; 2];
+        for element in mesh.raw_elements() {
+            let corners = element.world_corners();
+            let [a, b, c] = corners;
+            let is_anticlockwise = (b - a).perp_dot(c - a) > 0.0;
+            let placement = (task.placement)(&element);
+            seen[usize::from(is_anticlockwise)][placement as usize] += 1;
+            let points =
+                (1..8).flat_map(|i| (1..8 - i).map(move |j| (f64::from(i) / 8.0, f64::from(j) / 8.0)));
+            let points = points.map(|(s, t)| a + s * (b - a) + t * (c - a));
+            let passing = points.clone().filter(|&point| may_pass(point)).count();
+            match placement {
+                Placement::Outside => assert_eq!(passing, 0, "{corners:?}"),
+                Placement::Inside => assert_eq!(passing, points.count(), "{corners:?}"),
+                Placement::Cut => {}
+            }
+        }
+        // Both kinds occur, and few are left undecided.
+        for of_one in seen {
+            let [inside, cut, outside] = of_one;
+            assert!(inside > 100 && outside > 100 && cut < inside, "{seen:?}");
+        }
+    }
+}

@@ -168,6 +168,15 @@ mod tests {
         assert!(near(statistics.shortest_edge, 0.5 / 16.0), "{}", statistics.shortest_edge);
         assert!(statistics.shortest_edge_at.length() < 0.1);
         assert!(near(statistics.longest_edge, 0.5_f64.sqrt()) && statistics.longest_edge_at.length() > 0.3);
+        let extract = mesh.extract();
+        let edges = extract.triangles().iter().flat_map(|triangle| triangle.edge_nodes());
+        let ends: Vec<_> = edges.map(|(a, b)| [extract.world(a), extract.world(b)]).collect();
+        let is_middle = |at: DVec2, length: f64| {
+            ends.iter().any(|[a, b]| a.midpoint(*b) == at && near(a.distance(*b), length))
+        };
+        assert!(is_middle(statistics.shortest_edge_at, statistics.shortest_edge));
+        assert!(is_middle(statistics.longest_edge_at, statistics.longest_edge));
+        assert!(ends.iter().any(|[a, b]| a.midpoint(*b) == statistics.size_ratio_at));
         assert!(near(statistics.size_ratio, 2.0_f64.sqrt()), "neighbours differ by one level at most");
         assert!(near(statistics.largest_area / statistics.smallest_area, 256.0));
     }

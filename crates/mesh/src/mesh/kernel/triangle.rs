@@ -200,17 +200,6 @@ impl Triangle {
         }
     }
 
-    /// Returns for each vertex whether no triangle at all, inside or outside the domain, lies across the
-    /// opposite edge.
-    #[inline]
-    pub fn raw_boundary_opposite(&self) -> [bool; 3] {
-        let mut boundary = [false; 3];
-        for ((from, to), across) in self.edges().into_iter().zip(self.raw_neighbours) {
-            boundary[3 - from - to] = across == Neighbour::BOUNDARY;
-        }
-        boundary
-    }
-
     /// [`Self::edges`] as pairs of nodes.
     #[inline]
     pub const fn edge_nodes(&self) -> [(NodeId, NodeId); 3] {

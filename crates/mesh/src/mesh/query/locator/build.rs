@@ -228,3 +228,25 @@ fn halves(mesh: &Mesh, id: TriangleId) -> impl Iterator<Item = Half> {
         Half { origin, rising: right != above, above }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use crate::mesh::Limits;
+
+    #[test]
+    fn a_table_has_about_a_square_for_eight_triangles_and_no_more() {
+        for level in 0..14 {
+            let lattice = Lattice::covering(Rect::UNIT, 0.2, 100).unwrap();
+            let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+            mesh.refine(&Limits::default(), |element| element.triangle.level() < level).unwrap();
+            let cells = Table::of_coarse_cells(&lattice).squares.len();
+            let (bands, triangles) = (Bands::new(&mesh, cells), mesh.triangles.len());
+            let squares = cells << (2 * bands.divisions);
+            // The last division may exceed it: it is the first whose squares before it were few enough.
+            assert!(bands.divisions == 0 || 8 * squares <= 4 * triangles, "{level}: {squares}");
+            assert!(8 * squares > triangles || bands.divisions == depth_of(level), "{level}: {squares}");
+        }
+    }
+}
