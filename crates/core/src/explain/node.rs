@@ -96,6 +96,7 @@ mod tests {
         })
         .unwrap();
         let adjacency = mesh.adjacency();
+        let mut with_dependents = 0;
         for (node, at) in mesh.nodes() {
             let facts = NodeFacts::of(&mesh, node);
             let mut adjacent = facts.adjacent.clone();
@@ -107,10 +108,12 @@ mod tests {
             if let Some([from, to]) = facts.parents {
                 assert_eq!(from.midpoint(to), at);
             }
+            with_dependents += usize::from(!facts.dependents.is_empty());
             for dependent in &facts.dependents {
                 let (other, _) = mesh.nodes().find(|(_, place)| place == dependent).unwrap();
                 assert!(other > node, "it was made later");
             }
         }
+        assert!(with_dependents > 10, "{with_dependents}");
     }
 }

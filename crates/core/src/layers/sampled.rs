@@ -97,3 +97,34 @@ fn from_neighbours(raster: &Raster, x: u32, y: u32, step: DVec2) -> (f64, [u32; 
     let both = (p * a + q * b + discriminant.sqrt()) / (p + q);
     (if both >= a.max(b) { both.min(one_sided) } else { one_sided }, from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Rect;
+
+    /// The update from both axes counts only where it is above both neighbours: a front that reaches a pixel
+    /// from below cannot come from a higher neighbour.
+    #[test]
+    fn a_value_is_above_the_neighbours_that_it_comes_from() {
+        let mut random = fastrand::Rng::with_seed(61);
+        let (mut both, mut one) = (0, 0);
+        for _ in 0..20_000 {
+            let mut raster = Raster::filled(Rect::UNIT, [2, 2], f32::INFINITY);
+            let [a, b] = [0, 1].map(|_| 3.0 * random.f32());
+            raster.set(0, 1, a);
+            raster.set(1, 0, b);
+            let step = DVec2::new(0.1 + random.f64(), 0.1 + random.f64());
+            let (value, from) = from_neighbours(&raster, 1, 1, step);
+            let sided = (f64::from(a) + step.x).min(f64::from(b) + step.y);
+            let [a, b] = [a, b].map(f64::from);
+            let rises = [(value - a).max(0.0) / step.x, (value - b).max(0.0) / step.y];
+            // The slope that is allowed, over both axes as far as the value rises along them.
+            assert!((rises[0].hypot(rises[1]) - 1.0).abs() < 1e-6, "{a} {b} {step} {value}");
+            assert!(value <= sided && (from == [0, 1] || from == [1, 0]));
+            both += usize::from(value < sided);
+            one += usize::from(value == sided);
+        }
+        assert!(both > 1000 && one > 1000, "{both} {one}");
+    }
+}

@@ -9,7 +9,7 @@ pub(super) const COT_5: f64 = 11.430_052_302_761_343;
 pub(super) const COT_20: f64 = 2.747_477_419_454_622;
 pub(super) const COT_30: f64 = 1.732_050_807_568_877_2;
 /// The cotangent of 18.4°.
-const COT_18_4: f64 = 3.006_055_646_788_107_5;
+const COT_18_4: f64 = 3.006_110_903_495_366_6;
 
 /// Compares angles by their cotangents: without trigonometry, so that every machine gets the same result. A
 /// smaller angle has a larger cotangent.
@@ -83,5 +83,49 @@ impl Angles {
     /// quadrilateral: first for the diagonal from the first corner, then for the one from the second.
     pub(super) fn diagonals(&self, [a, b, c, d]: [LatticePoint; 4]) -> [f64; 2] {
         [self.worst([a, b, c]).max(self.worst([a, c, d])), self.worst([a, b, d]).max(self.worst([b, c, d]))]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    fn smallest_angle(corners: [DVec2; 3]) -> f64 {
+        let angle = |at: DVec2, p: DVec2, q: DVec2| (p - at).angle_to(q - at).abs();
+        let [a, b, c] = corners;
+        angle(a, b, c).min(angle(b, c, a)).min(angle(c, a, b))
+    }
+
+    /// Cuts through the middles of edges leave, of each kind of triangle: halves, where the outline passes a
+    /// corner, and a corner with a quadrilateral, which the better of its diagonals divides.
+    #[test]
+    fn the_limit_is_the_smallest_angle_that_cuts_in_the_middle_leave() {
+        let mut narrower = 0;
+        for height in [0.2, 0.5, 0.9, 1.0, 1.3, 2.5, 6.0] {
+            let point = |x: f64, y: f64| dvec2(x, height * y);
+            let kinds = [
+                [point(0.0, 0.0), point(4.0, 0.0), point(0.0, 4.0)],
+                [point(0.0, 0.0), point(4.0, 0.0), point(2.0, 2.0)],
+                [point(0.0, 0.0), point(2.0, 2.0), point(0.0, 4.0)],
+            ];
+            let mut least = 18.4_f64.to_radians();
+            for [p, q, r] in kinds {
+                for [a, b, c] in [[p, q, r], [q, r, p], [r, p, q]] {
+                    let [ab, bc, ca] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
+                    let parts = |parts: &[[DVec2; 3]]| {
+                        parts.iter().map(|&part| smallest_angle(part)).fold(f64::INFINITY, f64::min)
+                    };
+                    let halves = parts(&[[a, b, bc], [a, bc, c]]);
+                    let beside = parts(&[[ab, b, c], [ab, c, ca]]).max(parts(&[[ab, b, ca], [b, c, ca]]));
+                    least = least.min(halves).min(parts(&[[a, ab, ca]])).min(beside);
+                }
+            }
+            let limit = (1.0 / Angles::new(dvec2(1.0, height)).limit()).atan();
+            assert!((limit - least).abs() < 1e-6, "{height}: {limit} {least}");
+            narrower += usize::from(least < 18.3_f64.to_radians());
+        }
+        assert!(narrower >= 4, "{narrower}");
     }
 }

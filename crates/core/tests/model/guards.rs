@@ -1,12 +1,17 @@
 //! Questions whose second branch ordinary meshes do not need: each has the smallest input that does.
 
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainOnLattice};
+use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainOnLattice, DomainShape, NamedPolygon};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::field::{Formula, RefinementRule, Transfer};
-use meshbrush_core::layers::{Layer, LayerCheck, LayerKind, PaintLayers, SizeField, SizeFieldSpec};
+use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
+use meshbrush_core::layers::{
+    Layer, LayerCheck, LayerKind, PaintLayers, RiskField, SizeField, SizeFieldSpec,
+};
+use meshbrush_core::paint::{Brush, Medium, StrokePlan};
+use meshbrush_core::path::{FormulaCost, PathFigures};
+use meshbrush_core::raster::{PixelRect, Raster, RasterPyramid};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
 use meshbrush_mesh::mesh::Progress;
 
@@ -92,7 +97,6 @@ fn a_new_document_has_24_cells_along_a_side_and_the_usual_boundary() {
 
 #[test]
 fn all_of_a_square_raster_has_no_gaps_up_to_its_rim() {
-    use meshbrush_core::raster::{Raster, RasterPyramid};
     for size in [[1, 1], [2, 2], [8, 8], [32, 32]] {
         let values = (0..size[0] * size[1]).map(|n| n as f32).collect();
         let bounds = Rect::new(dvec2(-1.0, 2.0), dvec2(2.0, 3.0));
@@ -114,4 +118,69 @@ fn an_empty_stack_of_layers_asks_for_nothing() {
     assert!(!field.asks_for_more(PaintLayers::blank(), corners, 1));
     let least = field.least_within(PaintLayers::blank(), corners);
     assert_eq!((least.layer, least.target), (None, 1e6));
+}
+
+/// A slider that is dragged sends the same setting again and again.
+#[test]
+fn each_change_of_a_gesture_is_reported() {
+    let mut document = Document::new(Settings::default(), None).unwrap();
+    assert!(!document.is_in_gesture());
+    document.take_edits();
+    for diameter in [0.01, 0.02, 0.03] {
+        document.set(Setting::SmallestDiameter(diameter)).unwrap();
+        assert!(document.is_in_gesture());
+        assert!(document.take_edits().settings, "{diameter}");
+    }
+    document.set(Setting::SmallestDiameter(0.03)).unwrap();
+    assert!(document.take_edits().is_empty(), "nothing changed");
+    document.end_gesture();
+    assert!(!document.is_in_gesture());
+    document.begin_stroke(Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 0.5, strength: 1.0 });
+    assert!(document.is_in_gesture());
+    document.end_stroke();
+    assert!(!document.is_in_gesture());
+}
+
+#[test]
+fn polygons_are_not_added_to_a_domain_of_a_formula() {
+    let ring = vec![dvec2(0.2, 0.2), dvec2(0.8, 0.2), dvec2(0.5, 0.8)];
+    let polygons = [NamedPolygon { name: String::new(), polygon: vec![ring] }];
+    let shape = DomainShape::Formula(Formula::parse("r < 1").unwrap());
+    let domain = Domain { shape, ..Domain::rectangle(Rect::UNIT) };
+    let settings = Settings { domain, ..Settings::default() };
+    assert_eq!(settings.with_outline(&polygons), Err(OutlineError::Formula));
+    assert!(Settings::default().with_outline(&polygons).is_ok());
+}
+
+#[test]
+fn a_stroke_with_one_end_at_infinity_is_not_finite() {
+    let brush = Brush { medium: Medium::Risk(1.0), radius: 0.1, hardness: 0.5, strength: 1.0 };
+    let plan = StrokePlan::click(brush, DVec2::ZERO);
+    assert!(plan.is_finite());
+    for bad in [f64::INFINITY, f64::NAN] {
+        assert!(!StrokePlan { from: dvec2(bad, 0.0), ..plan }.is_finite());
+        assert!(!StrokePlan { to: dvec2(0.0, bad), ..plan }.is_finite());
+    }
+}
+
+#[test]
+fn pixels_are_none_without_columns_or_without_rows() {
+    let rect = |min, max| PixelRect { min, max };
+    assert!(!rect([1, 1], [2, 2]).is_empty());
+    assert!(rect([1, 1], [1, 5]).is_empty() && rect([1, 1], [5, 1]).is_empty());
+    let raster = Raster::filled(Rect::UNIT, [8, 8], 0.0);
+    let within_one = Rect::new(dvec2(0.3, 0.55), dvec2(0.35, 0.6));
+    assert_eq!(raster.pixels_touching(&within_one), rect([2, 4], [3, 5]));
+}
+
+#[test]
+fn the_upper_bound_of_a_cost_is_as_close_as_asked_for() {
+    let formula = CostFormula::parse("exp(3*x)").unwrap();
+    let cost = FormulaCost { formula, risk: RiskField::default() };
+    let exact = (3.0_f64.exp() - 1.0) / 3.0;
+    for tolerance in [1e-2, 1e-4, 1e-6] {
+        let figures = PathFigures::of(&[DVec2::ZERO, dvec2(1.0, 0.0)], &cost, tolerance);
+        assert!(figures.upper >= exact && figures.upper <= exact * (1.0 + 2.0 * tolerance), "{figures:?}");
+        assert!((figures.cost - exact).abs() <= tolerance * exact);
+    }
 }

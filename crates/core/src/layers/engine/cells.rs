@@ -344,6 +344,19 @@ mod tests {
     }
 
     #[test]
+    fn common_cells_are_common_along_both_axes() {
+        let cells = |x: [i64; 2], y: [i64; 2]| Cells { min: [x[0], y[0]], max: [x[1], y[1]] };
+        let square = cells([0, 4], [0, 4]);
+        assert_eq!(square.intersection(&cells([2, 9], [3, 5])), Some(cells([2, 4], [3, 4])));
+        for beside in
+            [cells([4, 8], [0, 4]), cells([0, 4], [4, 8]), cells([5, 8], [1, 2]), cells([1, 2], [9, 9])]
+        {
+            assert_eq!(square.intersection(&beside), None);
+            assert_eq!(beside.intersection(&square), None);
+        }
+    }
+
+    #[test]
     fn squares_of_cells_are_those_between_their_lines() {
         let mut random = fastrand::Rng::with_seed(8);
         let (mut next, mut behind_an_empty_one) = (0, 0);

@@ -416,3 +416,16 @@ fn points_that_are_not_finite_and_brushes_for_other_rasters_change_nothing() {
     painted(&mut raster, Brush { medium: FINER, ..RISK }, &[dvec2(0.5, 0.5)]);
     assert!(raster.is_blank() && raster.tile_count() == 0);
 }
+
+#[test]
+fn full_strength_gives_exactly_the_target() {
+    let mut random = fastrand::Rng::with_seed(73);
+    for _ in 0..2000 {
+        let (target, h_max) = (1e-4 + 0.1 * random.f64(), 0.2 + random.f64());
+        let medium = Medium::Diameter(target, DiameterChange::Finer);
+        let brush = Brush { medium, radius: 0.1, hardness: 1.0, strength: 1.0 };
+        let painted = brush.painted_value(1.0, f32::INFINITY, f32::INFINITY, h_max);
+        let next_below = f32::from_bits(painted.to_bits() - 1);
+        assert!(f64::from(painted) >= target && f64::from(next_below) < target, "{painted} {target}");
+    }
+}
