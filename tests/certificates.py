@@ -1,5 +1,5 @@
-"""Certificates of paths, checked by check_certificate.py, which shares no code with the program; and those with one number
-changed, which it must refuse. Called by tests/run with the program to test: certificates.py PROGRAM. Needs only Python.
+"""Certificates of paths and meshes, checked by programs that share no code with the program that writes them; and those with
+one number changed, which must be refused. Called by tests/run with the program to test: certificates.py PROGRAM. Needs only Python.
 """
 
 import json
@@ -35,10 +35,10 @@ def certificate(program, folder, arguments):
     return json.loads(file.read_text())
 
 
-def check(folder, certificate, *options):
+def check(folder, certificate, *options, checker="check_certificate.py"):
     file = folder / "checked.json"
     file.write_text(json.dumps(certificate))
-    command = [sys.executable, HERE / "check_certificate.py", file, *options]
+    command = [sys.executable, HERE / checker, file, *options]
     return subprocess.run(command, capture_output=True, text=True)
 
 
@@ -94,6 +94,51 @@ CHANGES = {
 }
 
 
+BUMP = "gauss(hypot(x - 0.4, y - 0.6), 0.1)"
+CONE = "0.02 + 0.3*hypot(x - 0.3, y - 0.3)"
+MESHES = {
+    "a surface": (["--surface", BUMP, "--max-error", "0.005"], ["--surface", BUMP]),
+    "a target": (["--target", CONE], ["--target", CONE]),
+    "a surface and a target": (["--surface", BUMP, "--max-error", "0.005", "--target", CONE], ["--surface", BUMP, "--target", CONE]),
+}
+
+
+def coarser_demand(file):
+    """The mesh has bisections that nothing forces then."""
+    del file["demands"][:]
+
+
+def other_place(file):
+    file["demands"][0]["at"] = file["demands"][-1]["at"]
+
+
+def further_triangle(file):
+    """A bisection more: a leaf in its two halves."""
+    apex, p, q = file["triangles"].pop()
+    middle = [(p[0] + q[0]) // 2, (p[1] + q[1]) // 2]
+    file["triangles"] += [[middle, p, apex], [middle, q, apex]]
+
+
+def check_meshes(program, folder):
+    refused = 0
+    for title, (arguments, options) in MESHES.items():
+        file = folder / "certificate.json"
+        command = [program, "mesh", "--spacing", "0.25", *arguments, "--certificate", file]
+        subprocess.run(command, check=True, capture_output=True)
+        found = json.loads(file.read_text())
+        checked = check(folder, found, *options, checker="check_mesh_certificate.py")
+        assert checked.returncode == 0, f"{title}: {checked.stderr}"
+        assert len(found["triangles"]) > 300 and len(found["demands"]) > 100, title
+        print(f"{title}: {checked.stdout.strip()}")
+        for change in [coarser_demand, other_place, further_triangle]:
+            copy = json.loads(json.dumps(found))
+            change(copy)
+            checked = check(folder, copy, *options, checker="check_mesh_certificate.py")
+            assert "AssertionError: " in checked.stderr, f"{title}, {change.__name__}: {checked.stdout}{checked.stderr}"
+            refused += 1
+    return refused
+
+
 def main():
     program = sys.argv[1]
     refused = 0
@@ -111,7 +156,8 @@ def main():
                 checked = check(folder, changed(found, change), *options)
                 assert "AssertionError: " in checked.stderr, f"{title}, {what}: {checked.stdout}{checked.stderr}"
                 refused += 1
-    print(f"{len(CASES)} certificates hold, and {refused} with one change are refused")
+        refused += check_meshes(program, folder)
+    print(f"{len(CASES) + len(MESHES)} certificates hold, and {refused} with one change are refused")
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ use meshbrush_core::build::{
 };
 use meshbrush_core::domain::{BoundaryMarks, Domain, MeshBoundary, Region};
 use meshbrush_core::earth::{Coordinates, EdgeLengths, Ground};
-use meshbrush_core::explain::Explanation;
+use meshbrush_core::explain::{Bisections, Explanation};
 use meshbrush_core::field::RefinementRule;
 use meshbrush_core::layers::{Layer, NODES_AT_A_TIME, PaintLayers, RiskField, SurfaceNorm};
 use meshbrush_core::outline::DerivedMesh;
@@ -196,6 +196,12 @@ impl FinishedMesh {
         let criterion = self.built.criterion(Some(&self.origin.paint));
         let mesh = &self.built.mesh;
         Explanation::new(mesh, TreeTriangle::of(mesh, id), &criterion, &self.origin.spec.limits)
+    }
+
+    /// Returns which bisections of the mesh its criterion asks for.
+    pub fn bisections(&self) -> Bisections {
+        let criterion = self.built.criterion(Some(&self.origin.paint));
+        Bisections::of(&self.built.mesh, &criterion, &self.origin.spec.limits)
     }
 
     /// Returns how far the mesh as files get it is from the surfaces of its layers, if one is a surface.

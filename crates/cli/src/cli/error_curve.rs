@@ -1,4 +1,5 @@
-//! The plot of the error against the number of triangles.
+//! What is written of the error of a mesh: the plot against the number of triangles, and what the error
+//! forces.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -11,8 +12,9 @@ use super::failure::Failure;
 use super::output::check_place;
 use super::terminal::Terminal;
 use meshbrush_core::build::CurveTracing;
+use meshbrush_core::layers::SurfaceNorm;
 use meshbrush_core::surface::CurvePoint;
-use meshbrush_io::io::write_file;
+use meshbrush_io::io::{Provenance, certificate, write_file};
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::Grouped;
 use meshbrush_study::error_plot::error_plot;
@@ -28,6 +30,16 @@ pub struct ErrorCurveArguments {
     /// rates by which the errors fall are printed beside the best one that is possible.
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub error_curve: Option<PathBuf>,
+
+    /// File to write with the bisections that the error and other targets force, as numbers that other
+    /// programs can check (.json)
+    ///
+    /// With the triangles that must be bisected, their parents and those across must be: if that gives all
+    /// bisections, no conforming mesh of the forest meets all demands with fewer triangles.
+    /// tests/check_mesh_certificate.py of the source code is such a program. Not for a --norm that sums over
+    /// the whole mesh.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub certificate: Option<PathBuf>,
 }
 
 /// How many times as many triangles as the mesh the largest one of the curve has at least.
@@ -84,4 +96,44 @@ pub fn write_error_curve(
     }
     terminal.say(&format!("wrote {}", path.display()));
     Ok(())
+}
+
+impl ErrorCurveArguments {
+    /// Checks that the files can be written.
+    ///
+    /// # Errors
+    /// Fails with a sentence where an ending is unknown, or a file is one of `inputs`.
+    pub fn check(&self, inputs: &[PathBuf]) -> Result<(), Failure> {
+        self.error_curve.iter().try_for_each(|file| check_curve_file(file, inputs))?;
+        self.certificate.iter().try_for_each(|file| check_place(file, inputs))
+    }
+
+    /// Writes the files. `details` has the error of the mesh, where it was measured before.
+    ///
+    /// # Errors
+    /// Fails when there is no surface to be near to, and when a file cannot be written.
+    pub fn write(
+        &self,
+        (finished, extract): (&FinishedMesh, &Extract),
+        details: Option<&MeshDetails>,
+        provenance: impl FnOnce() -> Provenance,
+        terminal: &mut Terminal,
+    ) -> Result<(), Failure> {
+        if let Some(file) = &self.error_curve {
+            write_error_curve(file, (finished, extract), details, terminal)?;
+        }
+        let Some(file) = &self.certificate else { return Ok(()) };
+        if finished.spec().surface_norm().is_some_and(|norm| norm != SurfaceNorm::Largest) {
+            return Err(Failure::Usage(
+                "--certificate: a --norm that sums over the whole mesh forces no single bisection. Use --norm max."
+                    .into(),
+            ));
+        }
+        let bisections = terminal.while_working("finding the demands", || finished.bisections());
+        let lattice = finished.mesh().lattice();
+        write_file(file, |out| certificate::write_mesh(out, &bisections, lattice, &provenance()))
+            .map_err(|error| Failure::Write { file: file.clone(), problem: error.to_string() })?;
+        terminal.say(&format!("wrote {}", file.display()));
+        Ok(())
+    }
 }

@@ -4,8 +4,8 @@ use std::io::Write;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
-use super::details::{DetailUses, MeshDetails};
-use super::error_curve::{check_curve_file, write_error_curve};
+use super::details::{DetailUses, MeshDetails, provenance};
+use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
@@ -41,7 +41,7 @@ pub fn run(
     let inputs = input.files();
     let mut outputs = files.iter().flat_map(|files| &files.outputs);
     outputs.try_for_each(|output| output.check_places(&inputs))?;
-    typed.curve.error_curve.iter().try_for_each(|file| check_curve_file(file, &inputs))?;
+    typed.curve.check(&inputs)?;
     let finished = build(&input, terminal)?;
     let extract = finished.extract();
     let coordinates = typed.out_crs.unwrap_or_else(|| finished.coordinates().into());
@@ -70,9 +70,8 @@ pub fn run(
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
-    if let Some(file) = &typed.curve.error_curve {
-        write_error_curve(file, (&finished, &extract), details.as_ref(), terminal)?;
-    }
+    let origin = || provenance(&finished, line, &input, OutputCoordinates::Plane);
+    typed.curve.write((&finished, &extract), details.as_ref(), origin, terminal)?;
     if typed.json {
         let json = serde_json::to_string(&summary).map_err(|e| Failure::Print(e.into()))?;
         writeln!(out, "{json}").and_then(|()| out.flush()).map_err(Failure::Print)?;

@@ -122,7 +122,9 @@ pub fn write_certificate(
     let interruption = Interruption::listen().map_err(|error| Failure::Work(format!("{error}.")))?;
     let meter = interruption.meter();
     let written = terminal.while_metered(&format!("writing {}", file.display()), &meter, || {
-        write_file_metered(file, &meter, |out: &mut dyn Write| certificate::write(out, &path, provenance))
+        write_file_metered(file, &meter, |out: &mut dyn Write| {
+            certificate::write_path(out, &path, provenance)
+        })
     });
     interruption.end_program();
     let failed = |error: io::Error| Failure::Write { file: file.to_owned(), problem: error.to_string() };

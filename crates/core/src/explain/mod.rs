@@ -1,6 +1,7 @@
 //! Why a triangle is in a mesh: the cause, and what asked for it.
 
 mod ages;
+mod bisections;
 mod node;
 mod sentences;
 
@@ -10,6 +11,7 @@ use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 use crate::surface::SurfaceDemand;
 
 pub use ages::{Ages, AgesNow};
+pub use bisections::Bisections;
 pub use node::NodeFacts;
 pub use sentences::Words;
 
@@ -35,6 +37,18 @@ pub enum Demand {
     Surface(SurfaceDemand),
 }
 
+impl Demand {
+    /// Returns why a triangle exceeds its target, if it does.
+    fn of(triangle: &TreeTriangle, criterion: &RefinementCriterion<'_>) -> Self {
+        let (corners, level) = (triangle.corners(), triangle.level());
+        if criterion.outline_asks(corners, level) {
+            return Self::Outline;
+        }
+        let target = || Self::Target(criterion.least_within(corners));
+        criterion.surface_demand(corners).map_or_else(target, Self::Surface)
+    }
+}
+
 impl Explanation {
     /// Returns why a triangle of the bisection tree is in a mesh that is up to date with a criterion and
     /// limits.
@@ -47,13 +61,7 @@ impl Explanation {
         limits: &Limits,
     ) -> Self {
         let cause = mesh.cause_of(&triangle, |one| asks_to_bisect(one, criterion, limits));
-        let demand = cause.required_by().map(|one| {
-            if criterion.outline_asks(one.corners(), one.level()) {
-                return Demand::Outline;
-            }
-            let target = || Demand::Target(criterion.least_within(one.corners()));
-            criterion.surface_demand(one.corners()).map_or_else(target, Demand::Surface)
-        });
+        let demand = cause.required_by().map(|one| Demand::of(one, criterion));
         Self { triangle, cause, demand }
     }
 

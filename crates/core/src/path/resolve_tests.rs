@@ -191,8 +191,8 @@ fn values_after_an_edit_are_those_of_a_new_march_bit_for_bit() {
     assert!(redone < all / 2 && kites > 300, "{redone} of {all}, {kites} from kites");
 }
 
-/// Each corner of an expensive triangle gets a lower value through a cheap one beside it than from the start in
-/// the triangle. Where that becomes expensive, the corner's own value counts again.
+/// Each corner of an expensive triangle gets a lower value through a cheap one beside it than from the start
+/// in the triangle. Where that becomes expensive, the corner's own value counts again.
 #[test]
 fn a_start_whose_value_came_from_elsewhere_gets_its_own_again() {
     let mut random = fastrand::Rng::with_seed(1406);

@@ -1,4 +1,5 @@
-//! Certificates of paths: what proves their lower bounds, as numbers that other programs can check.
+//! Certificates: what proves the lower bounds of paths, and which bisections of a mesh an error forces, as
+//! numbers that other programs can check.
 
 use std::io::{self, Write};
 
@@ -8,8 +9,11 @@ use serde::Serialize;
 use super::Provenance;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::domain::{Domain, Polygon};
+use meshbrush_core::explain::{Bisections, Demand};
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{DualFunction, LegProof};
+use meshbrush_mesh::geometry::{Lattice, LatticePoint};
+use meshbrush_mesh::mesh::TreeTriangle;
 
 /// What the numbers prove, for a reader of the file.
 const ABOUT: &str = "For each leg, v is continuous and quadratic on each triangle, with a value at each node and \
@@ -37,14 +41,104 @@ pub struct CertifiedPath<'a> {
     pub upper: f64,
 }
 
-/// Writes a certificate as JSON. Numbers have all digits: a reader gets the same numbers.
+/// Writes the certificate of a path as JSON. Numbers have all digits: a reader gets the same numbers.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
-pub fn write(out: &mut dyn Write, path: &CertifiedPath<'_>, provenance: &Provenance) -> io::Result<()> {
+pub fn write_path(out: &mut dyn Write, path: &CertifiedPath<'_>, provenance: &Provenance) -> io::Result<()> {
     let file = File::new(path, provenance);
     serde_json::to_writer(&mut *out, &file)?;
     writeln!(out)
+}
+
+/// What the numbers of a mesh show, for a reader of the file.
+const ABOUT_MESH: &str = "Triangles of the bisection forest, each its apex, where the right angle is, and the ends \
+    of its bisection edge, in lattice steps. A demand names a triangle that must be bisected: there the surface is \
+    farther from the triangle than is allowed, or it is larger than its target or the diameter of the outline. With \
+    a triangle its parent and its mirror image across the bisection edge must be bisected. If that gives all \
+    bisected triangles, no conforming mesh of the forest that meets all demands is smaller.";
+
+/// Writes which bisections of a mesh are asked for, as JSON: from that anybody can find that all others are
+/// forced.
+///
+/// # Errors
+/// Fails with the errors of `out`.
+pub fn write_mesh(
+    out: &mut dyn Write,
+    bisections: &Bisections,
+    lattice: &Lattice,
+    provenance: &Provenance,
+) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, &MeshFile::new(bisections, lattice, provenance))?;
+    writeln!(out)
+}
+
+type Corners = [[u32; 2]; 3];
+
+#[derive(Serialize)]
+struct MeshFile {
+    format: &'static str,
+    version: u32,
+    about: &'static str,
+    origin: serde_json::Map<String, serde_json::Value>,
+    /// The position of the lattice point 0, 0, in world units.
+    lattice_origin: [f64; 2],
+    /// A lattice step along x and y, in world units.
+    lattice_step: [f64; 2],
+    coarse: Vec<Corners>,
+    triangles: Vec<Corners>,
+    demands: Vec<DemandOfFile>,
+}
+
+#[derive(Serialize)]
+struct DemandOfFile {
+    triangle: Corners,
+    #[serde(flatten)]
+    why: Why,
+}
+
+#[derive(Serialize)]
+#[serde(tag = "by", rename_all = "snake_case")]
+enum Why {
+    Outline,
+    Target { at: [f64; 2], target: f64 },
+    Surface { at: [f64; 2], error: f64, most: f64 },
+}
+
+impl MeshFile {
+    fn new(bisections: &Bisections, lattice: &Lattice, provenance: &Provenance) -> Self {
+        let Bisections { coarse, leaves, asked } = bisections;
+        let all = |triangles: &[TreeTriangle]| triangles.iter().map(corners).collect();
+        let demand = |(triangle, demand): &(TreeTriangle, Demand)| {
+            let why = match demand {
+                Demand::Outline => Why::Outline,
+                Demand::Target(least) => Why::Target { at: least.at.to_array(), target: least.target },
+                Demand::Surface(demand) => {
+                    Why::Surface { at: demand.at.to_array(), error: demand.error, most: demand.most }
+                }
+            };
+            DemandOfFile { triangle: corners(triangle), why }
+        };
+        Self {
+            format: "Meshbrush mesh certificate",
+            version: 1,
+            about: ABOUT_MESH,
+            origin: origin(provenance),
+            lattice_origin: lattice.world_from_lattice(LatticePoint::new(0, 0)).to_array(),
+            lattice_step: lattice.step().to_array(),
+            coarse: all(coarse),
+            triangles: all(leaves),
+            demands: asked.iter().map(demand).collect(),
+        }
+    }
+}
+
+fn corners(triangle: &TreeTriangle) -> Corners {
+    triangle.corners().map(|corner| [corner.x, corner.y])
+}
+
+fn origin(provenance: &Provenance) -> serde_json::Map<String, serde_json::Value> {
+    provenance.entries().map(|(key, text)| (key.to_owned(), text.into())).collect()
 }
 
 #[derive(Serialize)]
@@ -83,7 +177,6 @@ struct LegOfFile<'a> {
 impl<'a> File<'a> {
     fn new(path: &CertifiedPath<'a>, provenance: &Provenance) -> Self {
         let CertifiedPath { proofs, cost, domain, keep_out, clearance, lower, upper } = *path;
-        let origin = provenance.entries().map(|(key, text)| (key.to_owned(), text.into())).collect();
         let is_flat = domain.ground().inverse_scale().is_none();
         let formula = || match cost {
             PathCost::Weighted(weights) => format!("{} + {}*risk", weights.length, weights.risk),
@@ -94,7 +187,7 @@ impl<'a> File<'a> {
             format: "Meshbrush path certificate",
             version: 1,
             about: ABOUT,
-            origin,
+            origin: origin(provenance),
             cost: is_flat.then(formula),
             bounds: [domain.bounds.min, domain.bounds.max].map(|corner| corner.to_array()),
             domain: region,
