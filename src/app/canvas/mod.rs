@@ -230,7 +230,7 @@ impl Canvas {
         on_top && rect.shrink(handle).contains(pos) && !covered && !Popup::is_any_open(ctx)
     }
 
-    /// A second finger came: what the first one began is a movement of the view, and its stroke is taken back.
+    /// A second finger came: what the first one began is a movement of the view. Its stroke is taken back.
     fn give_way_to_fingers(&mut self, session: &Session, commands: &mut Vec<Command>) {
         let Some(gesture) = self.gesture.take() else { return };
         if session.document().stroke().is_some() {

@@ -34,7 +34,8 @@ enum Step {
 }
 
 impl MeshDerivation {
-    /// Begins to derive a mesh; `follows` asks for its nodes on the outline, to be kept in step with the mesh.
+    /// Begins to derive a mesh; `follows` asks for its nodes on the outline, to be kept in step with the
+    /// mesh.
     pub fn new(mesh: Arc<Mesh>, domain: DomainOnLattice, cleaning: Cleaning, follows: bool) -> Self {
         Self { mesh, domain, cleaning, follows, step: Step::Begin, derived: None, follower: None }
     }

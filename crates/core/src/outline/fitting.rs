@@ -13,7 +13,7 @@ use super::snap::{Crossings, Side, snapped};
 use super::stages::{DerivationAction, Watch, without_outside};
 use super::stencil::Placement;
 use crate::geometry::LatticePoint;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshPatch};
 
 /// Number of rounds of flips and moves that improve the angles.
 const ROUNDS: usize = 8;
@@ -34,9 +34,8 @@ enum Stage {
     Pin(Placement),
     Retreat(Placement, Vec<Pin>),
     Divide(Placement, Vec<Pin>),
-    Flip(Pieces, usize),
-    Smooth(Pieces, usize),
-    Pull(Pieces),
+    /// After so many steps of [`Pieces::improved`].
+    Improve(Box<Pieces>, usize),
 }
 
 /// The pieces of the triangles, with what they were made of.
@@ -59,10 +58,9 @@ impl Fitting {
         watch: Watch<'_>,
     ) -> ControlFlow<FittedBand, Self> {
         let Self { band, mut zone, stage } = self;
-        let Outline { region, lattice, angles, corners } = outline;
+        let Outline { region, angles, corners, .. } = outline;
         let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
         let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
-        let smoother = Smoother { region, angles, extent: lattice.extent() };
         let stage = match stage {
             Stage::Snap => {
                 watch(DerivationAction::RemoveByCorners, &|| {
@@ -99,26 +97,47 @@ impl Fitting {
             Stage::Divide(placement, pins) => {
                 let zone = std::mem::take(&mut zone);
                 let patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
-                Stage::Flip(Pieces { patchwork, pins, placement }, 0)
+                Stage::Improve(Box::new(Pieces { patchwork, pins, placement }), 0)
             }
-            Stage::Flip(mut pieces, round) => {
-                pieces.patchwork.flip_edges(angles);
-                watch(DerivationAction::FlipEdges, &|| as_patch(&pieces.patchwork));
-                Stage::Smooth(pieces, round)
-            }
-            Stage::Smooth(mut pieces, round) => {
-                smoother.smooth(&mut pieces.patchwork);
-                watch(DerivationAction::ShiftNodes, &|| as_patch(&pieces.patchwork));
-                if round + 1 < ROUNDS { Stage::Flip(pieces, round + 1) } else { Stage::Pull(pieces) }
-            }
-            Stage::Pull(mut pieces) => {
-                smoother.pull(&mut pieces.patchwork);
-                watch(DerivationAction::PullToOutline, &|| as_patch(&pieces.patchwork));
-                let Pieces { patchwork, pins, placement } = pieces;
-                return ControlFlow::Break(FittedBand { band, patchwork, pins, placement });
-            }
+            Stage::Improve(pieces, step) => match pieces.improved(step, outline, watch, &as_patch) {
+                (pieces, Some(step)) => Stage::Improve(Box::new(pieces), step),
+                (Pieces { patchwork, pins, placement }, None) => {
+                    return ControlFlow::Break(FittedBand { band, patchwork, pins, placement });
+                }
+            },
         };
         ControlFlow::Continue(Self { band, zone, stage })
+    }
+}
+
+impl Pieces {
+    /// Takes a step for better angles: flips and moves in turn, and at last a pull to the outline. Returns
+    /// the number of the next one.
+    fn improved(
+        mut self,
+        step: usize,
+        Outline { region, lattice, angles, .. }: &Outline,
+        watch: Watch<'_>,
+        as_patch: &dyn Fn(&Patchwork) -> MeshPatch,
+    ) -> (Self, Option<usize>) {
+        let smoother = Smoother { region, angles, extent: lattice.extent() };
+        let action = match step {
+            step if step == 2 * ROUNDS => {
+                smoother.pull(&mut self.patchwork);
+                DerivationAction::PullToOutline
+            }
+            step if step % 2 == 0 => {
+                self.patchwork.flip_edges(angles);
+                DerivationAction::FlipEdges
+            }
+            _ => {
+                smoother.smooth(&mut self.patchwork);
+                DerivationAction::ShiftNodes
+            }
+        };
+        watch(action, &|| as_patch(&self.patchwork));
+        let next = (step < 2 * ROUNDS).then_some(step + 1);
+        (self, next)
     }
 }
 

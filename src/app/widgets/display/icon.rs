@@ -1,5 +1,5 @@
-//! Icons by what they mean here: code points of Material Symbols Rounded. `assets/fonts/make.py` makes the font
-//! from these, so it must be run after a change.
+//! Icons by what they mean here: code points of Material Symbols Rounded. `assets/fonts/make.py` makes the
+//! font from these, so it must be run after a change.
 
 /// A sign of the icon font.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
