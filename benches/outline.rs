@@ -14,9 +14,9 @@ use meshbrush_benches::window::{Slices, wave};
 use meshbrush_core::document::{Document, Follower, MeshChange, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
-use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
+use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFollower};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
-use meshbrush_mesh::mesh::{Changes, Cleaning};
+use meshbrush_mesh::mesh::{Changes, Cleaning, Progress};
 
 /// Runs from scratch.
 const RUNS: usize = 5;
@@ -79,12 +79,9 @@ impl Scene {
             report(name, runs.min().expect("some runs"));
         }
         let both = || {
-            _ = DerivedMesh::derive_and_follow(
-                follower.mesh(),
-                follower.domain(),
-                &Cleaning::FOR_SOLVERS,
-                |_| true,
-            )
+            let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
+            let mut derivation = MeshDerivation::new(mesh, domain, Cleaning::FOR_SOLVERS, true);
+            while derivation.advance() == Progress::More {}
         };
         report("and followed", (0..RUNS).map(|_| measured(both)).min().expect("some runs"));
         let mut outline = OutlineFollower::new(follower.mesh(), follower.domain()).expect("on the outline");

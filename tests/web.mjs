@@ -43,11 +43,24 @@ let open;
 async function browse(mode, options = {}) {
   const browser = await chromium.launch({ executablePath: browserPath, args: mode === "webgpu" ? WEBGPU : [...WEBGL, "--disable-features=WebGPU"] });
   const context = await browser.newContext({ viewport: { width: 1360, height: 800 }, acceptDownloads: true, permissions: ["clipboard-read", "clipboard-write"], ...options });
+  context.on("page", (other) => { other.shot = (name) => other.screenshot({ path: path.join(scratch, `${mode}-${name}.png`) }); });
   const page = await context.newPage();
   page.problems = [];
   page.on("pageerror", (problem) => page.problems.push(String(problem)));
   page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
   await page.addInitScript(() => {
+    const getContext = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      const context = getContext.call(this, kind, ...rest);
+      window.glContext = kind === "webgl2" && context ? context : window.glContext;
+      return context;
+    };
+    if (window.GPUAdapter) {
+      const requestDevice = GPUAdapter.prototype.requestDevice;
+      GPUAdapter.prototype.requestDevice = async function (...of) {
+        return (window.gpuDevice = await requestDevice.apply(this, of));
+      };
+    }
     window.frameTimes = [];
     const request = window.requestAnimationFrame.bind(window);
     window.requestAnimationFrame = (frame) =>
@@ -112,10 +125,22 @@ async function paint(page, from = [300, 350], steps = 60) {
   await page.mouse.up();
 }
 
+/** Drags the goal of the path of the example around. */
+async function dragGoal(page) {
+  await page.mouse.move(817, 174);
+  await page.mouse.down();
+  for (let step = 0; step < 60; step++) {
+    await page.mouse.move(817 - 4 * step, 174 + 2 * step);
+    await sleep(16);
+  }
+  await page.mouse.up();
+}
+
 function times(list) {
   const sorted = list.filter((time) => time > 1).sort((a, b) => a - b); // the others drew nothing
   const at = (share) => sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))]?.toFixed(1);
-  return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, worst ${at(1)} ms of ${sorted.length} frames`;
+  const long = sorted.filter((time) => time > 50).length;
+  return `median ${at(0.5)} ms, 95 % ${at(0.95)} ms, worst ${at(1)} ms, ${long} of ${sorted.length} frames over 50 ms`;
 }
 
 /** Drops files on the page. */
@@ -151,10 +176,19 @@ const tests = {
       await page.evaluate(() => { window.frameTimes = []; });
       assert.equal(found, onDesktop(await projectOf(page)), name);
       await page.shot(`example-${name.replace(/\W+/g, "-")}`);
-      await paint(page);
+      const framesOf = async (act) => {
+        await sleep(2500); // what goes on after opening
+        await page.evaluate(() => { window.frameTimes = []; });
+        await act();
+        return times(await page.evaluate(() => window.frameTimes));
+      };
+      const painting = await framesOf(() => paint(page));
       await settled(page);
-      const painting = await page.evaluate(() => window.frameTimes);
-      console.log(`    ${name}: ${found}\n      opening ${times(opening)}\n      painting ${times(painting)}`);
+      console.log(`    ${name}: ${found}\n      opening ${times(opening)}\n      painting ${painting}`);
+      if (name === "Threats and a path") {
+        await page.mouse.click(26, 250); // the tool Path
+        console.log(`      dragging the goal ${await framesOf(() => dragGoal(page))}`);
+      }
       assert.deepEqual(page.problems, [], name);
       await browser.close();
     }
@@ -283,7 +317,7 @@ const tests = {
       const empty = await visit(hash);
       assert.match(await until("a sentence", () => message(page)), words);
       await paint(page);
-      assert.notEqual(await settled(page), empty, "the empty document can be painted");
+      await until("the empty document is painted", async () => { const now = await fingerprint(page); return now && now !== empty; });
     }
   },
 
@@ -320,6 +354,168 @@ const tests = {
     const prints = await Promise.all(both.map((frame) => frame.evaluate(() => window.meshbrush.fingerprint())));
     assert.notEqual(prints[0], prints[1]);
     await page.shot("comparison");
+  },
+
+  async "fingers: one paints, two move and zoom the view"({ mode }) {
+    const { page } = await browse(mode, { hasTouch: true });
+    await page.goto(url);
+    const before = await settled(page);
+    const cdp = await page.context().newCDPSession(page);
+    const touch = async (type, ...points) => {
+      await cdp.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+      await sleep(20);
+    };
+    const picture = async () => { await sleep(600); return (await page.screenshot()).toString("base64"); };
+    const fitted = await picture();
+    await touch("touchStart", [420, 400]);
+    await touch("touchMove", [422, 401]);
+    await touch("touchStart", [422, 401], [520, 400]);
+    for (let step = 1; step < 20; step++) {
+      await touch("touchMove", [422 - 6 * step, 401], [520 + 6 * step, 400]);
+    }
+    await touch("touchEnd");
+    assert.equal(await settled(page), before, "nothing was painted");
+    assert.notEqual(await picture(), fitted, "the view has moved");
+    await page.shot("fingers");
+    await touch("touchStart", [400, 380]);
+    for (let step = 1; step < 20; step++) {
+      await touch("touchMove", [400 + 8 * step, 380]);
+    }
+    await touch("touchEnd");
+    const painted = await settled(page);
+    assert.notEqual(painted, before);
+    assert.equal(painted, onDesktop(await projectOf(page)));
+    await page.keyboard.press("Control+z");
+    await until("one stroke is undone", async () => (await fingerprint(page)) === before);
+    assert.deepEqual(page.problems, []);
+    await page.context().browser().close();
+  },
+
+  async "a pen paints broader the harder it is pressed"({ page }) {
+    await page.goto(url);
+    const before = await settled(page);
+    const triangles = () => page.evaluate(() => window.meshbrush.triangles());
+    const unpainted = await triangles();
+    const cdp = await page.context().newCDPSession(page);
+    const pen = (type, x, force) => cdp.send("Input.dispatchMouseEvent", {
+      type, x, y: 640, force, button: "left", buttons: type === "mouseReleased" ? 0 : 1, clickCount: 1, pointerType: "pen",
+    });
+    const stroke = async (force) => {
+      await pen("mousePressed", 300, force);
+      for (let x = 304; x < 420; x += 4) {
+        await pen("mouseMoved", x, force);
+        await sleep(16);
+      }
+      await pen("mouseReleased", 420, 0);
+      await settled(page);
+      const added = (await triangles()) - unpainted;
+      await page.shot(`pen-${force}`);
+      await page.keyboard.press("Control+z");
+      await until("undo", async () => (await fingerprint(page)) === before);
+      return added;
+    };
+    const [light, firm] = [await stroke(0.2), await stroke(0.9)];
+    assert(light > 0 && firm > 2 * light, `${light} and ${firm} triangles more`);
+  },
+
+  async "a lost graphics device is a sentence, and the work is offered again"({ page, mode }) {
+    await page.goto(url);
+    await settled(page);
+    await paint(page);
+    const painted = await settled(page);
+    await page.evaluate(() => {
+      window.lost = window.gpuDevice ? window.gpuDevice.destroy() : window.glContext.getExtension("WEBGL_lose_context").loseContext();
+    });
+    await until("a sentence", async () => /lost its graphics device/.test(await page.textContent("#text")));
+    assert(await page.isVisible("#text"));
+    await page.shot("lost");
+    await sleep(1500);
+    page.problems = []; // the browser's own words about it
+    await page.reload();
+    await settled(page);
+    await sleep(2500);
+    await page.keyboard.press("Enter");
+    await until("the work is restored", async () => (await fingerprint(page)) === painted);
+  },
+
+  async "two tabs keep their own work, and only what was left behind is offered"({ page }) {
+    await page.goto(url);
+    const fresh = await settled(page);
+    await paint(page);
+    const first = await settled(page);
+    const context = page.context();
+    const open = async () => {
+      const other = await context.newPage();
+      await other.goto(url);
+      assert.equal(await settled(other), fresh);
+      await sleep(2500);
+      return other;
+    };
+    const other = await open();
+    await other.keyboard.press("Enter");
+    await sleep(300);
+    assert.equal(await fingerprint(other), fresh, "the work of a tab that lives is not offered");
+    await paint(other, [300, 500], 30);
+    const second = await settled(other);
+    await sleep(1500);
+    await page.close();
+    await other.close();
+    // Both are offered, one after the other.
+    const third = await open();
+    await third.keyboard.press("Enter");
+    await until("one is restored", async () => [first, second].includes(await fingerprint(third)));
+    await sleep(1500);
+    await third.close();
+    const fourth = await open();
+    await fourth.keyboard.press("Enter");
+    await until("one is restored", async () => [first, second].includes(await fingerprint(fourth)));
+    const again = await fingerprint(fourth);
+    await sleep(1500);
+    await fourth.keyboard.press("Enter"); // the other one: the window asks whether to save the first
+    await sleep(500);
+    await fourth.shot("two-tabs");
+    await fourth.mouse.click(538, 432); // “Do not save”
+    const left = again === first ? second : first;
+    await until("the other is restored", async () => (await fingerprint(fourth)) === left);
+  },
+
+  async "a tab in the background finishes its mesh and keeps its work"({ page }) {
+    await page.goto(url);
+    const fresh = await settled(page);
+    await paint(page);
+    // Another tab is brought to the front at once, before the work is kept.
+    const front = await page.context().newPage();
+    await front.bringToFront();
+    await page.evaluate(() => {
+      Object.defineProperty(document, "hidden", { get: () => true });
+      Object.defineProperty(document, "visibilityState", { get: () => "hidden" });
+      document.dispatchEvent(new Event("visibilitychange"));
+      window.dispatchEvent(new Event("blur"));
+    });
+    const painted = await settled(page);
+    assert.notEqual(painted, fresh);
+    await sleep(2500);
+    await page.close();
+    const next = await page.context().newPage();
+    await next.goto(url);
+    await settled(next);
+    await sleep(2500);
+    await next.keyboard.press("Enter");
+    await until("the work is restored", async () => (await fingerprint(next)) === painted);
+  },
+
+  async "an example that the server does not send is a sentence, and can be opened later"({ page }) {
+    await page.route("**/assets/**", (route) => route.fulfill({ status: 404, body: "" }));
+    await page.goto(url);
+    const before = await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("Aegean Sea"));
+    assert.match(await until("a sentence", () => message(page)), /“Aegean Sea” could not be loaded.*aegean_sea\.geojson \(404/);
+    await page.shot("not-sent");
+    assert.equal(await fingerprint(page), before, "the document stays");
+    await page.unroute("**/assets/**");
+    page.problems = []; // the browser's own words about it
+    await page.evaluate(() => window.meshbrush.openExample("Aegean Sea"));
+    await until("it is opened", async () => { const now = await fingerprint(page); return now && now !== before; });
   },
 
   async "a small screen, a dense one, and a second tab"({ page, browser }) {

@@ -33,6 +33,21 @@ function metered(response, bytes) {
   return new Response(response.body.pipeThrough(counter), { headers: { "Content-Type": "application/wasm" } });
 }
 
+/** Says when the browser takes away what the canvas is drawn with: nothing more can be seen on it then. */
+function watchDevice() {
+  const lost = () => say("The browser has lost its graphics device. Load the page again: unsaved work is kept and is then offered.");
+  canvas.addEventListener("webglcontextlost", lost);
+  const adapter = globalThis.GPUAdapter?.prototype;
+  const requestDevice = adapter?.requestDevice;
+  if (requestDevice) {
+    adapter.requestDevice = async function (...options) {
+      const device = await requestDevice.apply(this, options);
+      device.lost.then(lost);
+      return device;
+    };
+  }
+}
+
 async function load() {
   if (typeof WebAssembly !== "object") {
     throw new Error("This browser runs no WebAssembly, or it is switched off. Use a newer browser, or allow it for this page.");
@@ -47,6 +62,7 @@ async function load() {
   const bytes = packed ? 0 : Number(response.headers.get("Content-Length"));
   await init({ module_or_path: metered(response, bytes) });
   text.textContent = "Meshbrush starts.";
+  watchDevice();
   canvas.hidden = false;
   const meshbrush = new Meshbrush();
   await meshbrush.start(canvas);

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Makes the window's fonts from Debian's packages: see assets/README.md.
+"""Makes the window's fonts: see assets/README.md.
 
-    python3 make.py FOLDER      FOLDER holds the unpacked packages
+    python3 make.py FOLDER ICONS      FOLDER holds the unpacked packages of Debian, ICONS is
+                                      MaterialSymbolsRounded-Regular.ttf
 """
 
 import pathlib
+import re
 import sys
 
 from fontTools import subset
@@ -35,6 +37,8 @@ FONTS = {
     "truetype/jetbrains-mono/JetBrainsMono-Regular.ttf": "JetBrainsMono-Regular.ttf",
 }
 
+ICON_SOURCE = pathlib.Path(__file__).parents[2] / "src/app/widgets/display/icon.rs"
+
 
 def quadratic(font):
     """Replaces cubic outlines by quadratic ones, at most 1/1000 em away."""
@@ -63,7 +67,19 @@ def quadratic(font):
     font.sfntVersion = "\000\001\000\000"
 
 
-def main(folder):
+def icons(path):
+    """Keeps the icons that the window names."""
+    font = TTFont(path, recalcTimestamp=False)
+    subsetter = subset.Subsetter(subset.Options(layout_features=[], name_IDs=["*"], notdef_outline=True))
+    subsetter.populate(unicodes=[int(point, 16) for point in re.findall(r"\\u\{([0-9a-f]+)\}", ICON_SOURCE.read_text())])
+    subsetter.subset(font)
+    target = pathlib.Path(__file__).with_name("MaterialSymbols.ttf")
+    font.save(target)
+    print(f"{target.name}: {len(font.getBestCmap())} icons, {target.stat().st_size} bytes")
+
+
+def main(folder, icon_font):
+    icons(icon_font)
     source = pathlib.Path(folder, "usr/share/fonts")
     for path, name in FONTS.items():
         font = TTFont(source / path, recalcTimestamp=False)

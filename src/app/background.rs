@@ -142,6 +142,7 @@ impl Background {
 
     /// Starts work on a file. It checks its meter often; its outcome is applied, unless it only read and was
     /// cancelled.
+    #[track_caller]
     pub fn start(&mut self, aim: Aim, path: &Path, work: impl FnOnce(&Meter) -> Outcome + Send + 'static) {
         let meter = Meter::default();
         let (watched, threads) = (meter.clone(), self.threads);

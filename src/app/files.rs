@@ -8,6 +8,7 @@ use glam::DVec2;
 
 use super::background::{Aim, Background, Outcome, cancelled, exported};
 use super::command::{Command, FileCommand, Opened, ShellCommand};
+use super::host::asset;
 use super::kit::Keymap;
 use super::session::Session;
 use super::space::Space;
@@ -37,30 +38,48 @@ use meshbrush_render::scene::NodeHeights;
 const TERRAIN_KM: DVec2 = DVec2::new(30.0, 31.8);
 
 /// The sea between Greece and Turkey, as a file.
-pub const AEGEAN_SEA: &[u8] = include_bytes!("../../assets/aegean_sea.geojson");
+pub const AEGEAN_SEA: &str = "aegean_sea.geojson";
+const CELTIC_SEA: &str = "celtic_sea.geojson";
+const CELTIC_DEPTHS: &str = "celtic_sea_depths.tif";
+const SLOPE: &str = "jacksboro_slope.png";
+const HEIGHTS: &str = "jacksboro_heights.tif";
+
+/// Returns the files of an example that are not here yet: a page fetches them.
+pub fn missing_for(example: Example) -> Vec<&'static str> {
+    let files: &[&str] = match example {
+        Example::Terrain | Example::Layers => &[SLOPE],
+        Example::Heights => &[HEIGHTS],
+        Example::Aegean => &[AEGEAN_SEA],
+        Example::CelticSea => &[CELTIC_SEA, CELTIC_DEPTHS],
+        _ => &[],
+    };
+    files.iter().copied().filter(|file| asset(file).is_none()).collect()
+}
+
+/// Returns a file of an example that is here.
+fn present(file: &str) -> &'static [u8] {
+    asset(file).expect("whoever opens an example fetches what is missing for it")
+}
 
 /// Returns the slope of a real terrain as risk.
 pub fn terrain_slope() -> Raster {
-    let picture = include_bytes!("../../assets/jacksboro_slope.png");
     let bounds = Rect::new(DVec2::ZERO, TERRAIN_KM);
-    decode(Cursor::new(picture), bounds, Behind::Black)
+    decode(Cursor::new(present(SLOPE)), bounds, Behind::Black)
         .expect("the picture is part of the program: a test opens it")
 }
 
 /// Returns the sea between Greece and Turkey.
 fn aegean_sea() -> Vec<NamedPolygon> {
-    io::geojson::read_named_from(AEGEAN_SEA, Path::new("aegean_sea.geojson"))
+    io::geojson::read_named_from(present(AEGEAN_SEA), Path::new(AEGEAN_SEA))
         .expect("the outline is part of the program: a test opens it")
 }
 
 /// Returns the Celtic Sea and its depths.
 fn celtic_sea() -> SeaChart {
-    let sea = include_bytes!("../../assets/celtic_sea.geojson");
-    let depths = include_bytes!("../../assets/celtic_sea_depths.tif");
     SeaChart {
-        sea: io::geojson::read_named_from(&sea[..], Path::new("celtic_sea.geojson"))
+        sea: io::geojson::read_named_from(present(CELTIC_SEA), Path::new(CELTIC_SEA))
             .expect("the outline is part of the program: a test opens it"),
-        depths: io::geotiff::decode(Cursor::new(depths))
+        depths: io::geotiff::decode(Cursor::new(present(CELTIC_DEPTHS)))
             .expect("the depths are part of the program: a test opens them")
             .raster,
     }
@@ -75,8 +94,7 @@ impl ExampleData for Assets {
     }
 
     fn heights(&self) -> Raster {
-        let heights = include_bytes!("../../assets/jacksboro_heights.tif");
-        io::geotiff::decode(Cursor::new(heights))
+        io::geotiff::decode(Cursor::new(present(HEIGHTS)))
             .expect("the heights are part of the program: a test opens them")
             .raster
     }
@@ -95,7 +113,7 @@ pub fn new_document() -> Document {
     Document::new(Settings::default(), None).expect("the default settings are valid: a test opens them")
 }
 
-/// Returns a document that comes with the program.
+/// Returns a document that comes with the program, of which nothing is [missing](missing_for).
 pub fn example(example: Example) -> Document {
     example.document(&Assets)
 }

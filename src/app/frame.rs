@@ -88,6 +88,7 @@ impl App {
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         self.commands.extend(host::take_dropped(&dropped, &mut self.background, &self.jobs));
+        self.commands.extend(host::take_pen());
         let events = ctx.input(|input| input.events.clone());
         let mut used_keys = Vec::new();
         for (index, event) in events.iter().enumerate() {

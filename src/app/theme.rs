@@ -9,7 +9,7 @@ use std::sync::Arc;
 use eframe::egui::{
     self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, TextStyle, Theme, vec2,
 };
-use egui::epaint::text::{FontData, FontDefinitions, FontTweak};
+use egui::epaint::text::{FontData, FontDefinitions};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 
 use meshbrush_render::colormap::Ground;
@@ -273,9 +273,7 @@ fn fonts() -> FontDefinitions {
     add("inter", FontData::from_static(include_bytes!("../../assets/fonts/Inter-Regular.ttf")));
     add("inter-semibold", FontData::from_static(include_bytes!("../../assets/fonts/Inter-SemiBold.ttf")));
     add("mono", FontData::from_static(include_bytes!("../../assets/fonts/JetBrainsMono-Regular.ttf")));
-    let mut icons = egui_material_icons::font_insert().data;
-    icons.tweak = FontTweak { y_offset_factor: 0.0, ..icons.tweak };
-    add("icons", icons);
+    add("icons", FontData::from_static(include_bytes!("../../assets/fonts/MaterialSymbols.ttf")));
     for (family, chain) in [
         (FontFamily::Proportional, ["inter", "mono", "icons"].as_slice()),
         (FontFamily::Monospace, &["mono", "inter", "icons"]),
@@ -451,6 +449,21 @@ mod tests {
     fn level_zero_stays_close_to_the_canvas() {
         for t in both() {
             assert!(contrast(t.level_zero, t.canvas) < 1.35);
+        }
+    }
+
+    #[test]
+    fn the_icon_font_has_every_icon() {
+        let ctx = egui::Context::default();
+        install(&ctx);
+        ctx.run_ui(Default::default(), |_| {}).drop_without_applying_deltas();
+        let source = include_str!("widgets/display/icon.rs");
+        let points = source.split("\\u{").skip(1).map(|rest| rest.split('}').next().unwrap());
+        let icons: Vec<u32> = points.map(|point| u32::from_str_radix(point, 16).unwrap()).collect();
+        assert!(icons.len() > 40);
+        for icon in icons {
+            let icon = char::from_u32(icon).unwrap();
+            assert!(ctx.fonts_mut(|f| f.has_glyph(&font::icon(16.0), icon)), "{icon:?}: run make.py");
         }
     }
 

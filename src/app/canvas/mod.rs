@@ -156,7 +156,7 @@ impl Canvas {
         let Some(pointer) = self.pointer_on(ctx, view, tools, session) else { return };
         match *event {
             Event::PointerButton { pos, button, pressed: true, modifiers }
-                if self.gesture.is_none() && self.is_free_at(ctx, pos) =>
+                if self.gesture.is_none() && self.is_free_at(ctx, pos) && ctx.multi_touch().is_none() =>
             {
                 self.gesture = begin_gesture(ctx, Press { at: pos, modifiers }, button, &pointer, commands);
             }
@@ -171,6 +171,9 @@ impl Canvas {
                 }
             }
             Event::Touch { phase, force, .. } => {
+                if ctx.multi_touch().is_some() {
+                    self.give_way_to_fingers(session, commands);
+                }
                 commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::Brush));
             }
             Event::WindowFocused(false) => self.interrupt(commands),
@@ -193,7 +196,9 @@ impl Canvas {
         if !ctx.input(|input| input.pointer.any_down()) {
             self.interrupt(commands);
         }
-        if response.contains_pointer() {
+        if let Some(fingers) = ctx.multi_touch() {
+            navigation::by_fingers(&fingers, &mut pointer, commands);
+        } else if response.contains_pointer() {
             navigation::zoom(ctx, &mut pointer, commands);
         }
         commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::View));
@@ -223,6 +228,16 @@ impl Canvas {
         let covered = self.floats.iter().any(|float| float.contains(pos));
         // A press beside an open menu only closes it.
         on_top && rect.shrink(handle).contains(pos) && !covered && !Popup::is_any_open(ctx)
+    }
+
+    /// A second finger came: what the first one began is a movement of the view. Its stroke is taken back.
+    fn give_way_to_fingers(&mut self, session: &Session, commands: &mut Vec<Command>) {
+        let Some(gesture) = self.gesture.take() else { return };
+        if session.document().stroke().is_some() {
+            commands.push(Command::Shell(ShellCommand::Escape));
+        } else {
+            gesture.interrupted(commands);
+        }
     }
 
     /// Ends the gesture where it is.

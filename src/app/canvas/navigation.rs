@@ -1,6 +1,8 @@
 //! Moving the view by the wheel, and by the arrow keys while the canvas has the focus.
 
-use eframe::egui::{Context, Event, EventFilter, Id, Key, Response, Stroke, StrokeKind, Ui};
+use eframe::egui::{
+    Context, Event, EventFilter, Id, Key, MultiTouchInfo, Pos2, Response, Stroke, StrokeKind, Ui, Vec2,
+};
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
@@ -22,17 +24,37 @@ pub fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command
     if let Some(at) = at
         && factor != 1.0
     {
-        let px = pointer.px(at);
-        if let Some(space) = &mut pointer.space {
-            // About the point of the surface under the pointer.
-            if let Some(height) = space.height_at_px(px) {
-                space.camera = space.camera.about(height);
-                commands.push(Command::View(ViewCommand::Space(SpaceCommand::About(height))));
-            }
-            space.camera = space.camera.zoomed(factor, px);
+        zoom_about(at, factor, pointer, commands);
+    }
+}
+
+/// Zooms about a place in points.
+fn zoom_about(at: Pos2, factor: f64, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    let px = pointer.px(at);
+    if let Some(space) = &mut pointer.space {
+        // About the point of the surface there.
+        if let Some(height) = space.height_at_px(px) {
+            space.camera = space.camera.about(height);
+            commands.push(Command::View(ViewCommand::Space(SpaceCommand::About(height))));
         }
-        pointer.camera = pointer.camera.zoomed(factor, px);
-        commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
+        space.camera = space.camera.zoomed(factor, px);
+    }
+    pointer.camera = pointer.camera.zoomed(factor, px);
+    commands.push(Command::View(ViewCommand::ZoomAt(factor, px)));
+}
+
+/// Moves and zooms the view with two fingers or more on the canvas: what is under them stays there.
+pub fn by_fingers(fingers: &MultiTouchInfo, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
+    if !pointer.rect.contains(fingers.center_pos) {
+        return;
+    }
+    let moved = fingers.translation_delta;
+    if moved != Vec2::ZERO {
+        let px = dvec2(moved.x.into(), moved.y.into()) * pointer.px_per_point;
+        commands.push(Command::View(ViewCommand::Pan(px)));
+    }
+    if fingers.zoom_delta != 1.0 {
+        zoom_about(fingers.center_pos, fingers.zoom_delta.into(), pointer, commands);
     }
 }
 

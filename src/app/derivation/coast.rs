@@ -5,14 +5,16 @@
 
 use std::collections::HashSet;
 
+use crate::app::host;
 use meshbrush_core::document::{Follower, MeshChange};
 use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Changes, Mesh, Replacement, TriangleId};
 
 /// Most triangles that come near the outline in one frame while it is kept in step. With more, the mesh is
-/// derived from scratch on another thread: this takes as long as a few frames.
-const MOST_AT_ONCE: usize = 4096;
+/// derived from scratch by a job: on another thread that takes as long as a few frames. A page has one
+/// thread.
+const MOST_AT_ONCE: usize = if host::IS_PAGE { 32 } else { 4096 };
 
 /// The triangles that cleaning removed from a derived mesh, by their corners in ascending order.
 #[derive(Debug, Default)]

@@ -22,10 +22,10 @@ use coast::{Coast, RemovedTriangles};
 
 use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
-use meshbrush_core::domain::{Domain, DomainOnLattice, FitQuality, Region};
-use meshbrush_core::outline::{DerivedMesh, OutlineFit, OutlineFollower};
+use meshbrush_core::domain::{Domain, FitQuality, Region};
+use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
-    Changes, Cleaning, Extract, Location, Mesh, MeshView, PatchPieces, PatchedLocator, Removed, Topology,
+    Changes, Cleaning, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
     TriangleId,
 };
 
@@ -320,76 +320,102 @@ impl Derivation {
     }
 
     fn start(&mut self, key: Key, follower: &Follower, jobs: &Jobs) {
-        let work = Work {
-            key: key.clone(),
-            mesh: follower.shared_mesh(),
-            domain: follower.domain().clone(),
-            in_world: follower.settings().domain.clone(),
-            has_coast: self.coast.is_of(follower),
-        };
+        let follows = !self.coast.is_of(follower);
         // Dropping a large one takes longer than a frame.
         let useless = self.coast.take_useless();
-        let job = jobs.start(Kind::Compute, move |output| {
+        let settings = follower.settings();
+        let (domain, cleaning) = (follower.domain().clone(), key.cleaning);
+        let derivation = MeshDerivation::new(follower.shared_mesh(), domain, cleaning, follows);
+        let work =
+            Work { key: key.clone(), in_world: settings.domain.clone(), step: Step::Derive(derivation) };
+        let begin = move || {
             drop(useless);
-            work.derive(output);
-        });
+            Some(work)
+        };
+        let job = jobs.start_in_slices(Kind::Compute, begin, Work::advance);
         self.running = Some(Running { key, job, since: None, replaced: Vec::new() });
     }
 }
 
-/// A mesh to be derived.
+/// A mesh to be derived, to be kept in step along the coast, and to be compared with the outline.
 struct Work {
     key: Key,
-    mesh: Arc<Mesh>,
-    domain: DomainOnLattice,
     in_world: Domain,
-    /// Whether the coast is kept in step already.
-    has_coast: bool,
+    step: Step,
+}
+
+/// What is done next.
+enum Step {
+    Derive(MeshDerivation),
+    Extract(MeshDerivation, DerivedMesh),
+    Send(MeshDerivation, DerivedMesh, Arc<Extract<'static>>),
+    Follow(MeshDerivation, Arc<Extract<'static>>),
+    Compare(Arc<Extract<'static>>),
+    Done,
 }
 
 impl Work {
-    /// Derives the mesh, begins to keep its coast in step, and compares it with the outline.
-    fn derive(self, output: &Output<Outcome>) {
-        let Self { key, mesh, domain, in_world, has_coast } = self;
-        let (cleaning, region) = (key.cleaning, key.region.clone());
-        let mut extract = None;
-        let send = |derived: DerivedMesh| {
-            extract = send_derived(key, &mesh, derived, output);
-            extract.is_some()
+    /// Takes the next step, and sends what it has found.
+    fn advance(&mut self, output: &Output<Outcome>) -> Progress {
+        self.step = match std::mem::replace(&mut self.step, Step::Done) {
+            Step::Derive(mut derivation) => {
+                derivation.advance();
+                match derivation.take_derived() {
+                    Some(derived) => Step::Extract(derivation, derived),
+                    None => Step::Derive(derivation),
+                }
+            }
+            Step::Extract(derivation, derived) => {
+                let extract = Arc::new(derived.extract(derivation.mesh()).into_owned());
+                Step::Send(derivation, derived, extract)
+            }
+            Step::Send(derivation, derived, extract) => {
+                self.send(&derivation, &derived, &extract, output);
+                Step::Follow(derivation, extract)
+            }
+            Step::Follow(mut derivation, extract) => {
+                let progress = derivation.advance();
+                if let Some(outline) = derivation.take_follower() {
+                    output.send(Outcome::Coast(Box::new(outline)));
+                }
+                match progress {
+                    Progress::More => Step::Follow(derivation, extract),
+                    Progress::Done => Step::Compare(extract),
+                }
+            }
+            Step::Compare(extract) => {
+                let quality = FitQuality::of(&extract, &self.key.region, &self.in_world.ground());
+                output.send(Outcome::Quality(quality));
+                Step::Done
+            }
+            Step::Done => Step::Done,
         };
-        if has_coast || domain.region_on_outline().is_none() {
-            send(DerivedMesh::new(&mesh, &domain, &cleaning));
-        } else if let Some(outline) = DerivedMesh::derive_and_follow(&mesh, &domain, &cleaning, send) {
-            output.send(Outcome::Coast(Box::new(outline)));
-        }
-        drop(mesh);
-        if let Some(extract) = extract.filter(|_| output.is_wanted()) {
-            output.send(Outcome::Quality(FitQuality::of(&extract, &region, &in_world.ground())));
-        }
+        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
     }
-}
 
-/// Sends a derived mesh with its pieces, and returns its nodes and triangles; `None` if it is not wanted.
-fn send_derived(
-    key: Key,
-    mesh: &Mesh,
-    derived_mesh: DerivedMesh,
-    output: &Output<Outcome>,
-) -> Option<Arc<Extract<'static>>> {
-    let extract = output.is_wanted().then(|| Arc::new(derived_mesh.extract(mesh).into_owned()))?;
-    let pieces = output.is_wanted().then(|| PatchPieces::new(mesh, derived_mesh.patch(), &extract))?;
-    let derived = Derived {
-        key,
-        locator: PatchedLocator::new(mesh, derived_mesh.patch(), &extract),
-        level_counts: extract.level_counts(),
-        topology: extract.topology(),
-        removed: derived_mesh.removed().clone(),
-        outline_fit: derived_mesh.fit(),
-        quality: None,
-        extract: extract.clone(),
-    };
-    let removed = RemovedTriangles::of(&derived_mesh);
-    output.send(Outcome::Derived(Box::new(derived), pieces, removed)).then_some(extract)
+    /// Sends a derived mesh with its pieces.
+    fn send(
+        &self,
+        derivation: &MeshDerivation,
+        derived_mesh: &DerivedMesh,
+        extract: &Arc<Extract<'static>>,
+        output: &Output<Outcome>,
+    ) {
+        let mesh = derivation.mesh();
+        let pieces = PatchPieces::new(mesh, derived_mesh.patch(), extract);
+        let derived = Derived {
+            key: self.key.clone(),
+            locator: PatchedLocator::new(mesh, derived_mesh.patch(), extract),
+            level_counts: extract.level_counts(),
+            topology: extract.topology(),
+            removed: derived_mesh.removed().clone(),
+            outline_fit: derived_mesh.fit(),
+            quality: None,
+            extract: extract.clone(),
+        };
+        let removed = RemovedTriangles::of(derived_mesh);
+        output.send(Outcome::Derived(Box::new(derived), pieces, removed));
+    }
 }
 
 /// Which mesh was measured.

@@ -1,6 +1,7 @@
 //! What the window asks of a desktop: to be opened, a folder for the data of the program, and file dialogs.
 //! In a browser [`web`](super) does the same.
 
+mod assets;
 mod file_dialog;
 pub mod journal;
 
@@ -12,6 +13,7 @@ use super::background::Background;
 use super::command::{Command, FileCommand};
 use super::jobs::Jobs;
 use super::{App, NO_DRIVER, SMALLEST_SIZE, set_up_gpu};
+pub use assets::{asset, fetch};
 pub use file_dialog::{ask, has_dialog};
 
 /// Identifies the window to the desktop: the name of the desktop entry in `packaging`.
@@ -37,6 +39,11 @@ pub fn data_folder() -> Option<PathBuf> {
 /// Returns the commands for files that were dropped on the window.
 pub fn take_dropped(files: &[DroppedFileHandle], _: &mut Background, _: &Jobs) -> Vec<Command> {
     files.iter().map(|file| Command::File(FileCommand::AddData(file.path().to_owned()))).collect()
+}
+
+/// Returns the command that notes the pressure of a pen: on a desktop it comes with the events of touches.
+pub fn take_pen() -> Option<Command> {
+    None
 }
 
 /// Opens the window on a file or on the first example, and returns when it is closed.

@@ -1,6 +1,6 @@
 //! Commands about documents and their files, and what finished work on files does.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui::{Context, ViewportCommand};
@@ -18,12 +18,17 @@ use crate::app::kit::{FileRequest, look_at, raster_frame};
 use crate::app::{files, journal, project};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
-use meshbrush_io::io::link;
 use meshbrush_io::io::project::Project;
+use meshbrush_io::io::{Meter, link};
 
 impl App {
     /// Opens an example, and shows what it is about.
     fn open_example(&mut self, example: Example) {
+        let missing = files::missing_for(example);
+        if !missing.is_empty() {
+            let open = Command::File(FileCommand::OpenExample(example));
+            return self.fetch(missing, format!("The example “{}”", example.name()), vec![open]);
+        }
         self.open(files::example(example));
         let layers = &self.session.document().settings().layers;
         self.view.show_depths(DepthSurface::of(layers).is_some());
@@ -34,6 +39,17 @@ impl App {
             }
             self.send(Command::Plots(PlotsCommand::Show(PlotKind::Errors)));
         }
+    }
+
+    /// Fetches files that come with the program, and then sends commands. `what` needs them.
+    pub(in crate::app) fn fetch(&mut self, files: Vec<&'static str>, what: String, then: Vec<Command>) {
+        let Some(&first) = files.first() else { return };
+        let outcome = move |fetched: Result<(), String>| match fetched {
+            Ok(()) => Outcome::PartRead(then),
+            Err(problem) => Outcome::NotRead(format!("{what} could not be loaded: {problem}")),
+        };
+        let job = host::fetch(files, outcome, &self.jobs);
+        self.background.enter(Aim::Read, Path::new(first), Meter::default(), job);
     }
 
     pub(in crate::app) fn execute_on_files(&mut self, command: FileCommand, ctx: &Context) {

@@ -101,6 +101,7 @@ impl App {
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => {
                 stop_editing_keys(ctx);
+                self.fetch(topic.missing_pictures(), "A picture of the manual".into(), Vec::new());
                 self.help = Some(topic);
             }
             ShellCommand::CloseHelp => {

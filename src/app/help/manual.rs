@@ -1,5 +1,7 @@
 //! The pages of the manual, and its pictures.
 
+use crate::app::host::asset;
+
 /// A page of `docs/manual`.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Page {
@@ -14,15 +16,6 @@ pub struct Page {
 macro_rules! page {
     ($title:literal, $file:literal) => {
         Page { title: $title, file: $file, text: include_str!(concat!("../../../docs/manual/", $file)) }
-    };
-}
-
-macro_rules! picture {
-    ($file:literal) => {
-        (
-            concat!("pictures/", $file),
-            include_bytes!(concat!("../../../docs/manual/pictures/", $file)) as &[u8],
-        )
     };
 }
 
@@ -43,13 +36,13 @@ pub static PAGES: [Page; 13] = [
     page!("Glossary", "glossary.md"),
 ];
 
-/// The pictures as the pages name them, and their PNG files.
-static PICTURES: [(&str, &[u8]); 5] = [
-    picture!("window.png"),
-    picture!("how-it-works.png"),
-    picture!("panel.png"),
-    picture!("boundary.png"),
-    picture!("triangle.png"),
+/// The pictures, PNG files, as the pages name them.
+static PICTURES: [&str; 5] = [
+    "pictures/window.png",
+    "pictures/how-it-works.png",
+    "pictures/panel.png",
+    "pictures/boundary.png",
+    "pictures/triangle.png",
 ];
 
 /// Returns the page of a file.
@@ -57,9 +50,10 @@ pub fn page_of(file: &str) -> Option<&'static Page> {
     PAGES.iter().find(|page| page.file == file)
 }
 
-/// Returns the PNG file of a picture.
-pub fn picture(name: &str) -> Option<&'static [u8]> {
-    PICTURES.iter().find(|(known, _)| *known == name).map(|(_, bytes)| *bytes)
+/// Returns the pictures of a page that are not here yet: a browser fetches them.
+pub fn missing_pictures(page: &Page) -> Vec<&'static str> {
+    let is_used = |name: &&str| page.text.contains(&format!("({name})"));
+    PICTURES.into_iter().filter(is_used).filter(|name| asset(name).is_none()).collect()
 }
 
 #[cfg(test)]
@@ -101,13 +95,13 @@ mod tests {
                     assert!(page_of(link).is_some(), "{} links to {link}", page.file);
                 }
                 if let Block::Picture(file, description) = block {
-                    assert!(picture(&file).is_some(), "{} shows {file}", page.file);
+                    assert!(asset(&file).is_some(), "{} shows {file}", page.file);
                     assert!(description.len() > 20, "{file} has a description");
                     used.push(file);
                 }
             }
         }
-        assert!(PICTURES.iter().all(|(name, _)| used.iter().any(|used| used == name)), "{used:?}");
+        assert!(PICTURES.iter().all(|name| used.iter().any(|used| used == name)), "{used:?}");
     }
 
     #[test]
@@ -119,7 +113,7 @@ mod tests {
 
     #[test]
     fn the_pictures_are_small() {
-        let bytes: usize = PICTURES.iter().map(|(_, bytes)| bytes.len()).sum();
+        let bytes: usize = PICTURES.iter().map(|name| asset(name).unwrap().len()).sum();
         assert!(bytes < 1_000_000, "{bytes} bytes");
     }
 }

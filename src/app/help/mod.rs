@@ -43,6 +43,16 @@ impl HelpTopic {
         }
     }
 
+    /// Returns the pictures of the page that are not here yet.
+    pub fn missing_pictures(self) -> Vec<&'static str> {
+        match self {
+            Self::Keys => Vec::new(),
+            Self::Page(file) | Self::Heading(file, _) => {
+                manual::page_of(file).map_or(Vec::new(), manual::missing_pictures)
+            }
+        }
+    }
+
     /// Returns the entry of the list that is marked.
     fn in_list(self) -> Self {
         if let Self::Heading(file, _) = self { Self::Page(file) } else { self }

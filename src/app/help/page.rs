@@ -10,9 +10,10 @@ use eframe::egui::{
 use egui::text::{LayoutJob, TextFormat};
 
 use super::HelpTopic;
-use super::manual::{Page, page_of, picture};
+use super::manual::{Page, page_of};
 use super::markdown::{Block, Span, blocks, plain};
 use crate::app::command::{Command, ShellCommand};
+use crate::app::host::asset;
 use crate::app::theme::{font, metrics, tokens};
 use meshbrush_io::io::png::decode_picture;
 
@@ -162,14 +163,19 @@ fn column_widths(ui: &Ui, rows: &[Vec<Vec<Span>>]) -> Vec<f32> {
     widths
 }
 
-/// A picture, at most as wide as the page.
+/// A picture, at most as wide as the page. Of one that a browser has not fetched, only what it shows.
 fn show_picture(ui: &mut Ui, file: &str, description: &str) {
-    let Some(texture) = texture(ui, file) else { return };
+    if let Some(texture) = texture(ui, file) {
+        show_texture(ui, &texture, description);
+    }
+    ui.label(egui::RichText::new(description).font(font::caption()).color(tokens(ui).label));
+}
+
+fn show_texture(ui: &mut Ui, texture: &TextureHandle, description: &str) {
     let size = texture.size_vec2();
     let scale = (ui.available_width() / size.x).min(1.0);
-    let image = egui::Image::new(&texture).fit_to_exact_size(size * scale).alt_text(description);
+    let image = egui::Image::new(texture).fit_to_exact_size(size * scale).alt_text(description);
     ui.add(image.corner_radius(metrics::RADIUS_CONTROL));
-    ui.label(egui::RichText::new(description).font(font::caption()).color(tokens(ui).label));
 }
 
 /// Returns the texture of a picture, decoded when it is shown for the first time.
@@ -178,7 +184,7 @@ fn texture(ui: &Ui, file: &str) -> Option<TextureHandle> {
     if let Some(texture) = ui.data(|data| data.get_temp::<TextureHandle>(id)) {
         return Some(texture);
     }
-    let decoded = decode_picture(Cursor::new(picture(file)?)).ok()?;
+    let decoded = decode_picture(Cursor::new(asset(file)?)).ok()?;
     let size = decoded.size.map(|side| side as usize);
     let image = ColorImage::from_rgba_unmultiplied(size, &decoded.rgba);
     let texture = ui.ctx().load_texture(file, image, TextureOptions::LINEAR);

@@ -9,7 +9,8 @@
 //!
 //! Where the system starts no threads, as in a browser, each frame does some of the work before it begins: at
 //! least one slice, and for 8 ms at most where slices are short. While a button is held it pauses four times
-//! as long as it worked, so that painting stays fluent. Nothing waits then.
+//! as long as it worked, so that painting stays fluent. A slice that took longer than 30 ms the last time is
+//! left until there was no input for 400 ms, for 10 s at most. Nothing waits then.
 //!
 //! A [`Job`] belongs to the document that was open when it began, and to whoever holds it: dropped, it ends
 //! the work. So a window that is closed ends all work but the files that are being written.
@@ -40,14 +41,15 @@ mod tests;
 mod waker;
 
 use std::cell::Cell;
+use std::panic::Location;
 use std::rc::Rc;
 
 use eframe::egui::Context;
 
 use inbox::Inbox;
 pub use job::{Job, Output, Taken, Wanted};
-use queue::Queue;
-pub use slot::Slot;
+use queue::{Queue, Ran};
+pub use slot::{Slice, Slot};
 pub use succession::Succession;
 use waker::Waker;
 
@@ -59,6 +61,8 @@ use meshbrush_mesh::mesh::Progress;
 const SHARE: Duration = Duration::from_millis(8);
 /// How many times as long it then pauses while a button is held.
 const PAUSE: u32 = 4;
+/// How long after the last input the hand counts as resting.
+const REST: Duration = Duration::from_millis(400);
 
 /// The purpose of a job. There are so many threads for each at most; more jobs wait their turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,6 +122,8 @@ struct Shared {
     time: Cell<f64>,
     /// When frames may work on jobs again while a button is held.
     pause_ends: Cell<Option<Instant>>,
+    /// When the last input came.
+    last_input: Cell<Option<Instant>>,
 }
 
 /// Jobs may go on for a moment when their window is closed.
@@ -140,6 +146,7 @@ impl Jobs {
             frame: Cell::default(),
             time: Cell::default(),
             pause_ends: Cell::default(),
+            last_input: Cell::default(),
         }))
     }
 
@@ -168,20 +175,28 @@ impl Jobs {
     /// Does some of the work that waits, where there are no threads.
     fn work_in_frame(&self) {
         let began = Instant::now();
-        let draws = self.0.ctx.input(|input| input.pointer.any_down());
+        let (draws, has_input) =
+            self.0.ctx.input(|input| (input.pointer.any_down(), !input.events.is_empty()));
+        if draws || has_input {
+            self.0.last_input.set(Some(began));
+        }
         if let Some(left) = self.0.pause_ends.get().and_then(|end| end.checked_duration_since(began))
             && draws
         {
             self.wake_after(left.as_secs_f64());
             return;
         }
-        let mut goes_on = true;
-        while goes_on && (began.elapsed() < SHARE || self.waits_for_all()) {
-            goes_on = self.0.queue.run_slice(&Kind::IN_FRAMES);
+        let rests_from = self.0.last_input.get().map(|last| last + REST).filter(|_| !self.waits_for_all());
+        let is_busy = rests_from.is_some_and(|time| time > began);
+        let mut ran = Ran::Slice;
+        while ran == Ran::Slice && (began.elapsed() < SHARE || self.waits_for_all()) {
+            ran = self.0.queue.run_slice(&Kind::IN_FRAMES, is_busy);
         }
         self.0.pause_ends.set(Some(Instant::now() + PAUSE * began.elapsed()));
-        if goes_on {
-            self.wake();
+        match ran {
+            Ran::Slice => self.wake(),
+            Ran::Later => self.wake_after(REST.as_secs_f64()),
+            Ran::Nothing => {}
         }
     }
 
@@ -210,6 +225,7 @@ impl Jobs {
     }
 
     /// Starts a job, or puts it into the queue. Each value that it sends, and its end, wakes the window.
+    #[track_caller]
     pub fn start<T: Send + 'static>(
         &self,
         kind: Kind,
@@ -227,6 +243,7 @@ impl Jobs {
     /// Starts a job as [`Self::start`] does, whose work is done in slices: the first one makes a state, and
     /// the others are called until they are done, or until no more values are wanted. On a thread that is one
     /// loop; without threads a frame takes as many slices as it has time for.
+    #[track_caller]
     pub fn start_in_slices<T: Send + 'static, S: Send + 'static>(
         &self,
         kind: Kind,
@@ -244,6 +261,7 @@ impl Jobs {
         })
     }
 
+    #[track_caller]
     fn start_slices<T: Send + 'static>(
         &self,
         kind: Kind,
@@ -251,7 +269,7 @@ impl Jobs {
     ) -> Job<T> {
         let (job, output) = self.expect();
         let mut output = Some(output);
-        self.0.queue.push(kind, move || {
+        self.0.queue.push(kind, Location::caller(), move || {
             let Some(running) = &output else { return Progress::Done };
             let done =
                 if running.is_wanted() { failure::caught(|| slice(running)) } else { Ok(Progress::Done) };
@@ -292,7 +310,7 @@ impl Jobs {
         while !matches!(job.take_ready(), Taken::Ended) {
             if !self.0.queue.is_without_threads() {
                 self.0.inbox.receive_within(Duration::MAX);
-            } else if self.0.queue.run_slice(&Kind::IN_FRAMES) {
+            } else if self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice {
                 self.0.inbox.drain();
             } else {
                 return;
@@ -304,7 +322,8 @@ impl Jobs {
     fn receive(&self) -> bool {
         if self.0.queue.is_without_threads() {
             // What was requested in this frame is done in the next one, except where frames wait.
-            let worked = self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES);
+            let worked =
+                self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice;
             self.0.inbox.drain();
             return worked;
         }

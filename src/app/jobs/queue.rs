@@ -1,6 +1,7 @@
 //! The threads of jobs, and what is done where the system gives none.
 
-use std::collections::VecDeque;
+use std::collections::{HashMap, VecDeque};
+use std::panic::Location;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
@@ -15,8 +16,35 @@ use meshbrush_mesh::mesh::Progress;
 #[derive(Clone, Default)]
 pub struct Queue(Arc<Threads>);
 
-/// One slice of work after the other, until it says that it is done.
-type Work = Box<dyn FnMut() -> Progress + Send>;
+/// A slice that takes longer is felt by a hand that moves.
+const LONG: Duration = Duration::from_millis(30);
+/// Of work with more slices, all further ones count as one.
+const MOST_SLICES: u32 = 256;
+/// The longest that work waits for the hand to rest.
+const LONGEST_WAIT: Duration = Duration::from_secs(10);
+
+/// A place of the source code that starts jobs.
+pub type Source = &'static Location<'static>;
+
+/// Work that waits for its turn.
+struct Work {
+    /// One slice after the other, until it says that it is done.
+    run: Box<dyn FnMut() -> Progress + Send>,
+    /// Where it was started, and how many slices were run.
+    place: (Source, u32),
+    since: Instant,
+}
+
+/// What became of a question for a slice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ran {
+    /// A slice was run.
+    Slice,
+    /// All that waits takes long, and is left until the hand rests.
+    Later,
+    /// Nothing waits.
+    Nothing,
+}
 
 #[derive(Default)]
 struct Threads {
@@ -32,13 +60,27 @@ struct State {
     running: [usize; Kind::ALL.len()],
     /// No thread could be started.
     is_without_threads: bool,
+    /// How long each slice of work from each source took the last time, where frames do the work.
+    took: HashMap<(Source, u32), Duration>,
+}
+
+impl State {
+    /// Takes the oldest work of a kind; while the hand is `busy`, the oldest that is short.
+    fn take(&mut self, kind: Kind, busy: bool) -> Option<Work> {
+        let can_wait = busy && matches!(kind, Kind::Compute | Kind::Write);
+        let is_short = |work: &Work| self.took.get(&work.place).is_none_or(|took| *took < LONG);
+        let may_run = |work: &Work| !can_wait || is_short(work) || work.since.elapsed() > LONGEST_WAIT;
+        let at = self.waiting[kind as usize].iter().position(may_run)?;
+        self.waiting[kind as usize].remove(at)
+    }
 }
 
 impl Queue {
     /// Runs work, which does not panic, as soon as a thread is free.
-    pub fn push(&self, kind: Kind, work: impl FnMut() -> Progress + Send + 'static) {
+    pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Progress + Send + 'static) {
+        let work = Work { run: Box::new(work), place: (source, 0), since: Instant::now() };
         let mut state = self.0.lock();
-        state.waiting[kind as usize].push_back(Box::new(work));
+        state.waiting[kind as usize].push_back(work);
         if state.running[kind as usize] == kind.most() || state.is_without_threads {
             return;
         }
@@ -65,21 +107,32 @@ impl Queue {
     }
 
     /// Runs a slice of the oldest work of the first of these kinds that has some, on the calling thread. Work
-    /// that is not done goes to the end of its row, so that others get their turn. Returns whether there was
-    /// any.
-    pub fn run_slice(&self, kinds: &[Kind]) -> bool {
-        let next = |kind: &Kind| Some((*kind, self.0.lock().waiting[*kind as usize].pop_front()?));
-        let Some((kind, mut work)) = kinds.iter().find_map(next) else { return false };
-        if work() == Progress::More {
-            self.0.lock().waiting[kind as usize].push_back(work);
+    /// that is not done goes to the end of its row, so that others get their turn.
+    ///
+    /// While the hand is `busy`, what computes and writes is left where this slice of work from the same
+    /// source took long the last time.
+    pub fn run_slice(&self, kinds: &[Kind], busy: bool) -> Ran {
+        let next = |kind: &Kind| Some((*kind, self.0.lock().take(*kind, busy)?));
+        let Some((kind, mut work)) = kinds.iter().find_map(next) else {
+            let state = self.0.lock();
+            let is_left = kinds.iter().any(|&kind| !state.waiting[kind as usize].is_empty());
+            return if is_left { Ran::Later } else { Ran::Nothing };
+        };
+        let began = Instant::now();
+        let progress = (work.run)();
+        let mut state = self.0.lock();
+        state.took.insert(work.place, began.elapsed());
+        if progress == Progress::More {
+            let place = (work.place.0, (work.place.1 + 1).min(MOST_SLICES));
+            state.waiting[kind as usize].push_back(Work { place, since: Instant::now(), ..work });
         }
-        true
+        Ran::Slice
     }
 
     /// Waits until no work of a kind runs, or the time is over. Without threads it does the work.
     pub fn wait(&self, kind: Kind, longest: Duration) {
         if self.is_without_threads() {
-            while self.run_slice(&[kind]) {}
+            while self.run_slice(&[kind], false) == Ran::Slice {}
             return;
         }
         let deadline = Instant::now() + longest;
@@ -119,7 +172,7 @@ impl Threads {
 
     fn run(&self, kind: Kind) {
         while let Some(mut work) = self.next_or_end(kind) {
-            while work() == Progress::More {}
+            while (work.run)() == Progress::More {}
         }
     }
 }

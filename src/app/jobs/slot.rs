@@ -1,7 +1,8 @@
 //! The last value for a key that changes, computed by jobs.
 
 use super::succession::Succession;
-use super::{Job, Jobs, Kind, Taken, Wanted};
+use super::{Job, Jobs, Kind, Output, Taken, Wanted};
+use meshbrush_mesh::mesh::Progress;
 
 /// The value for a key that was computed last, and the one that is being computed. The key holds everything
 /// that the value depends on.
@@ -11,6 +12,14 @@ pub struct Slot<K, T> {
     /// The key whose value could not be computed: it is not tried again.
     failed: Option<K>,
     succession: Succession<K>,
+}
+
+/// What a slice of work for a value has come to.
+pub enum Slice<T> {
+    /// There is more to do.
+    More,
+    /// The value.
+    Found(T),
 }
 
 struct Running<K, T> {
@@ -83,12 +92,14 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
 
     /// Computes the value for a key. Nothing happens while another one is being computed, which is shown
     /// until then, and for a key whose value could not be computed.
+    #[track_caller]
     pub fn start(&mut self, key: K, compute: impl FnOnce() -> T + Send + 'static, jobs: &Jobs) {
         self.start_wanted(key, |_| Some(compute()), jobs);
     }
 
     /// Starts work as [`Self::start`] does. The work may end without a value once it is no longer wanted:
     /// after [`Self::stop`], for a newer key, and when the slot is dropped.
+    #[track_caller]
     pub fn start_wanted(
         &mut self,
         key: K,
@@ -103,6 +114,31 @@ impl<K: Clone + PartialEq, T: Send + 'static> Slot<K, T> {
                 output.send(value);
             }
         });
+        self.running = Some(Running { key, job, is_forgotten: false });
+    }
+
+    /// Starts work as [`Self::start`] does, in slices: `begin` makes a state, or `None` where there is no
+    /// value, and `slice` is called until it has found the value, or until nobody wants it any more. So the
+    /// work needs not look whether it is wanted.
+    #[track_caller]
+    pub fn start_in_slices<S: Send + 'static>(
+        &mut self,
+        key: K,
+        begin: impl FnOnce() -> Option<S> + Send + 'static,
+        mut slice: impl FnMut(&mut S) -> Slice<T> + Send + 'static,
+        jobs: &Jobs,
+    ) {
+        if self.running.is_some() || self.failed.as_ref() == Some(&key) {
+            return;
+        }
+        let slice = move |state: &mut S, output: &Output<T>| match slice(state) {
+            Slice::More => Progress::More,
+            Slice::Found(value) => {
+                output.send(value);
+                Progress::Done
+            }
+        };
+        let job = jobs.start_in_slices(Kind::Compute, begin, slice);
         self.running = Some(Running { key, job, is_forgotten: false });
     }
 

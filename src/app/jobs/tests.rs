@@ -237,6 +237,32 @@ fn without_threads_a_frame_does_one_long_slice_and_jobs_take_turns() {
 }
 
 #[test]
+fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not() {
+    let queue = Queue::default();
+    queue.do_without_threads();
+    let (done, here) = (Arc::new(AtomicUsize::new(0)), Location::caller());
+    let long = || {
+        let done = done.clone();
+        queue.push(Kind::Compute, here, move || {
+            long_slice();
+            std::thread::sleep(Duration::from_millis(40));
+            done.fetch_add(1, Ordering::Relaxed);
+            Progress::Done
+        });
+    };
+    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
+    long();
+    assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
+    long();
+    assert_eq!(run(true), Ran::Later);
+    queue.push(Kind::Compute, Location::caller(), || Progress::Done);
+    assert_eq!((run(true), run(true)), (Ran::Slice, Ran::Later), "short work behind it goes on");
+    assert_eq!(done.load(Ordering::Relaxed), 1);
+    assert_eq!((run(false), run(false)), (Ran::Slice, Ran::Nothing));
+    assert_eq!(done.load(Ordering::Relaxed), 2);
+}
+
+#[test]
 fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_at_all() {
     let jobs = Jobs::new(&Context::default());
     jobs.do_without_threads();

@@ -14,6 +14,7 @@ use crate::app::features::inspection::QUERY;
 use crate::app::features::painting::{BrushMode, ERASER};
 use crate::app::file_kinds::{EXPORT_MESH, SAVE_PROJECT};
 use crate::app::files::AEGEAN_SEA;
+use crate::app::host::asset;
 use meshbrush_io::io;
 
 /// Size of the window, in points.
@@ -42,7 +43,8 @@ pub fn write(folder: &Path) -> Result<Vec<PathBuf>, String> {
     let scratch = std::env::temp_dir().join("meshbrush-tour");
     make_folder(&scratch)?;
     let coast = scratch.join("coast.geojson");
-    let written = io::write_file(&coast, |mut out| std::io::Write::write_all(&mut out, AEGEAN_SEA));
+    let sea = asset(AEGEAN_SEA).expect("it is part of the program");
+    let written = io::write_file(&coast, |mut out| std::io::Write::write_all(&mut out, sea));
     written.map_err(|error| format!("{} cannot be written: {error}.", coast.display()))?;
     let mut window = OffscreenWindow::open_file(WINDOW, 1.0, coast)?;
     let pictures = STEPS.iter().map(|(name, act)| {

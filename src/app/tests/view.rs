@@ -1,13 +1,15 @@
 //! Zoom, panels, theme and layout.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
+use eframe::egui::{
+    Event, Key, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2, vec2,
+};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{
-    RESTING_PLACE, TALL, Window, canvas, choose, entries, in_world, key, on_screen, open_popup, open_tab,
-    press_at, release_at, send, settings, wheel, window, window_of,
+    RESTING_PLACE, TALL, Window, canvas, choose, document, entries, in_world, key, on_screen, open_popup,
+    open_tab, press_at, release_at, send, settings, wheel, window, window_of,
 };
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::Tab;
@@ -25,6 +27,40 @@ fn the_wheel_zooms_at_the_pointer() {
         let moved = in_world(&window, at).distance(before) * now;
         assert!(moved < 1e-3, "the point under the pointer moved by {moved} pixels");
     }
+}
+
+#[test]
+fn two_fingers_move_and_zoom_the_view_and_take_back_the_stroke_of_the_first() {
+    let mut window = window();
+    let touch = |window: &mut Window, id: u64, phase: TouchPhase, pos: Pos2| {
+        window.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(id), phase, pos, force: None });
+    };
+    let from = [-60.0, 60.0].map(|x| canvas(&window).center() + vec2(x, 0.0));
+    let to = [vec2(-20.0, 30.0), vec2(80.0, 30.0)];
+    touch(&mut window, 1, TouchPhase::Start, from[0]);
+    press_at(&mut window, from[0], PointerButton::Primary, Modifiers::NONE);
+    window.event(Event::PointerMoved(from[0] + vec2(3.0, 3.0)));
+    window.run();
+    assert!(document(&window).stroke().is_some(), "one finger paints");
+    touch(&mut window, 2, TouchPhase::Start, from[1]);
+    press_at(&mut window, from[0], PointerButton::Primary, Modifiers::NONE);
+    let held = from.map(|at| in_world(&window, at));
+    for (n, by) in to.into_iter().enumerate() {
+        touch(&mut window, n as u64 + 1, TouchPhase::Move, from[n] + by);
+    }
+    window.event(Event::PointerMoved(from[0] + to[0]));
+    window.run();
+    let px = window.state().view().camera.unwrap().px_per_world();
+    for (n, by) in to.into_iter().enumerate() {
+        let off = in_world(&window, from[n] + by).distance(held[n]) * px;
+        assert!(off < 0.5, "finger {n} is {off} pixels off its place");
+    }
+    for (n, by) in to.into_iter().enumerate() {
+        touch(&mut window, n as u64 + 1, TouchPhase::End, from[n] + by);
+        release_at(&mut window, from[0] + to[0], PointerButton::Primary);
+    }
+    assert!(document(&window).stroke().is_none());
+    assert_eq!(entries(&window), 0, "nothing was painted");
 }
 
 #[test]

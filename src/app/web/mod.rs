@@ -4,15 +4,19 @@
 //! same [`App`] as on a desktop. A tab has no threads: frames do the work of jobs (`app/jobs`). Its files are
 //! in memory (`io::disk`).
 
+mod assets;
 mod file_dialog;
 mod files;
 mod interface;
 pub mod journal;
+mod pen;
 
 use std::path::PathBuf;
 
+pub use assets::{asset, fetch};
 pub use file_dialog::{ask, has_dialog};
 pub use files::take_dropped;
+pub use pen::take_pen;
 
 /// Whether the window is in a page of a browser.
 pub const IS_PAGE: bool = true;

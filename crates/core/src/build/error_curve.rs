@@ -1,5 +1,6 @@
 //! The error of meshes against the number of their triangles.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -7,7 +8,7 @@ use rayon::prelude::*;
 use super::search::Search;
 use super::{BuildError, BuiltMesh, MeshBuilder, MeshSpec, Parts};
 use crate::layers::{LayerKind, PaintLayers, SurfaceGoal, SurfaceNorm};
-use crate::mesh::{Element, Mesh, Progress, Refiner, TriangleId};
+use crate::mesh::{Element, Limits, Mesh, Progress, Refiner, TriangleId};
 use crate::surface::{CurvePoint, QueueGoal, SurfaceRule, SurfaceSamples, SurfaceSampling};
 
 /// The error of meshes against the number of their triangles, by one norm.
@@ -47,9 +48,24 @@ enum Step {
     Build(Box<MeshBuilder>),
     Sample(Box<(BuiltMesh, SurfaceSampling)>),
     Order(Box<(BuiltMesh, Search)>),
-    /// The uniform mesh of the next level.
-    Level(Box<(BuiltMesh, SurfaceRule, Mesh, u32)>),
+    Levels(Box<Levels>),
     Done,
+}
+
+/// Uniform meshes, one level after the other.
+#[derive(Clone, Debug)]
+struct Levels {
+    /// What other layers ask for.
+    built: BuiltMesh,
+    rule: SurfaceRule,
+    norm: SurfaceNorm,
+    limits: Limits,
+    /// The mesh of a level, or on the way to the next one.
+    mesh: Mesh,
+    level: u32,
+    refiner: Refiner,
+    /// The errors in the triangles of a complete mesh, as far as they are known; `None` outside the domain.
+    errors: Option<Vec<Option<f64>>>,
 }
 
 impl MeshSpec {
@@ -109,7 +125,7 @@ impl CurveTracing {
         [triangles.min(self.most), self.most]
     }
 
-    /// One slice of work: about `budget` samples or triangles; the uniform mesh of a level is made at once.
+    /// One slice of work: about `budget` samples or triangles.
     ///
     /// # Errors
     /// Fails when the spec has no mesh.
@@ -133,7 +149,10 @@ impl CurveTracing {
                 Progress::More => Step::Order(work),
                 Progress::Done => self.begin_levels(*work)?,
             },
-            Step::Level(work) => self.next_level(*work)?,
+            Step::Levels(mut levels) => match levels.advance(budget)? {
+                Some(point) => self.take_level(levels, point),
+                None => Step::Levels(levels),
+            },
             Step::Done => Step::Done,
         };
         let progress = if matches!(next, Step::Done) { Progress::Done } else { Progress::More };
@@ -165,39 +184,77 @@ impl CurveTracing {
         let Search { rule, queue } = search;
         self.curves.least = queue.curve().collect();
         let MeshSpec { lattice, limits, .. } = &self.spec;
-        let coarse = Mesh::coarse_grid(lattice, |node| built.domain.admits(node), limits)?;
-        Ok(Step::Level(Box::new((built, rule, coarse, 0))))
+        let mesh = Mesh::coarse_grid(lattice, |node| built.domain.admits(node), limits)?;
+        let (norm, limits) = (self.curves.norm, *limits);
+        let refiner = Refiner::new(&mesh, limits);
+        let errors = Some(Vec::new());
+        Ok(Step::Levels(Box::new(Levels { built, rule, norm, limits, mesh, level: 0, refiner, errors })))
     }
 
-    fn next_level(
-        &mut self,
-        (built, rule, mut mesh, level): (BuiltMesh, SurfaceRule, Mesh, u32),
-    ) -> Result<Step, BuildError> {
-        let point = point_of(&mesh, &built, &rule, self.curves.norm);
-        if level == 0 {
+    /// Takes the point of a level. Returns the work on the next one, if there is one.
+    fn take_level(&mut self, mut levels: Box<Levels>, point: CurvePoint) -> Step {
+        if levels.level == 0 {
             self.curves.others.take_if(|others| others.triangles <= point.triangles);
         }
         self.curves.uniform.push(point);
-        let deepest = mesh.lattice().deepest_level();
-        if point.error == 0.0 || 2 * point.triangles > self.most || level == deepest {
-            return Ok(Step::Done);
+        let is_last = point.error == 0.0
+            || 2 * point.triangles > self.most
+            || levels.level == levels.mesh.lattice().deepest_level();
+        if is_last {
+            return Step::Done;
         }
-        let mut refiner = Refiner::new(&mesh, self.spec.limits);
-        let is_coarse = |element: &Element| Ok(element.triangle.level() <= level);
-        while refiner.advance(&mut mesh, is_coarse, usize::MAX)? == Progress::More {}
-        Ok(Step::Level(Box::new((built, rule, mesh, level + 1))))
+        levels.refiner = Refiner::new(&levels.mesh, levels.limits);
+        levels.level += 1;
+        Step::Levels(levels)
+    }
+}
+
+impl Levels {
+    /// One slice of work: about `budget` triangles. Returns the point of a level once its mesh is measured.
+    fn advance(&mut self, budget: usize) -> Result<Option<CurvePoint>, BuildError> {
+        let Self { built, rule, norm, mesh, level, refiner, errors, .. } = self;
+        let Some(known) = errors else {
+            let is_coarse = |element: &Element| Ok(element.triangle.level() < *level);
+            if refiner.advance(mesh, is_coarse, budget)? == Progress::Done {
+                *errors = Some(Vec::new());
+            }
+            return Ok(None);
+        };
+        let next = known.len()..mesh.raw_triangle_count().min(known.len().saturating_add(budget));
+        known.extend(errors_in(next, mesh, built, rule, *norm));
+        if known.len() < mesh.raw_triangle_count() {
+            return Ok(None);
+        }
+        let point = point_of_errors(known, rule, *norm);
+        *errors = None;
+        Ok(Some(point))
     }
 }
 
 /// Returns the number of triangles of a mesh in the domain, and its error.
 fn point_of(mesh: &Mesh, built: &BuiltMesh, rule: &SurfaceRule, norm: SurfaceNorm) -> CurvePoint {
-    let errors = (0..mesh.raw_triangle_count()).into_par_iter().map(|index| {
+    point_of_errors(&errors_in(0..mesh.raw_triangle_count(), mesh, built, rule, norm), rule, norm)
+}
+
+/// Returns the errors in some triangles of a mesh, in their order; `None` outside the domain.
+fn errors_in(
+    triangles: Range<usize>,
+    mesh: &Mesh,
+    built: &BuiltMesh,
+    rule: &SurfaceRule,
+    norm: SurfaceNorm,
+) -> Vec<Option<f64>> {
+    let errors = triangles.into_par_iter().map(|index| {
         let element = mesh.element(TriangleId::from_index(index));
         let is_inside = !built.domain.excludes(&element);
         is_inside.then(|| rule.error_at(element.corners, mesh.lattice(), norm))
     });
+    errors.collect()
+}
+
+/// Returns the number of triangles in the domain, and the error of all.
+fn point_of_errors(errors: &[Option<f64>], rule: &SurfaceRule, norm: SurfaceNorm) -> CurvePoint {
     // In order, so that a sum does not depend on the number of threads.
-    let errors: Vec<Option<f64>> = errors.collect();
     let errors = || errors.iter().flatten().copied();
     let error = match norm {
         SurfaceNorm::Largest => errors().fold(0.0, f64::max),

@@ -1,25 +1,20 @@
 //! Derives the mesh with nodes on the outline from the mesh of right-angled triangles, step by step.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::angles::Angles;
-use super::band::{Band, GRAIN, Place, signs};
-use super::corners::{Pin, TurningCorners, pins};
-use super::flat::{drop_flat, pinched};
-use super::guard::Guard;
+use super::band::{Band, GRAIN, Place};
+use super::corners::{Pin, TurningCorners};
+use super::fitting::Fitting;
 use super::patchwork::Patchwork;
-use super::smooth::Smoother;
-use super::snap::{Crossings, Side, snapped};
-use super::stages::{DerivationAction, Watch, without_outside};
+use super::stages::Watch;
 use super::stencil::Placement;
 use crate::domain::RegionOnLattice;
 use crate::geometry::{Lattice, LatticePoint};
 use crate::mesh::{Mesh, MeshPatch, NodeId, PatchTriangle, TriangleId};
-
-/// Number of rounds of flips and moves that improve the angles.
-const ROUNDS: usize = 8;
 
 /// The fit of the nodes of the boundary to the outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -121,32 +116,13 @@ impl FittedBand {
     /// Puts the nodes of a band on the outline, and tells `watch` of each stage. Beginning with the retreat,
     /// only nodes of the `zone` are moved and only edges near them flipped.
     pub(super) fn new(mesh: &Mesh, band: Band, zone: Vec<bool>, outline: &Outline, watch: Watch<'_>) -> Self {
-        let &Outline { region, ref lattice, ref angles, ref corners } = outline;
-        let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
-        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
-        watch(DerivationAction::RemoveByCorners, &|| without_outside(mesh, &signs(mesh, region), Vec::new()));
-        let mut placement = placed(&band, region, lattice, angles);
-        watch(DerivationAction::MoveToOutline, &|| {
-            without_outside(mesh, &signs(mesh, region), moved(&band, placement.goals.iter()))
-        });
-        watch(DerivationAction::CutEdges, &|| with_cuts(&placement));
-        let pins = pins(mesh, &band, &placement, corners, angles);
-        corners.spread_actions(mesh, &band, &mut placement, angles);
-        pins.iter().for_each(|pin| pin.apply(&mut placement));
-        watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
-        let pins = retreat(&band, &zone, &mut placement, pins, angles);
-        watch(DerivationAction::Retreat, &|| with_cuts(&placement));
-        let mut patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
-        let smoother = Smoother { region, angles, extent: lattice.extent() };
-        for _ in 0..ROUNDS {
-            patchwork.flip_edges(angles);
-            watch(DerivationAction::FlipEdges, &|| as_patch(&patchwork));
-            smoother.smooth(&mut patchwork);
-            watch(DerivationAction::ShiftNodes, &|| as_patch(&patchwork));
+        let mut fitting = Fitting::new(band, zone);
+        loop {
+            match fitting.advance(mesh, outline, watch) {
+                ControlFlow::Continue(next) => fitting = next,
+                ControlFlow::Break(fitted) => return fitted,
+            }
         }
-        smoother.pull(&mut patchwork);
-        watch(DerivationAction::PullToOutline, &|| as_patch(&patchwork));
-        Self { band, patchwork, pins, placement }
     }
 
     /// Returns the fit of all nodes.
@@ -189,56 +165,15 @@ impl FittedBand {
 }
 
 /// Returns the nodes of the band that are not at home, in ascending order, with their positions.
-fn moved<'a>(band: &Band, positions: impl Iterator<Item = &'a LatticePoint>) -> Vec<(NodeId, LatticePoint)> {
+pub(super) fn moved<'a>(
+    band: &Band,
+    positions: impl Iterator<Item = &'a LatticePoint>,
+) -> Vec<(NodeId, LatticePoint)> {
     let nodes = band.node_ids.iter().zip(&band.points).zip(positions);
     let mut moved: Vec<_> =
         nodes.filter(|((_, home), point)| home != point).map(|((&id, _), &point)| (id, point)).collect();
     moved.sort_unstable_by_key(|(id, _)| *id);
     moved
-}
-
-/// Moves nodes onto the outline, all at once. Nodes at which the domain would touch itself stay.
-fn placed(band: &Band, region: &RegionOnLattice, lattice: &Lattice, angles: &Angles) -> Placement {
-    let crossings = Crossings::new(band, region, lattice);
-    let (mut sides, mut goals) = snapped(band, &crossings, angles);
-    let mut acted = vec![false; band.points.len()];
-    loop {
-        let mut placement = Placement::new(band, &crossings, sides.clone(), goals.clone());
-        drop_flat(band, &mut placement, angles, angles.limit());
-        acted.iter_mut().zip(&placement.acted).for_each(|(all, now)| *all |= now);
-        let pinched = pinched(band, &placement);
-        if pinched.is_empty() {
-            placement.acted[..acted.len()].copy_from_slice(&acted);
-            return placement;
-        }
-        for v in pinched {
-            let v = v as usize;
-            (sides[v], goals[v], acted[v]) = (Side::of(band.inside[v]), band.points[v], true);
-        }
-    }
-}
-
-/// Lets nodes retreat where angles are too small. Corners with their nodes, the `pins`, where retreats do not
-/// help are given up. Returns the others.
-fn retreat(
-    band: &Band,
-    zone: &[bool],
-    placement: &mut Placement,
-    mut pins: Vec<Pin>,
-    angles: &Angles,
-) -> Vec<Pin> {
-    loop {
-        let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
-        let stuck = Guard { band, zone, angles, limit: angles.limit(), pin_limits }.run(placement);
-        if stuck.is_empty() {
-            return pins;
-        }
-        let (given_up, kept) = pins.into_iter().partition(|pin| stuck.binary_search(&pin.node).is_ok());
-        pins = kept;
-        let given_up: Vec<_> = given_up;
-        given_up.iter().for_each(|pin| pin.undo(placement));
-        placement.advance_all();
-    }
 }
 
 /// Returns the distance of a point from the outline, in world units.
@@ -256,7 +191,7 @@ fn distance(point: LatticePoint, outline: &Outline) -> f64 {
 }
 
 /// Collects the differences from the mesh.
-fn patch(mesh: &Mesh, band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
+pub(super) fn patch(mesh: &Mesh, band: &Band, patchwork: &Patchwork, angles: &Angles) -> MeshPatch {
     let added = patchwork.points[band.points.len()..].to_vec();
     let moved = moved(band, patchwork.points.iter());
     let mut places = band.triangles_by_id();

@@ -1,6 +1,6 @@
 use super::OutlineFollower;
 use super::angles::Angles;
-use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit};
+use super::changes::{OutlineChanges, OutlineFit};
 use super::stages::{DerivationAction, Watch};
 use crate::domain::DomainOnLattice;
 use crate::geometry::LatticePoint;
@@ -50,24 +50,7 @@ impl DerivedMesh {
         Self::cleaned(mesh, Some(outline.changes(mesh)), cleaning)
     }
 
-    /// Hands over the mesh that [`Self::new`] derives, and then returns its nodes on the outline, to be kept
-    /// in step: both come from one derivation. `None` if the domain does not require such nodes, and then
-    /// nothing is handed over; and if `hand_over` returns that nothing more is wanted.
-    pub fn derive_and_follow(
-        mesh: &Mesh,
-        domain: &DomainOnLattice,
-        cleaning: &Cleaning,
-        hand_over: impl FnOnce(Self) -> bool,
-    ) -> Option<OutlineFollower> {
-        let region = domain.region_on_outline()?;
-        let outline = Outline::new(mesh.lattice(), region);
-        let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
-        let changes = OutlineChanges::of_fitted(mesh, &outline, &fitted);
-        let is_wanted = hand_over(Self::cleaned(mesh, Some(changes), cleaning));
-        is_wanted.then(|| OutlineFollower::of_fitted(mesh, domain, &outline, &fitted))
-    }
-
-    fn cleaned(mesh: &Mesh, changes: Option<OutlineChanges>, cleaning: &Cleaning) -> Self {
+    pub(super) fn cleaned(mesh: &Mesh, changes: Option<OutlineChanges>, cleaning: &Cleaning) -> Self {
         let (mut patch, fit, corner_limit) = match changes {
             Some(OutlineChanges { patch, fit, corner_limit }) => (patch, Some(fit), corner_limit),
             None => (MeshPatch::default(), None, 0.0),

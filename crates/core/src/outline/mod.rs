@@ -39,14 +39,17 @@ mod patchwork;
 mod smooth;
 mod stages;
 mod changes;
+mod fitting;
 mod window;
 mod follower;
 mod writer;
 mod derived;
+mod deriving;
 mod check;
 
 pub use changes::OutlineFit;
 pub use check::DerivedViolation;
 pub use derived::DerivedMesh;
+pub use deriving::MeshDerivation;
 pub use follower::OutlineFollower;
 pub use stages::{DerivationAction, DerivationStage, derivation_stages};

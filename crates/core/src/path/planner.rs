@@ -22,6 +22,7 @@ use super::walls::Walls;
 use super::ways::Ways;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
 use crate::geometry::Rect;
+use crate::mesh::Progress;
 
 /// The requirements of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +66,16 @@ pub struct Planner {
     pub(super) origins_for_bounds: Vec<Origin>,
     /// One for each leg.
     bounds: Vec<LowerBound>,
+}
+
+/// A march from a place.
+struct Marching<'a> {
+    origin: &'a mut Origin,
+    costs: &'a [f64],
+    least: Passage,
+    place: Place,
+    /// Where it may pause.
+    until: Option<Place>,
 }
 
 /// The mesh from which a planner's mesh was bisected.
@@ -159,6 +170,31 @@ impl Planner {
         legs.into_iter().collect()
     }
 
+    /// Does a part of the work of [`Self::solve`] beforehand, where one thread does all of it: the march with
+    /// this number from one of the places. Returns whether there are more.
+    ///
+    /// # Errors
+    /// Fails when a place is not in the domain.
+    pub fn march_ahead(
+        &mut self,
+        places: &[DVec2],
+        request: PathRequest,
+        number: usize,
+    ) -> Result<Progress, PathError> {
+        if rayon::current_num_threads() > 1 {
+            return Ok(Progress::Done);
+        }
+        let places = self.places(places)?;
+        self.resize_origins(places.len(), request.has_bounds);
+        let mesh = Arc::clone(&self.mesh);
+        let marches = self.marches(&places, false, request.has_bounds);
+        let Some(Marching { origin, costs, least, place, until }) = marches.into_iter().nth(number) else {
+            return Ok(Progress::Done);
+        };
+        origin.run(&mesh, costs, least, place, until);
+        Ok(Progress::More)
+    }
+
     /// Returns the places on the mesh.
     pub(super) fn places(&self, places: &[DVec2]) -> Result<Vec<Place>, PathError> {
         if places.len() < 2 {
@@ -177,23 +213,39 @@ impl Planner {
     /// [`Self::march`], and for bounds to the end from each place with the least costs. Each march is the
     /// work of one thread.
     fn march_from(&mut self, places: &[Place], complete: bool, has_bounds: bool) {
-        self.origins.resize_with(places.len(), Origin::default);
-        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
+        self.resize_origins(places.len(), has_bounds);
+        let mesh = Arc::clone(&self.mesh);
+        let marches = self.marches(places, complete, has_bounds);
+        marches.into_par_iter().for_each(|Marching { origin, costs, least, place, until }| {
+            origin.run(&mesh, costs, least, place, until);
+        });
+    }
+
+    fn resize_origins(&mut self, count: usize, has_bounds: bool) {
+        self.origins.resize_with(count, Origin::default);
         if has_bounds {
-            origins_for_bounds.resize_with(places.len(), Origin::default);
+            self.origins_for_bounds.resize_with(count, Origin::default);
         }
+    }
+
+    /// Returns what [`Self::march_from`] does.
+    fn marches(&mut self, places: &[Place], complete: bool, has_bounds: bool) -> Vec<Marching<'_>> {
+        let Self { costs, origins, origins_for_bounds, .. } = self;
         // No leg begins at the last place.
         let starts = if complete { places.len() } else { places.len() - 1 };
-        let open = origins[..starts].par_iter_mut().enumerate().map(|(n, origin)| {
-            let until = places.get(n + 1).filter(|_| !complete);
-            (origin, &*costs.mean, Passage::Open, places[n], until.copied())
+        let open = origins[..starts].iter_mut().enumerate().map(|(n, origin)| {
+            let until = places.get(n + 1).filter(|_| !complete).copied();
+            Marching { origin, costs: &costs.mean, least: Passage::Open, place: places[n], until }
         });
         let for_bounds = if has_bounds { &mut origins_for_bounds[..] } else { &mut [] };
-        let partly = for_bounds.par_iter_mut().zip(places);
-        let partly = partly.map(|(origin, &place)| (origin, &*costs.least, Passage::Partly, place, None));
-        open.chain(partly).for_each(|(origin, costs, least, place, until)| {
-            origin.run(mesh, costs, least, place, until);
+        let partly = for_bounds.iter_mut().zip(places).map(|(origin, &place)| Marching {
+            origin,
+            costs: &costs.least,
+            least: Passage::Partly,
+            place,
+            until: None,
         });
+        open.chain(partly).collect()
     }
 
     /// Returns the marches through open triangles from two places, one after the other.

@@ -560,9 +560,12 @@ fn each_point_of_a_curve_is_the_mesh_of_its_error_and_its_number() {
         // The goal of the document does not matter.
         let spec = of(SurfaceGoal::Within(0.3))
             .mesh_spec_on(of(SurfaceGoal::AtMost(9)).lattice().unwrap(), Limits::default());
-        let mut tracing = CurveTracing::new(spec, Parts::default(), norm, 3000);
+        let [mut tracing, mut at_once] =
+            [(); 2].map(|()| CurveTracing::new(spec.clone(), Parts::default(), norm, 3000));
         while tracing.advance(None, 97).unwrap() == Progress::More {}
+        while at_once.advance(None, usize::MAX).unwrap() == Progress::More {}
         let curves = tracing.curves();
+        assert_eq!(at_once.curves(), curves, "the slices do not matter");
         let others = curves.others.unwrap();
         assert_eq!(others.triangles, curves.least[0].triangles, "the curve begins with the other layers");
         assert!(curves.least.last().unwrap().triangles <= 3000 && curves.least.len() > 50);

@@ -18,11 +18,11 @@ use super::corridor::ShownCorridor;
 use super::front::FrontFinder;
 use super::prover::{Known, Prover};
 use super::work::{
-    FoundPath, KnownPlanner, PlannedMesh, PlannerSource, ShownPath, Work, WorkResult, find, find_corridor,
+    FoundPath, KnownPlanner, PathWork, PlannedMesh, PlannerSource, ShownPath, Work, WorkResult, find_corridor,
 };
 use crate::app::derivation::MeasuredMesh;
 use crate::app::document_id::DocumentId;
-use crate::app::jobs::{Jobs, Slot};
+use crate::app::jobs::{Jobs, Slice, Slot};
 use crate::app::session::Session;
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::PathError;
@@ -186,16 +186,10 @@ impl PathFinder {
             None => PlannedMesh::Mesh(session.follower().shared_mesh()),
         });
         let source = PlannerSource { known: planner.map(|(known, _)| Box::new(known)), mesh };
-        let (domain, unit) = (settings.domain.clone(), settings.unit);
-        self.work.start(
-            key,
-            move || {
-                let density = plan.cost.density(risk.clone(), &domain).ok()?;
-                let planner = source.planner(&density, (plan.clone(), risk), &domain, is_live)?;
-                Some(find(planner, density, (&plan.routes, &domain, unit), is_live))
-            },
-            jobs,
-        );
+        let place = (settings.domain.clone(), settings.unit);
+        let begin = move || Some(PathWork::new(source, (plan, risk), place, is_live));
+        let find = |work: &mut Option<PathWork>| work.as_mut().map_or(Slice::Found(None), PathWork::advance);
+        self.work.start_in_slices(key, begin, find, jobs);
     }
 
     /// Finds the corridor with the planner of the paths.

@@ -1,9 +1,11 @@
 //! The work on paths that a thread does with the planner.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::app::jobs::Slice;
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, metres_along};
@@ -12,7 +14,7 @@ use meshbrush_core::path::{
     CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, Planner, Solution,
 };
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::mesh::{Extract, Mesh, Progress};
 use meshbrush_mesh::text::LengthUnit;
 
 /// Places on a path at which its profile is known.
@@ -50,15 +52,13 @@ pub(super) struct KnownPlanner {
 
 impl KnownPlanner {
     fn new(
-        mesh: &PlannedMesh,
+        meshes: [Arc<PathMesh>; 2],
         density: &Arc<dyn CostDensity>,
         (plan, risk): (Arc<PathPlan>, RiskField),
         domain: &Domain,
     ) -> Result<Self, PathError> {
-        let mesh = Arc::new(mesh.in_area(&plan, domain)?);
-        let detailed = mesh.detailed(&plan.routes);
-        let planner = Planner::new(Arc::clone(&detailed), &**density)?;
-        let (domain, meshes) = (domain.clone(), [mesh, detailed]);
+        let planner = Planner::new(Arc::clone(&meshes[1]), &**density)?;
+        let domain = domain.clone();
         Ok(Self {
             planner,
             plan,
@@ -212,56 +212,130 @@ impl PlannedMesh {
     }
 }
 
-impl PlannerSource {
-    /// Returns a planner that knows the costs; `None` without any source.
-    pub fn planner(
-        self,
-        density: &Arc<dyn CostDensity>,
+/// The work on the paths of a document, a step at a time.
+pub(super) struct PathWork {
+    pub plan: Arc<PathPlan>,
+    pub risk: RiskField,
+    pub domain: Domain,
+    pub unit: LengthUnit,
+    pub is_live: bool,
+    density: Arc<dyn CostDensity>,
+    step: Step,
+    found: Vec<Result<FoundPath, PathError>>,
+}
+
+/// What is done next.
+enum Step {
+    /// Closes the triangles outside the area of paths.
+    Close(PlannerSource),
+    /// Makes smaller triangles for the places.
+    Detail(Arc<PathMesh>),
+    Plan([Arc<PathMesh>; 2]),
+    /// A planner follows, on another mesh if there is one.
+    Follow(Box<KnownPlanner>, Option<Box<PathMesh>>),
+    /// Marches for the next route, after so many.
+    March(Box<KnownPlanner>, usize),
+    /// Finds the path of the next route.
+    Solve(Box<KnownPlanner>),
+    /// Nothing is left to do.
+    Done,
+}
+
+impl PathWork {
+    /// Begins; `None` where there is no cost.
+    pub fn new(
+        source: PlannerSource,
         (plan, risk): (Arc<PathPlan>, RiskField),
-        domain: &Domain,
+        (domain, unit): (Domain, LengthUnit),
         is_live: bool,
-    ) -> Option<Result<KnownPlanner, PathError>> {
-        match self {
-            Self { known: Some(mut known), mesh } => {
-                let areas = known.changed_areas(&plan, &risk, domain);
-                let followed = match mesh.map(|mesh| mesh.in_area(&plan, domain)) {
-                    Some(mesh) => mesh.and_then(|mesh| known.move_to(mesh, plan, &**density, &areas)),
-                    None => known.follow(plan, &**density, &areas, is_live),
-                };
-                Some(followed.map(|()| KnownPlanner {
-                    risk,
-                    domain: domain.clone(),
-                    corridor: None,
-                    ..*known
-                }))
+    ) -> Option<Self> {
+        let density = plan.cost.density(risk.clone(), &domain).ok()?;
+        let (step, found) = (Step::Close(source), Vec::new());
+        Some(Self { plan, risk, domain, unit, is_live, density, step, found })
+    }
+
+    /// Takes the next step.
+    pub fn advance(&mut self) -> Slice<Option<Work>> {
+        match self.step() {
+            Ok(ControlFlow::Continue(step)) => {
+                self.step = step;
+                Slice::More
             }
-            Self { known: None, mesh } => Some(KnownPlanner::new(&mesh?, density, (plan, risk), domain)),
+            Ok(ControlFlow::Break(work)) => Slice::Found(work),
+            // No path can be found.
+            Err(problem) => {
+                let routes = self.plan.routes.iter().map(|_| Err(problem.clone())).collect();
+                let result = WorkResult::Paths { density: None, routes };
+                Slice::Found(Some(Work { planner: None, result }))
+            }
         }
+    }
+
+    fn step(&mut self) -> Result<ControlFlow<Option<Work>, Step>, PathError> {
+        let Self { plan, risk, domain, density, is_live, .. } = self;
+        Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, Step::Done) {
+            Step::Close(PlannerSource { known, mesh }) => {
+                let mesh = mesh.map(|mesh| mesh.in_area(plan, domain)).transpose()?;
+                match (known, mesh) {
+                    (Some(known), mesh) => Step::Follow(known, mesh.map(Box::new)),
+                    (None, Some(mesh)) => Step::Detail(Arc::new(mesh)),
+                    (None, None) => return Ok(ControlFlow::Break(None)),
+                }
+            }
+            Step::Detail(mesh) => {
+                let detailed = mesh.detailed(&plan.routes);
+                Step::Plan([mesh, detailed])
+            }
+            Step::Plan(meshes) => {
+                let known = KnownPlanner::new(meshes, density, (plan.clone(), risk.clone()), domain)?;
+                Step::March(Box::new(known), 0)
+            }
+            Step::Follow(mut known, mesh) => {
+                let areas = known.changed_areas(plan, risk, domain);
+                match mesh {
+                    Some(mesh) => known.move_to(*mesh, plan.clone(), &**density, &areas)?,
+                    None => known.follow(plan.clone(), &**density, &areas, *is_live)?,
+                }
+                (known.risk, known.domain, known.corridor) = (risk.clone(), domain.clone(), None);
+                Step::March(known, 0)
+            }
+            Step::March(mut known, number) => {
+                let Some(places) = plan.routes.get(self.found.len()) else {
+                    return Ok(ControlFlow::Break(Some(self.work(*known))));
+                };
+                let request = request(*is_live);
+                match known.planner.march_ahead(places, request, number) {
+                    Ok(Progress::More) => Step::March(known, number + 1),
+                    // A problem is found again, and told.
+                    Ok(Progress::Done) | Err(_) => Step::Solve(known),
+                }
+            }
+            Step::Solve(mut known) => {
+                let found = self.solve(&mut known.planner);
+                self.found.push(found);
+                Step::March(known, 0)
+            }
+            Step::Done => return Ok(ControlFlow::Break(None)),
+        }))
+    }
+
+    fn solve(&self, planner: &mut Planner) -> Result<FoundPath, PathError> {
+        let Self { plan, domain, unit, density, is_live, .. } = self;
+        let places = &plan.routes[self.found.len()];
+        let found = planner.solve(&**density, places, request(*is_live));
+        let solution = found.map_err(|problem| problem.in_domain(domain, places))?;
+        Ok(FoundPath::new(solution, &**density, (EarthPlane::new(domain.projection, *unit), *unit)))
+    }
+
+    fn work(&mut self, planner: KnownPlanner) -> Work {
+        let routes = std::mem::take(&mut self.found);
+        let result = WorkResult::Paths { density: Some(self.density.clone()), routes };
+        Work { planner: Some(planner), result }
     }
 }
 
-/// Finds the paths of all routes.
-pub(super) fn find(
-    planner: Result<KnownPlanner, PathError>,
-    density: Arc<dyn CostDensity>,
-    (routes, domain, unit): (&[Vec<DVec2>], &Domain, LengthUnit),
-    is_live: bool,
-) -> Work {
-    let mut known = match planner {
-        Ok(known) => known,
-        Err(problem) => {
-            let routes = routes.iter().map(|_| Err(problem.clone())).collect();
-            return Work { planner: None, result: WorkResult::Paths { density: None, routes } };
-        }
-    };
-    let request = if is_live { PathRequest::LIVE } else { PathRequest::FULL };
-    let routes = routes.iter().map(|places| {
-        let found = known.planner.solve(&*density, places, request);
-        let solution = found.map_err(|problem| problem.in_domain(domain, places))?;
-        Ok(FoundPath::new(solution, &*density, (EarthPlane::new(domain.projection, unit), unit)))
-    });
-    let routes = routes.collect();
-    Work { planner: Some(known), result: WorkResult::Paths { density: Some(density), routes } }
+fn request(is_live: bool) -> PathRequest {
+    if is_live { PathRequest::LIVE } else { PathRequest::FULL }
 }
 
 /// Finds the lines around the corridor of all routes: the places on paths that cost more than the best of

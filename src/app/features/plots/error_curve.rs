@@ -1,18 +1,17 @@
 //! The curves of error against triangles, traced on another thread.
 
+use crate::app::clock::Instant;
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::jobs::{Jobs, Slot, Wanted};
+use crate::app::jobs::{Jobs, Slice, Slot};
 use crate::app::kit::Ctx;
 use crate::app::session::Session;
 use meshbrush_core::build::{CurveTracing, ErrorCurves, MeshSpec, Parts};
+use meshbrush_core::document::Pace;
 use meshbrush_core::layers::{LayerKind, PaintLayers, Surface, SurfaceGoal, SurfaceNorm};
 use meshbrush_core::surface::CurvePoint;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_study::error_plot::error_plot;
 use meshbrush_study::plot::Plot;
-
-/// Samples or triangles of a slice of the work.
-const SLICE: usize = 1 << 16;
 
 /// Traces the curves of the document, and keeps the last ones.
 #[derive(Default)]
@@ -63,18 +62,21 @@ impl TracedCurves {
             },
             false => Parts::default(),
         };
-        let trace = move |wanted: &Wanted| {
-            let mut tracing = CurveTracing::new(spec, parts, norm, CurveTracing::USUAL_MOST);
-            loop {
-                match tracing.advance(Some(&paint), SLICE) {
-                    Ok(Progress::Done) => return Some(Ok(tracing.curves().clone())),
-                    Ok(Progress::More) if wanted.goes_on() => {}
-                    Ok(Progress::More) => return None,
-                    Err(error) => return Some(Err(error.to_string())),
-                }
+        let begin = move || {
+            let tracing = CurveTracing::new(spec, parts, norm, CurveTracing::USUAL_MOST);
+            Some((tracing, Pace::default()))
+        };
+        let trace = move |(tracing, pace): &mut (CurveTracing, Pace)| {
+            let began = Instant::now();
+            let progress = tracing.advance(Some(&paint), pace.visits());
+            pace.took(began.elapsed().as_secs_f64());
+            match progress {
+                Ok(Progress::More) => Slice::More,
+                Ok(Progress::Done) => Slice::Found(Ok(tracing.curves().clone())),
+                Err(error) => Slice::Found(Err(error.to_string())),
             }
         };
-        self.curves.start_wanted(*number, trace, jobs);
+        self.curves.start_in_slices(*number, begin, trace, jobs);
     }
 
     /// Notes what the document asks for.

@@ -130,16 +130,21 @@ impl Survey {
         if self.next == self.round.len() {
             (self.round, self.next) = (std::mem::take(&mut self.open), 0);
         }
-        let at_least = TASKS_PER_THREAD * rayon::current_num_threads();
+        let threads = rayon::current_num_threads();
+        // Several threads need enough for all of them; one alone ends its slice in time.
+        let (most_visits, at_least) = match threads {
+            1 => (visits.clamp(1, TASK_VISITS), 1),
+            _ => (TASK_VISITS, TASKS_PER_THREAD * threads),
+        };
         let tasks = (visits / TASK_VISITS).min(MOST_TASKS).max(at_least);
         let size = match self.is_first_round() {
             true => self.round.len().min(MOST_AT_FIRST),
             false => (self.round.len() / TASKS).clamp(1, MOST_SUBTREES),
         };
         let end = (self.next + tasks * size).min(self.round.len());
+        let task = |answers| Task::new(mesh, limits, answers, most_visits);
         let subtrees = self.round[self.next..end].par_chunks(size).with_max_len(1);
-        let found: Vec<_> =
-            subtrees.map(|subtrees| Task::new(mesh, limits, rule.answers()).survey(subtrees)).collect();
+        let found: Vec<_> = subtrees.map(|subtrees| task(rule.answers()).survey(subtrees)).collect();
         let firsts = (self.next..).step_by(size);
         for (found, first) in found.into_iter().zip(firsts) {
             let found = found?;
@@ -241,9 +246,9 @@ struct Found {
 }
 
 impl<A: RuleAnswers> Task<A> {
-    fn new(mesh: &Mesh, limits: &Limits, answers: A) -> Self {
+    fn new(mesh: &Mesh, limits: &Limits, answers: A, visits: usize) -> Self {
         let (cap, deepest) = (limits.level_cap(), mesh.lattice().deepest_level());
-        Self { answers, cap, deepest, visits: TASK_VISITS, found: Found::default() }
+        Self { answers, cap, deepest, visits, found: Found::default() }
     }
 
     fn survey(mut self, subtrees: &[Subtree]) -> Result<Found, A::Error> {

@@ -1,0 +1,94 @@
+//! Derives a mesh in slices.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::band::Band;
+use super::changes::{FittedBand, Outline, OutlineChanges};
+use super::corners::TurningCorners;
+use super::fitting::Fitting;
+use super::{DerivedMesh, OutlineFollower};
+use crate::domain::DomainOnLattice;
+use crate::mesh::{Cleaning, Mesh, Progress};
+
+/// The work of [`DerivedMesh::new`], and of [`OutlineFollower::new`] where that is asked for: both from one
+/// derivation.
+pub struct MeshDerivation {
+    mesh: Arc<Mesh>,
+    domain: DomainOnLattice,
+    cleaning: Cleaning,
+    follows: bool,
+    step: Step,
+    derived: Option<DerivedMesh>,
+    follower: Option<OutlineFollower>,
+}
+
+enum Step {
+    Begin,
+    Band(Arc<TurningCorners>),
+    Fit(Arc<TurningCorners>, Box<Fitting>),
+    Change(Arc<TurningCorners>, Box<FittedBand>),
+    Clean(Option<OutlineChanges>, Option<(Arc<TurningCorners>, Box<FittedBand>)>),
+    Follow(Arc<TurningCorners>, Box<FittedBand>),
+    Done,
+}
+
+impl MeshDerivation {
+    /// Begins to derive a mesh; `follows` asks for its nodes on the outline, to be kept in step with the
+    /// mesh.
+    pub fn new(mesh: Arc<Mesh>, domain: DomainOnLattice, cleaning: Cleaning, follows: bool) -> Self {
+        Self { mesh, domain, cleaning, follows, step: Step::Begin, derived: None, follower: None }
+    }
+
+    /// Takes one step, which takes some milliseconds on a long coast.
+    pub fn advance(&mut self) -> Progress {
+        self.step = match (std::mem::replace(&mut self.step, Step::Done), self.domain.region_on_outline()) {
+            (Step::Done, _) => return Progress::Done,
+            (Step::Clean(changes, fitted), _) => {
+                self.derived = Some(DerivedMesh::cleaned(&self.mesh, changes, &self.cleaning));
+                fitted.map_or(Step::Done, |(corners, fitted)| Step::Follow(corners, fitted))
+            }
+            (_, None) => Step::Clean(None, None),
+            (Step::Begin, Some(region)) => Step::Band(Outline::new(self.mesh.lattice(), region).corners),
+            (Step::Band(corners), Some(region)) => {
+                let band = Band::new(&self.mesh, region);
+                let zone = vec![true; band.points.len()];
+                Step::Fit(corners, Box::new(Fitting::new(band, zone)))
+            }
+            (Step::Fit(corners, fitting), Some(region)) => {
+                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+                match fitting.advance(&self.mesh, &outline, &mut |_, _| {}) {
+                    ControlFlow::Continue(fitting) => Step::Fit(corners, Box::new(fitting)),
+                    ControlFlow::Break(fitted) => Step::Change(corners, Box::new(fitted)),
+                }
+            }
+            (Step::Change(corners, fitted), Some(region)) => {
+                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+                let changes = OutlineChanges::of_fitted(&self.mesh, &outline, &fitted);
+                Step::Clean(Some(changes), self.follows.then_some((corners, fitted)))
+            }
+            (Step::Follow(corners, fitted), Some(region)) => {
+                let outline = Outline::with_corners(self.mesh.lattice(), region, corners);
+                let follower = OutlineFollower::of_fitted(&self.mesh, &self.domain, &outline, &fitted);
+                self.follower = Some(follower);
+                Step::Done
+            }
+        };
+        if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }
+    }
+
+    /// Takes the mesh, once it is derived.
+    pub fn take_derived(&mut self) -> Option<DerivedMesh> {
+        self.derived.take()
+    }
+
+    /// Takes the nodes on the outline, once they are known: after the mesh.
+    pub fn take_follower(&mut self) -> Option<OutlineFollower> {
+        self.follower.take()
+    }
+
+    /// Returns the mesh that another one is derived from.
+    pub fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+}

@@ -1,0 +1,197 @@
+//! Puts the nodes of a band on the outline, one stage after the other.
+
+use std::ops::ControlFlow;
+
+use super::band::{Band, signs};
+use super::changes::{FittedBand, Outline, moved, patch};
+use super::corners::{Pin, pins};
+use super::flat::{drop_flat, pinched};
+use super::guard::Guard;
+use super::patchwork::Patchwork;
+use super::smooth::Smoother;
+use super::snap::{Crossings, Side, snapped};
+use super::stages::{DerivationAction, Watch, without_outside};
+use super::stencil::Placement;
+use crate::geometry::LatticePoint;
+use crate::mesh::{Mesh, MeshPatch};
+
+/// Number of rounds of flips and moves that improve the angles.
+const ROUNDS: usize = 8;
+
+/// A band on its way to a [`FittedBand`]. Each step is work of about the same size: long coasts take many
+/// milliseconds for it.
+pub(super) struct Fitting {
+    band: Band,
+    /// The nodes that are moved, and near which edges are flipped, beginning with the retreat.
+    zone: Vec<bool>,
+    stage: Stage,
+}
+
+/// What is done next.
+enum Stage {
+    Snap,
+    Place(Placing),
+    Pin(Placement),
+    Retreat(Placement, Vec<Pin>),
+    Divide(Placement, Vec<Pin>),
+    /// After so many steps of [`Pieces::improved`].
+    Improve(Box<Pieces>, usize),
+}
+
+/// The pieces of the triangles, with what they were made of.
+struct Pieces {
+    patchwork: Patchwork,
+    pins: Vec<Pin>,
+    placement: Placement,
+}
+
+impl Fitting {
+    pub(super) fn new(band: Band, zone: Vec<bool>) -> Self {
+        Self { band, zone, stage: Stage::Snap }
+    }
+
+    /// Takes the next step, and tells `watch` of a stage that it completes.
+    pub(super) fn advance(
+        self,
+        mesh: &Mesh,
+        outline: &Outline,
+        watch: Watch<'_>,
+    ) -> ControlFlow<FittedBand, Self> {
+        let Self { band, mut zone, stage } = self;
+        let Outline { region, angles, corners, .. } = outline;
+        let as_patch = |patchwork: &Patchwork| patch(mesh, &band, patchwork, angles);
+        let with_cuts = |placement: &Placement| as_patch(&Patchwork::new(&band, placement, angles));
+        let stage = match stage {
+            Stage::Snap => {
+                watch(DerivationAction::RemoveByCorners, &|| {
+                    without_outside(mesh, &signs(mesh, region), Vec::new())
+                });
+                Stage::Place(Placing::new(&band, outline))
+            }
+            Stage::Place(placing) => match placing.advance(&band, outline) {
+                ControlFlow::Continue(placing) => Stage::Place(placing),
+                ControlFlow::Break(placement) => {
+                    watch(DerivationAction::MoveToOutline, &|| {
+                        let moved = moved(&band, placement.goals.iter());
+                        without_outside(mesh, &signs(mesh, region), moved)
+                    });
+                    watch(DerivationAction::CutEdges, &|| with_cuts(&placement));
+                    Stage::Pin(placement)
+                }
+            },
+            Stage::Pin(mut placement) => {
+                let pins = pins(mesh, &band, &placement, corners, angles);
+                corners.spread_actions(mesh, &band, &mut placement, angles);
+                pins.iter().for_each(|pin| pin.apply(&mut placement));
+                watch(DerivationAction::MoveToCorners, &|| with_cuts(&placement));
+                Stage::Retreat(placement, pins)
+            }
+            Stage::Retreat(mut placement, mut pins) => {
+                if retreat(&band, &zone, &mut placement, &mut pins, outline) {
+                    watch(DerivationAction::Retreat, &|| with_cuts(&placement));
+                    Stage::Divide(placement, pins)
+                } else {
+                    Stage::Retreat(placement, pins)
+                }
+            }
+            Stage::Divide(placement, pins) => {
+                let zone = std::mem::take(&mut zone);
+                let patchwork = Patchwork::in_zone(&band, &placement, angles, zone);
+                Stage::Improve(Box::new(Pieces { patchwork, pins, placement }), 0)
+            }
+            Stage::Improve(pieces, step) => match pieces.improved(step, outline, watch, &as_patch) {
+                (pieces, Some(step)) => Stage::Improve(Box::new(pieces), step),
+                (Pieces { patchwork, pins, placement }, None) => {
+                    return ControlFlow::Break(FittedBand { band, patchwork, pins, placement });
+                }
+            },
+        };
+        ControlFlow::Continue(Self { band, zone, stage })
+    }
+}
+
+impl Pieces {
+    /// Takes a step for better angles: flips and moves in turn, and at last a pull to the outline. Returns
+    /// the number of the next one.
+    fn improved(
+        mut self,
+        step: usize,
+        Outline { region, lattice, angles, .. }: &Outline,
+        watch: Watch<'_>,
+        as_patch: &dyn Fn(&Patchwork) -> MeshPatch,
+    ) -> (Self, Option<usize>) {
+        let smoother = Smoother { region, angles, extent: lattice.extent() };
+        let action = match step {
+            step if step == 2 * ROUNDS => {
+                smoother.pull(&mut self.patchwork);
+                DerivationAction::PullToOutline
+            }
+            step if step % 2 == 0 => {
+                self.patchwork.flip_edges(angles);
+                DerivationAction::FlipEdges
+            }
+            _ => {
+                smoother.smooth(&mut self.patchwork);
+                DerivationAction::ShiftNodes
+            }
+        };
+        watch(action, &|| as_patch(&self.patchwork));
+        let next = (step < 2 * ROUNDS).then_some(step + 1);
+        (self, next)
+    }
+}
+
+/// Moves nodes onto the outline, all at once. Nodes at which the domain would touch itself stay.
+struct Placing {
+    crossings: Crossings,
+    sides: Vec<Side>,
+    goals: Vec<LatticePoint>,
+    acted: Vec<bool>,
+}
+
+impl Placing {
+    fn new(band: &Band, Outline { region, lattice, angles, .. }: &Outline) -> Self {
+        let crossings = Crossings::new(band, region, lattice);
+        let (sides, goals) = snapped(band, &crossings, angles);
+        Self { crossings, sides, goals, acted: vec![false; band.points.len()] }
+    }
+
+    /// Moves the nodes, or finds out which of them must stay.
+    fn advance(self, band: &Band, Outline { angles, .. }: &Outline) -> ControlFlow<Placement, Self> {
+        let Self { crossings, mut sides, mut goals, mut acted } = self;
+        let mut placement = Placement::new(band, &crossings, sides.clone(), goals.clone());
+        drop_flat(band, &mut placement, angles, angles.limit());
+        acted.iter_mut().zip(&placement.acted).for_each(|(all, now)| *all |= now);
+        let pinched = pinched(band, &placement);
+        if pinched.is_empty() {
+            placement.acted[..acted.len()].copy_from_slice(&acted);
+            return ControlFlow::Break(placement);
+        }
+        for v in pinched {
+            let v = v as usize;
+            (sides[v], goals[v], acted[v]) = (Side::of(band.inside[v]), band.points[v], true);
+        }
+        ControlFlow::Continue(Self { crossings, sides, goals, acted })
+    }
+}
+
+/// Lets nodes retreat where angles are too small. Corners with their nodes, the `pins`, where retreats do not
+/// help are given up. Returns whether there were none; otherwise it must be called again.
+fn retreat(
+    band: &Band,
+    zone: &[bool],
+    placement: &mut Placement,
+    pins: &mut Vec<Pin>,
+    Outline { angles, .. }: &Outline,
+) -> bool {
+    let pin_limits = pins.iter().map(|pin| (pin.node, pin.limit)).collect();
+    let stuck = Guard { band, zone, angles, limit: angles.limit(), pin_limits }.run(placement);
+    if stuck.is_empty() {
+        return true;
+    }
+    let is_stuck = |pin: &Pin| stuck.binary_search(&pin.node).is_ok();
+    pins.iter().filter(|pin| is_stuck(pin)).for_each(|pin| pin.undo(placement));
+    pins.retain(|pin| !is_stuck(pin));
+    placement.advance_all();
+    false
+}
