@@ -4,6 +4,7 @@
 //! same [`App`] as on a desktop. A tab has no threads: frames do the work of jobs (`app/jobs`). Its files are
 //! in memory (`io::disk`).
 
+mod events;
 mod file_dialog;
 mod files;
 mod interface;
