@@ -1,5 +1,6 @@
-// Drives the page in Chromium as a person does, without a GPU: node tests/web.mjs FOLDER PROGRAM SCRATCH
-// FOLDER has the page, PROGRAM is the desktop program, SCRATCH is a folder for files and pictures. `sh tests/web` calls it.
+// Drives the page in Chromium as a person does, without a GPU: node tests/web.mjs FOLDER PROGRAM SCRATCH [PACKAGE]
+// FOLDER has the page, PROGRAM is the desktop program, SCRATCH is a folder for files and pictures, PACKAGE has the package
+// for npm. `sh tests/web` calls it.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -8,7 +9,7 @@ import http from "node:http";
 import { createRequire } from "node:module";
 import path from "node:path";
 
-const [folder, program, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
+const [folder, program, scratch, npmPackage] = process.argv.slice(2).map((name) => path.resolve(name));
 const { chromium } = createRequire(path.join(scratch, "x.js"))("playwright-core");
 const assets = path.resolve(import.meta.dirname, "../assets");
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
@@ -19,7 +20,7 @@ const WEBGL = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swift
 const WEBGPU = [...WEBGL, "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 /** Serves the folder, as any static server does. */
-async function serve() {
+async function serve(folder) {
   const server = http.createServer((request, response) => {
     const name = decodeURIComponent(new URL(request.url, "http://localhost").pathname).replace(/\/$/, "/index.html");
     const file = path.join(folder, name);
@@ -35,7 +36,7 @@ async function serve() {
   return [server, `http://localhost:${server.address().port}/`];
 }
 
-const [server, url] = await serve();
+const [server, url] = await serve(folder);
 const sleep = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 let open;
 
@@ -516,6 +517,107 @@ const tests = {
     page.problems = []; // the browser's own words about it
     await page.evaluate(() => window.meshbrush.openExample("Aegean Sea"));
     await until("it is opened", async () => { const now = await fingerprint(page); return now && now !== before; });
+  },
+
+  async "a link has the view, the tool and the step"({ page }) {
+    const parsed = async () => {
+      const link = await page.evaluate(() => window.meshbrush.link());
+      const [, , , view] = link.split(".");
+      return [link, JSON.parse(Buffer.from(view ?? "", "base64url").toString() || "{}")];
+    };
+    await page.goto(url);
+    await settled(page);
+    await page.evaluate(() => window.meshbrush.openExample("The report's diamond"));
+    await sleep(200);
+    const shown = await settled(page);
+    await page.keyboard.press("h");
+    await page.mouse.move(500, 400);
+    await page.mouse.wheel(0, -600);
+    await sleep(500);
+    await page.keyboard.press("F10");
+    await until("the steps", async () => { await page.evaluate(() => window.meshbrush.step(3)); return (await parsed())[1].step >= 9; });
+    const [link, view] = await parsed();
+    await page.goto("about:blank");
+    await page.goto(`${url}#${link}`);
+    await until("the step", async () => (await page.evaluate(() => window.meshbrush?.fingerprint())) && (await parsed())[1].step === view.step);
+    assert.equal(await settled(page), shown);
+    const [, again] = await parsed();
+    assert.equal(again.tool, view.tool);
+    assert.ok(view.tool && view.area && view.area.every((side, n) => Math.abs(side - again.area[n]) < 1e-6 * (view.area[2] - view.area[0])), JSON.stringify([view, again]));
+  },
+
+  async "a painted example is sent as its gestures"({ page }) {
+    await page.goto(url);
+    await settled(page);
+    await paint(page);
+    await settled(page);
+    await paint(page, [400, 500]);
+    const painted = await settled(page);
+    const link = await page.evaluate(() => window.meshbrush.link());
+    console.log(`    ${link.length} characters`);
+    assert.match(link.slice(0, 4), /^2\.g\./);
+    await page.goto("about:blank");
+    await page.goto(`${url}#${link}`);
+    assert.equal(await settled(page), painted);
+    assert.equal(onDesktop(await projectOf(page)), painted);
+  },
+
+  async "a page paints strokes, takes pictures and hears events"({ page }) {
+    await page.goto(url);
+    const before = await settled(page);
+    await page.evaluate(() => {
+      window.heard = { complete: [], changed: [], message: [], step: [] };
+      for (const [event, list] of Object.entries(window.heard)) {
+        // What is told may ask the program.
+        window.meshbrush.on(event, (detail) => list.push({ ...detail, fingerprint: window.meshbrush.fingerprint() }));
+      }
+      window.unheard = () => { throw new Error("it was taken off"); };
+      window.meshbrush.on("changed", window.unheard);
+      window.meshbrush.off("changed", window.unheard);
+    });
+    const picture = async () => Buffer.from(await page.evaluate(() => Array.from(window.meshbrush.picture(320, 200))));
+    const first = await picture();
+    assert.deepEqual([first.toString("latin1", 1, 4), first.readUInt32BE(16), first.readUInt32BE(20)], ["PNG", 320, 200]);
+    await page.evaluate(() => window.meshbrush.paint(Float64Array.of(0.4, 0.4, 1, 0.5, 0.6, 0.5, 0.7, 0.4, 0.2)));
+    const painted = await until("another mesh", async () => { const now = await fingerprint(page); return now && now !== before && now; });
+    assert.equal(await settled(page), onDesktop(await projectOf(page)));
+    assert.notDeepEqual(await picture(), first);
+    const { complete, changed } = await page.evaluate(() => window.heard);
+    assert.equal(complete.at(-1).fingerprint, painted);
+    assert.equal(complete.at(-1).triangles, await page.evaluate(() => window.meshbrush.triangles()));
+    assert.equal(changed.at(-1).name, "Radar threats");
+    await page.keyboard.press("F10");
+    await until("steps", () => page.evaluate(() => window.heard.step.length > 0));
+    await page.evaluate(() => window.meshbrush.step(2));
+    await until("a step", () => page.evaluate(() => window.heard.step.at(-1).step === 2 && window.heard.step.at(-1).steps > 2));
+    await page.evaluate(() => window.meshbrush.open("wrong.toml", new Uint8Array(3)));
+    await until("a message", () => page.evaluate(() => window.heard.message.at(-1)?.failed));
+    for (const [wrong, words] of [
+      ["paint(Float64Array.of(1, 2))", /x, y and pressure/], ["paint(new Float64Array())", /x, y and pressure/],
+      ["paint(Float64Array.of(NaN, 0, 1))", /x, y and pressure/], ["paint(Float64Array.of(0, 0, 2))", /x, y and pressure/],
+      ["picture(0, 5)", /impossible/], ["picture(5, 99999)", /impossible/], ["on('other', () => {})", /no event “other”/],
+    ]) {
+      assert.match(await page.evaluate((wrong) => { try { eval(`window.meshbrush.${wrong}`); return "no error"; } catch (problem) { return problem.message; } }, wrong), words);
+    }
+  },
+
+  async "the example page of the package follows the pointer"({ page }) {
+    if (!npmPackage) {
+      return;
+    }
+    const [server, url] = await serve(npmPackage);
+    await page.goto(`${url}example.html`);
+    const text = () => page.textContent("#text");
+    await until("a mesh", async () => /triangles/.test(await text()));
+    const before = Number.parseInt(await text(), 10);
+    await page.mouse.move(200, 500);
+    await page.mouse.down();
+    await page.mouse.move(350, 520, { steps: 8 });
+    await page.mouse.up();
+    await until("a finer mesh", async () => Number.parseInt(await text(), 10) > before);
+    await page.shot("package");
+    page.problems = page.problems.filter((problem) => !/favicon|404/.test(problem));
+    server.close();
   },
 
   async "a small screen, a dense one, and a second tab"({ page, browser }) {

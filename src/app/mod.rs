@@ -36,6 +36,7 @@ mod kept_keys;
 mod keys;
 mod kit;
 mod layer_edits;
+mod link;
 mod notices;
 mod panels;
 mod parts;

@@ -170,6 +170,8 @@ pub struct View {
     /// Whether the view shows the whole domain and was not moved since: it then follows the size of the
     /// window.
     pub is_fitted: bool,
+    /// Bounds of a domain, and the area of it that is shown once its mesh is there.
+    pub wanted_area: Option<[Rect; 2]>,
     /// Colours of the levels.
     pub colormap: Colormap,
     /// Dark or light.
@@ -211,6 +213,7 @@ impl Default for View {
         Self {
             camera: None,
             is_fitted: true,
+            wanted_area: None,
             colormap: Colormap::Viridis,
             ground: Ground::Dark,
             edges: true,
@@ -279,9 +282,8 @@ impl View {
         match command {
             ViewCommand::Fit => self.fit(),
             ViewCommand::LookAt(point) => self.move_camera(|camera| camera.centered_on(point)),
-            ViewCommand::ShowArea(area) => {
-                self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
-            }
+            ViewCommand::ShowArea(area) => self.show_area(area),
+            ViewCommand::ShowAreaOf(bounds, area) => self.wanted_area = Some([bounds, area]),
             ViewCommand::Zoom(factor) => {
                 let about_middle = |camera: SpaceCamera| camera.zoomed(factor, camera.plan().half_size_px());
                 self.move_view(|camera| camera.zoomed(factor, camera.half_size_px()), about_middle);
@@ -328,7 +330,7 @@ impl View {
 
     /// Shows the whole domain, also when the window gets another size, until the view is moved.
     pub fn fit(&mut self) {
-        (self.camera, self.is_fitted) = (None, true);
+        (self.camera, self.is_fitted, self.wanted_area) = (None, true, None);
         self.space.forget_height();
     }
 
@@ -377,8 +379,7 @@ impl View {
     }
 
     /// Resizes the camera to a canvas. Where there is no camera yet, the domain has other bounds, or the view
-    /// was never moved, it shows the whole domain with a margin, and leaves `below_px` pixels for hints
-    /// below.
+    /// was never moved, it shows the whole domain with a margin, and `below_px` pixels more below.
     pub fn fit_camera(&mut self, lattice: &Lattice, size_px: [u32; 2], margin_px: f64, below_px: f64) {
         let bounds = lattice.bounds();
         self.camera = Some(match self.camera {
@@ -395,6 +396,7 @@ impl View {
                 }
             }
         });
+        self.show_wanted_area(bounds);
     }
 
     /// Returns whether a camera stays where it is when the canvas gets a size.

@@ -1,4 +1,5 @@
-//! The module for Python is a workspace of its own, in which the rest has the same versions and the same rules.
+//! The module for Python and the package for JavaScript are workspaces of their own, in which the rest has the same
+//! versions and the same rules.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -7,8 +8,8 @@ use std::path::{Path, PathBuf};
 use crate::ROOT;
 use crate::architecture::{LONGEST_FILE, WIDEST_COMMENT};
 
-/// Packages that only the module for Python needs, and whose names the main workspace may have in other versions.
-const OWN: [&str; 1] = ["meshbrush-python"];
+/// The folders of the other workspaces, with the names of their packages.
+const OTHERS: [(&str, &str); 2] = [("python", "meshbrush-python"), ("javascript", "meshbrush-javascript")];
 
 fn read(path: &str) -> String {
     fs::read_to_string(format!("{ROOT}/{path}")).unwrap()
@@ -28,28 +29,33 @@ fn locked(path: &str) -> BTreeMap<String, Vec<String>> {
     versions
 }
 
-/// The same document has the same mesh in Python: another version of a library could calculate otherwise.
+/// The same document has the same mesh everywhere: another version of a library could calculate otherwise.
 #[test]
-fn shared_packages_have_the_same_versions_in_python() {
-    let (main, python) = (locked("Cargo.lock"), locked("python/Cargo.lock"));
-    let differs = |(name, versions): &(&String, &Vec<String>)| {
-        let known = main.get(*name);
-        known.is_some_and(|known| versions.iter().any(|version| !known.contains(version)))
-    };
-    let found: Vec<_> = python.iter().filter(differs).collect();
-    let advice = "copy Cargo.lock to python/Cargo.lock, and run `cargo metadata` there";
-    assert!(found.is_empty(), "python/Cargo.lock has other versions; {advice}: {found:?}");
-    assert!(python.contains_key(OWN[0]) && python["libm"] == main["libm"]);
+fn shared_packages_have_the_same_versions_in_all_workspaces() {
+    let main = locked("Cargo.lock");
+    for (folder, own) in OTHERS {
+        let other = locked(&format!("{folder}/Cargo.lock"));
+        let differs = |(name, versions): &(&String, &Vec<String>)| {
+            let known = main.get(*name);
+            known.is_some_and(|known| versions.iter().any(|version| !known.contains(version)))
+        };
+        let found: Vec<_> = other.iter().filter(differs).collect();
+        let advice = format!("copy Cargo.lock to {folder}/Cargo.lock, and run `cargo metadata` there");
+        assert!(found.is_empty(), "{folder}/Cargo.lock has other versions; {advice}: {found:?}");
+        assert!(other.contains_key(own) && other["libm"] == main["libm"]);
+    }
 }
 
 #[test]
-fn the_package_for_python_has_the_version_of_the_program() {
+fn packages_for_other_languages_have_the_version_of_the_program() {
     let version = |path: &str| {
         let text = read(path);
         let line = text.lines().find(|line| line.starts_with("version = ")).unwrap().to_owned();
         line.split('"').nth(1).unwrap().to_owned()
     };
-    assert_eq!(version("python/Cargo.toml"), version("Cargo.toml"));
+    for (folder, _) in OTHERS {
+        assert_eq!(version(&format!("{folder}/Cargo.toml")), version("Cargo.toml"));
+    }
 }
 
 fn files_in(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
@@ -64,11 +70,16 @@ fn files_in(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn source_for_python_obeys_the_rules_of_the_source() {
+fn source_for_other_languages_obeys_the_rules_of_the_source() {
     let mut files = Vec::new();
     files_in(&Path::new(ROOT).join("python/src"), "rs", &mut files);
     files_in(&Path::new(ROOT).join("python/meshbrush"), "py", &mut files);
-    assert!(files.len() > 20);
+    files_in(&Path::new(ROOT).join("javascript/src"), "rs", &mut files);
+    files_in(&Path::new(ROOT).join("javascript/sequential"), "rs", &mut files);
+    files.extend(
+        ["index.js", "index.d.ts", "node.js"].map(|name| Path::new(ROOT).join("javascript").join(name)),
+    );
+    assert!(files.len() > 30);
     for path in files {
         let (text, name) = (fs::read_to_string(&path).unwrap(), path.display());
         assert!(text.lines().count() <= LONGEST_FILE, "{name} is longer than {LONGEST_FILE} lines");

@@ -19,6 +19,8 @@ pub enum ViewCommand {
     LookAt(DVec2),
     /// Shows an area, in world units, as large as it fits.
     ShowArea(Rect),
+    /// Shows an area of a domain with these bounds, once its mesh is there; both in world units.
+    ShowAreaOf(Rect, Rect),
     /// Zooms about the middle of the canvas by a factor.
     Zoom(f64),
     /// Zooms by a factor about a place on the canvas, in pixels.

@@ -15,11 +15,10 @@ use crate::app::home::{self, Home};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
-use crate::app::{files, journal, project};
+use crate::app::{files, journal, link, project};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
-use meshbrush_io::io::project::Project;
-use meshbrush_io::io::{Meter, link};
+use meshbrush_io::io::Meter;
 
 impl App {
     /// Opens an example, and shows what it is about.
@@ -62,9 +61,10 @@ impl App {
             FileCommand::OpenExample(example) => self.open_example(example),
             FileCommand::CopyLink => self.copy_link(ctx),
             FileCommand::Ask(request) => self.ask_for_file(request),
-            FileCommand::Open(path) => match project::open_command(path) {
-                Ok(command) => self.send(command),
-                Err(problem) => self.fail(problem),
+            FileCommand::Open(path) => match (link::part_of(&path), project::open_command(path)) {
+                (Some(link), _) => self.open_link(&link),
+                (None, Ok(command)) => self.send(command),
+                (None, Err(problem)) => self.fail(problem),
             },
             FileCommand::AddData(path) => self.add_data(path),
             FileCommand::OpenProject(path) => home::open(&mut self.background, &path),
@@ -112,10 +112,17 @@ impl App {
 
     /// Copies a link to the page of the program with the document in it.
     fn copy_link(&mut self, ctx: &Context) {
-        match link::write(&Project::of(self.session.document())) {
+        match self.link() {
             Ok(link) => {
-                ctx.copy_text(format!("{}#{link}", host::address()));
-                self.session.tell("The link was copied. Whoever opens it gets this document.".into());
+                let page = host::address();
+                ctx.copy_text(format!("{page}#{link}"));
+                let how = match page.is_empty() {
+                    true => {
+                        "Append it to the address of a page with Meshbrush, or open it with “meshbrush LINK”"
+                    }
+                    false => "Whoever opens it gets this document and this view",
+                };
+                self.session.tell(format!("The link was copied. {how}."));
             }
             Err(problem) => self.session.report(problem),
         }

@@ -19,6 +19,7 @@ mod identity;
 mod key_table;
 mod keyboard_walk;
 mod keys;
+mod links;
 mod long_work;
 mod menus;
 mod messages;

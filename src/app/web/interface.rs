@@ -7,20 +7,28 @@ use std::sync::Arc;
 use eframe::egui::mutex::Mutex;
 use eframe::egui::{Context, ThemePreference, Ui};
 use eframe::wgpu;
+use glam::DVec2;
+use js_sys::Function;
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
+use super::events::{Herald, Listeners};
 use super::{files, link};
-use crate::app::command::{Command, FigureCommand, FileCommand, Opened, StepCommand, ViewCommand};
+use crate::app::command::{BrushCommand, Command, FigureCommand, FileCommand, StepCommand, ViewCommand};
 use crate::app::{App, set_up_gpu};
-use meshbrush_core::document::{Document, Example};
-use meshbrush_io::io::disk;
-use meshbrush_io::io::link as links;
+use meshbrush_core::document::Example;
+use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::project::{self, Project};
+use meshbrush_io::io::{disk, png};
+use meshbrush_render::render::software;
+use meshbrush_render::scene::Camera;
 use meshbrush_study::report::ReportFigure;
 
+/// The longest side of a picture, in pixels.
+const LARGEST_SIDE: u32 = 8192;
+
 /// The window as eframe holds it in a page, which can be found again.
-struct InPage(App, Arc<DeviceProblem>);
+struct InPage(App, Arc<DeviceProblem>, Herald);
 
 /// A sentence about an error of the graphics device that nothing else handles, until it is reported.
 #[derive(Default)]
@@ -62,6 +70,7 @@ impl eframe::App for InPage {
             self.0.send(Command::File(FileCommand::Fail(problem)));
         }
         self.0.logic(ctx, frame);
+        self.2.tell(&self.0);
     }
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
@@ -80,14 +89,14 @@ impl eframe::App for InPage {
 
 /// The program in a canvas of a page.
 #[wasm_bindgen]
-pub struct Meshbrush(eframe::WebRunner);
+pub struct Meshbrush(eframe::WebRunner, Listeners);
 
 #[wasm_bindgen]
 impl Meshbrush {
     /// Returns the program before it has a canvas.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
-        Self(eframe::WebRunner::new())
+        Self(eframe::WebRunner::new(), Listeners::default())
     }
 
     /// Opens the window in a canvas, on the document of the link in the address of the page if there is one.
@@ -98,10 +107,14 @@ impl Meshbrush {
         let mut options = eframe::WebOptions::default();
         set_up_gpu(&mut options.wgpu_options);
         disk::keep_in_memory();
-        let create = |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
+        let herald = Herald::new(self.1.clone());
+        let create = move |cc: &eframe::CreationContext<'_>| -> Result<Box<dyn eframe::App>, _> {
             let mut app = App::in_window(cc, None)?;
-            app.open_link(&link());
-            Ok(Box::new(InPage(app, DeviceProblem::of(cc))))
+            let link = link();
+            if !link.is_empty() {
+                app.open_link(&link);
+            }
+            Ok(Box::new(InPage(app, DeviceProblem::of(cc), herald)))
         };
         self.0.start(canvas, options, Box::new(create)).await.map_err(|problem| {
             let problem = problem.as_string().unwrap_or_default();
@@ -190,12 +203,91 @@ impl Meshbrush {
         Ok(bytes)
     }
 
-    /// Returns the document as the part of a link after `#`.
+    /// Returns the document, and how it is looked at, as the part of a link after `#`.
     ///
     /// # Errors
     /// Fails before the program has started, and with a sentence where the document is too large for a link.
     pub fn link(&self) -> Result<String, JsError> {
-        links::write(&self.document()?).map_err(|problem| JsError::new(&problem))
+        let app = self.app().ok_or_else(not_started)?;
+        app.link().map_err(|problem| JsError::new(&problem))
+    }
+
+    /// Paints a stroke with the brush or the eraser, whichever is selected, on the layer that is selected, as
+    /// a pen does: x and y in world units and the pressure from 0 to 1, in turn. What the pressure changes is
+    /// set in the window.
+    ///
+    /// # Errors
+    /// Fails with a sentence before the program has started, and for points that are none.
+    pub fn paint(&self, points: &[f64]) -> Result<(), JsError> {
+        let (points, rest) = points.as_chunks::<3>();
+        let is_point =
+            |&[x, y, pressure]: &[f64; 3]| x.is_finite() && y.is_finite() && (0.0..=1.0).contains(&pressure);
+        if points.is_empty() || !rest.is_empty() || !points.iter().all(is_point) {
+            return Err(JsError::new(
+                "A stroke is x, y and pressure in turn, for one point at least: finite numbers, and a pressure from 0 to 1.",
+            ));
+        }
+        let mut app = self.app().ok_or_else(not_started)?;
+        if app.tools.tool.brush.is_none() {
+            let kind = app.tools.kind;
+            app.send(Command::Brush(BrushCommand::Kind(kind)));
+        }
+        for (number, &[x, y, pressure]) in points.iter().enumerate() {
+            let draw = if number == 0 { BrushCommand::BeginStroke } else { BrushCommand::DrawTo };
+            app.send(Command::Brush(BrushCommand::Pen(Some(pressure))));
+            app.send(Command::Brush(draw(DVec2::new(x, y))));
+        }
+        app.send(Command::Brush(BrushCommand::EndStroke));
+        app.send(Command::Brush(BrushCommand::Pen(None)));
+        app.jobs.wake();
+        Ok(())
+    }
+
+    /// Returns the mesh as the canvas shows it in the plan, without marks, as the bytes of a PNG file of this
+    /// size in pixels.
+    ///
+    /// # Errors
+    /// Fails with a sentence before the program has started, and for a size that is impossible.
+    pub fn picture(&self, width: u32, height: u32) -> Result<Vec<u8>, JsError> {
+        if ![width, height].iter().all(|side| (1..=LARGEST_SIDE).contains(side)) {
+            return Err(JsError::new(&format!(
+                "A picture of {width} × {height} pixels is impossible: a side has 1 to {LARGEST_SIDE}."
+            )));
+        }
+        let app = self.app().ok_or_else(not_started)?;
+        let (session, view) = (&app.session, &app.view);
+        let (mesh, settings) = (session.mesh(), session.follower().settings());
+        let lattice = mesh.lattice();
+        let area = view.camera.map_or(lattice.bounds(), |camera| camera.visible_world());
+        let camera = Camera::fit(lattice, area, [width, height], 0.0);
+        let style = view.style(settings, 0, 1.0);
+        let derived = DerivedMesh::new(mesh, session.follower().domain(), &settings.derived_cleaning());
+        let extract = derived.extract(mesh);
+        let picture = match extract.is_patched() {
+            true => software::draw_extract(&extract, &camera, &style),
+            false => software::draw(mesh, &camera, &style, None, &[]),
+        };
+        let mut bytes = Vec::new();
+        png::write(&mut bytes, picture.size, &picture.rgba)?;
+        Ok(bytes)
+    }
+
+    /// Calls a function of the page at an event; see `MeshbrushEvents`.
+    ///
+    /// # Errors
+    /// Fails with a sentence for another name.
+    #[wasm_bindgen(skip_typescript)]
+    pub fn on(&self, event: &str, callback: Function) -> Result<(), JsError> {
+        self.1.add(event, callback)
+    }
+
+    /// Ends that.
+    ///
+    /// # Errors
+    /// Fails with a sentence for another name.
+    #[wasm_bindgen(skip_typescript)]
+    pub fn off(&self, event: &str, callback: &Function) -> Result<(), JsError> {
+        self.1.remove(event, callback)
     }
 
     /// Ends the program and gives its memory back to the page.
@@ -208,7 +300,7 @@ impl Meshbrush {
     }
 
     fn document(&self) -> Result<Project, JsError> {
-        let app = self.app().ok_or_else(|| JsError::new("The program has not started yet."))?;
+        let app = self.app().ok_or_else(not_started)?;
         Ok(Project::of(app.session.document()))
     }
 
@@ -220,21 +312,6 @@ impl Meshbrush {
     }
 }
 
-impl App {
-    /// Shows the document of a link, if there is one; a link that cannot be read leaves an empty document.
-    fn open_link(&mut self, link: &str) {
-        if link.is_empty() {
-            return;
-        }
-        let read = links::read(link).and_then(Project::into_document);
-        let (document, problem): (Document, _) = match read {
-            Ok(document) => (document, None),
-            Err(problem) => (crate::app::files::new_document(), Some(problem)),
-        };
-        let opened = Opened { document: Arc::new(document), home: None };
-        self.send(Command::File(FileCommand::Show(opened)));
-        if let Some(problem) = problem {
-            self.send(Command::File(FileCommand::Fail(problem)));
-        }
-    }
+fn not_started() -> JsError {
+    JsError::new("The program has not started yet.")
 }

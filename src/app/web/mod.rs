@@ -5,6 +5,7 @@
 //! in memory (`io::disk`).
 
 mod assets;
+mod events;
 mod file_dialog;
 mod files;
 mod interface;

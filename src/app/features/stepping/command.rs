@@ -10,6 +10,8 @@ pub enum StepCommand {
     /// Begins to step through the refinement: before the first step, at the one that a figure of the report
     /// shows, or at the one that made the queried triangle.
     Begin(Option<ReportFigure>),
+    /// Begins where so many steps are done.
+    BeginAt(usize),
     /// Shows the mesh of the document again.
     Leave,
     /// Goes to where so many steps are done.

@@ -36,9 +36,14 @@ impl Feature for Stepping {
             self.steps = Some(Steps::new(ctx.session, figure, queried));
             return;
         }
+        if let StepCommand::BeginAt(position) = command {
+            ctx.tools.only_move_view(true);
+            self.steps = Some(Steps::new(ctx.session, None, None).at(position));
+            return;
+        }
         let Some(steps) = &mut self.steps else { return };
         match command {
-            StepCommand::Begin(_) => {}
+            StepCommand::Begin(_) | StepCommand::BeginAt(_) => {}
             StepCommand::ExportAs(path) => return export_as(steps, path, ctx),
             StepCommand::Export(path) => {
                 let started = steps.export(&path, ctx.session, ctx.view, ctx.background);

@@ -31,6 +31,8 @@ pub struct Steps {
     figure: Option<ReportFigure>,
     /// The point, in world units, to whose triangle the first step shown belongs.
     queried: Option<DVec2>,
+    /// How many steps are done at first, where that was asked for.
+    first: Option<usize>,
     player: Option<StepPlayer>,
     /// The time up to which steps were played, in seconds, while it goes forwards by itself.
     played_until: Option<f64>,
@@ -71,12 +73,18 @@ impl Steps {
             recording: Slot::default(),
             figure,
             queried,
+            first: None,
             player: None,
             played_until: None,
             speed: SPEEDS[1].0,
             only_bisections: false,
             export_range: [0, FIRST_EXPORTED],
         }
+    }
+
+    /// Returns the steps, to begin where so many are done.
+    pub fn at(self, position: usize) -> Self {
+        Self { first: Some(position), ..self }
     }
 
     /// Returns the arrays at the step that is shown; `None` until the steps are recorded.
@@ -117,7 +125,8 @@ impl Steps {
                 let steps = player.recording().steps();
                 let shown =
                     steps.iter().position(|step| self.figure.is_some_and(|figure| figure.shows(step)));
-                player.go_to(shown.or(made_queried).map_or(0, |index| index + 1));
+                let shown = shown.or(made_queried).map(|index| index + 1);
+                player.go_to(self.first.or(shown).unwrap_or(0));
                 self.player = Some(player);
                 self.recording = Slot::default();
             }

@@ -19,6 +19,7 @@
 //!   where they are not 1.
 //! - An edit gives a `mesh`, or `no_mesh` and the reason.
 
+pub mod gestures;
 mod read;
 mod replay;
 mod saved;

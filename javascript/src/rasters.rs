@@ -1,0 +1,99 @@
+//! Values by pixel.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use meshbrush_core::layers::RasterSource;
+use meshbrush_core::raster::{Raster, RasterPyramid, is_raster_size};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::{Grouped, Number};
+use wasm_bindgen::JsError;
+
+use crate::errors::error;
+use crate::values::Table;
+
+/// What the values of a raster are, and the rule for them.
+pub struct ValueRule(&'static str, &'static str, fn(f32) -> bool);
+
+/// Any numbers.
+pub const ANY: ValueRule = ValueRule("", "", |_| true);
+/// Risks.
+pub const RISK: ValueRule = ValueRule("risk", "it must lie from 0 to 1. Scale the values first", |value| {
+    (0.0..=1.0).contains(&value)
+});
+/// Target diameters, in world units.
+pub const DIAMETER: ValueRule = ValueRule("target diameter", "it must be positive", |value| value > 0.0);
+/// Largest errors from surfaces.
+pub const ERROR: ValueRule = ValueRule("error", "it must be positive", |value| value > 0.0);
+
+/// Returns the rectangle with some sides.
+///
+/// # Errors
+/// Fails where it is none.
+pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, JsError> {
+    let bounds = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
+    if bounds.is_proper() && bounds.size().is_finite() {
+        return Ok(bounds);
+    }
+    Err(error(format_args!(
+        "The bounds {x0}, {y0}, {x1}, {y1} are no rectangle: give [x0, y0, x1, y1] with finite numbers, x0 less than x1 and \
+         y0 less than y1."
+    )))
+}
+
+/// Returns the raster of a layer. Without `bounds` it covers the rectangle of the domain.
+///
+/// # Errors
+/// Fails for values that cannot be used, and their place.
+pub fn source_of(table: Table<'_>, domain: Rect, rule: &ValueRule) -> Result<RasterSource, JsError> {
+    let bounds = table.several("bounds")?.map_or(Ok(domain), rect_of)?;
+    let [width, height] = ["width", "height"].map(|key| table.number(key).ok().flatten().unwrap_or(f64::NAN));
+    let origins = [("upper", false), ("lower", true)];
+    let lowest_first = table.word("origin", &origins)?.unwrap_or(false);
+    let values = table.needed("values", table.numbers("values"))?;
+    let raster = RasterPyramid::new(raster_of(&values, [width, height], bounds, lowest_first)?);
+    check_values(&raster, rule)?;
+    Ok(RasterSource { name: String::new(), raster: Arc::new(raster) })
+}
+
+/// Returns a raster of values in single precision, which are row by row from the top, or from the lowest.
+fn raster_of(values: &[f64], size: [f64; 2], bounds: Rect, lowest_first: bool) -> Result<Raster, JsError> {
+    let sides = size.map(|side| if side.trunc() == side && side > 0.0 { side as u32 } else { 0 });
+    let [columns, rows] = sides;
+    if !is_raster_size(sides) {
+        let [width, height] = size.map(Number);
+        return Err(error(format_args!(
+            "A raster of {width} × {height} pixels is impossible: width and height are whole numbers from 1 to 65 536, with \
+             at most 200 000 000 pixels in all."
+        )));
+    }
+    let count = columns as usize * rows as usize;
+    if values.len() != count {
+        return Err(error(format_args!(
+            "A raster of {columns} × {rows} pixels has {} values, and these are {}.",
+            Grouped(count),
+            Grouped(values.len())
+        )));
+    }
+    if let Some(value) = values.iter().find(|value| value.is_finite() && (**value as f32).is_infinite()) {
+        return Err(error(format_args!(
+            "The value {} is beyond single precision, which rasters have. Mark pixels without a value with NaN.",
+            Number(*value)
+        )));
+    }
+    let rows = values.chunks_exact(columns as usize);
+    let single = |row: &[f64]| row.iter().map(|&value| value as f32).collect::<Vec<_>>();
+    let pixels: Vec<f32> =
+        if lowest_first { rows.flat_map(single).collect() } else { rows.rev().flat_map(single).collect() };
+    Ok(Raster::from_values(bounds, sides, pixels))
+}
+
+fn check_values(raster: &RasterPyramid, &ValueRule(what, rule, is_valid): &ValueRule) -> Result<(), JsError> {
+    let raster = raster.raster();
+    let is_wrong = |value: f32| !value.is_nan() && !is_valid(value);
+    let wrong = raster.all().pixels().find(|&(x, y)| is_wrong(raster.get(x, y)));
+    let Some((x, y)) = wrong else { return Ok(()) };
+    let (value, at) = (raster.get(x, y), raster.pixel_center(x, y));
+    let [value, x, y] = [f64::from(value), at.x, at.y].map(Number);
+    Err(error(format_args!("The {what} is {value} at x = {x}, y = {y}; {rule}.")))
+}

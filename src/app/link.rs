@@ -1,0 +1,84 @@
+//! Links: the document, and how it is looked at.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::App;
+use super::command::{Command, FileCommand, Opened, ShellCommand, StepCommand, ViewCommand};
+use super::features::ROWS;
+use super::files::new_document;
+use super::kit::all_tools;
+use super::tools::Tools;
+use super::view::View;
+use meshbrush_io::io::link::{self, LinkView, Linked};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_render::scene::Camera;
+
+/// Returns the part of a link after `#`, where a name of a file is a link to a page of the program, or that
+/// part alone.
+pub fn part_of(name: &Path) -> Option<String> {
+    let (page, part) = name.to_str()?.split_once('#')?;
+    let is_page = page.starts_with("https://") || page.starts_with("http://");
+    let is_part = || part.split_once('.').is_some_and(|(version, _)| version.parse::<u32>().is_ok());
+    (is_page || page.is_empty() && is_part()).then(|| part.to_owned())
+}
+
+impl App {
+    /// Returns the document, and how it is looked at, as the part of a link after `#`. The view is that of
+    /// the plan.
+    ///
+    /// # Errors
+    /// Fails with a sentence where the document is too large for a link.
+    pub(super) fn link(&self) -> Result<String, String> {
+        let area = self.view.camera.filter(|_| !self.view.is_fitted).map(|camera| camera.visible_world());
+        let tool = self.tools.chosen();
+        let view = LinkView {
+            area: area.map(|area| [area.min.x, area.min.y, area.max.x, area.max.y]),
+            tool: (tool != Tools::for_domain(1.0, 1.0).tool).then(|| tool.name.to_owned()),
+            step: self.features.stepping.steps().map(|steps| steps.player().map_or(0, |p| p.position())),
+        };
+        link::write(self.session.document(), &view)
+    }
+
+    /// Shows what a link holds; one that cannot be read leaves an empty document and a sentence.
+    pub(super) fn open_link(&mut self, link: &str) {
+        let (Linked { document, view }, problem) = match link::read(link) {
+            Ok(linked) => (linked, None),
+            Err(problem) => (Linked { document: new_document(), view: LinkView::default() }, Some(problem)),
+        };
+        self.starts_with_file = false;
+        let bounds = document.settings().lattice().map(|lattice| lattice.bounds());
+        let opened = Opened { document: Arc::new(document), home: None };
+        self.send(Command::File(FileCommand::Show(opened)));
+        if let (Ok(bounds), Some([x0, y0, x1, y1])) = (bounds, view.area) {
+            let area = Rect::spanning(DVec2::new(x0, y0), DVec2::new(x1, y1));
+            self.send(Command::View(ViewCommand::ShowAreaOf(bounds, area)));
+        }
+        let tool = view.tool.and_then(|name| all_tools(ROWS).into_iter().find(|tool| tool.name == name));
+        if let Some(tool) = tool {
+            self.send(Command::Shell(ShellCommand::Use(tool)));
+        }
+        if let Some(step) = view.step {
+            self.send(Command::Steps(StepCommand::BeginAt(step)));
+        }
+        if let Some(problem) = problem {
+            self.send(Command::File(FileCommand::Fail(problem)));
+        }
+    }
+}
+
+impl View {
+    /// Shows an area, in world units, as large as it fits.
+    pub(super) fn show_area(&mut self, area: Rect) {
+        self.move_camera(|camera| Camera::fit(camera.lattice(), area, camera.size_px(), 0.0));
+    }
+
+    /// Shows the area that is wanted of the domain with these bounds, if one is.
+    pub(super) fn show_wanted_area(&mut self, bounds: Rect) {
+        if let Some([_, area]) = self.wanted_area.take_if(|[of, _]| *of == bounds) {
+            self.show_area(area);
+        }
+    }
+}
