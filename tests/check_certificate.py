@@ -109,47 +109,56 @@ def turns(a, b, c):
     return (side > 0) - (side < 0)
 
 
+def rectangle(a, b):
+    """Left, low, right and top of a segment in double precision, a little outside: a quick test before the exact one."""
+    (left, right), (low, top) = sorted([float(a[0]), float(b[0])]), sorted([float(a[1]), float(b[1])])
+    more = 1e-12 * max(abs(left), abs(right), abs(low), abs(top))
+    return left - more, low - more, right + more, top + more
+
+
+def sides(ring):
+    ring = exact(ring)
+    return [(rectangle(a, b), a, b) for a, b in zip(ring, ring[1:] + ring[:1])]
+
+
+def covers(sides, x, y):
+    """Whether an odd number of sides lies to the right of a point."""
+    is_covered, near = False, float(y)
+    for (_, low, _, top), a, b in sides:
+        if low <= near <= top and (a[1] > y) != (b[1] > y):
+            is_covered ^= (turns(a, b, (x, y)) > 0) == (b[1] > a[1])
+    return is_covered
+
+
 class Area:
     """Where paths may go, without its rim."""
 
     def __init__(self, file):
         (self.left, self.low), (self.right, self.top) = exact(file["bounds"])
         self.inside = file["inside"] and formula(file["inside"])
-        self.domain = file["domain"] and [exact(ring) for polygon in file["domain"] for ring in polygon]
-        self.keep_out = [[exact(ring) for ring in polygon] for polygon in file["keep_out"]]
+        self.domain = file["domain"] and [side for polygon in file["domain"] for ring in polygon for side in sides(ring)]
+        self.keep_out = [[side for ring in polygon for side in sides(ring)] for polygon in file["keep_out"]]
         self.clearance = file["clearance"]
-        self.rings = (self.domain or []) + [ring for polygon in self.keep_out for ring in polygon]
-
-    def sides(self):
-        return ((a, b) for ring in self.rings for a, b in zip(ring, ring[1:] + ring[:1]))
-
-    def covers(self, rings, x, y):
-        """Whether an odd number of sides lies to the right of a point."""
-        is_covered = False
-        for ring in rings:
-            for a, b in zip(ring, ring[1:] + ring[:1]):
-                if (a[1] > y) != (b[1] > y):
-                    is_covered ^= (turns(a, b, (x, y)) > 0) == (b[1] > a[1])
-        return is_covered
+        self.sides = (self.domain or []) + [side for polygon in self.keep_out for side in polygon]
 
     def contains(self, x, y):
         return (
             self.left < x < self.right
             and self.low < y < self.top
             and (not self.inside or bool(self.inside(float(x), float(y))))
-            and (self.domain is None or self.covers(self.domain, x, y))
-            and not any(self.covers(polygon, x, y) for polygon in self.keep_out)
+            and (self.domain is None or covers(self.domain, x, y))
+            and not any(covers(polygon, x, y) for polygon in self.keep_out)
             and (self.clearance == 0 or self.distance(float(x), float(y)) > self.clearance * (1 - ROUNDING))
         )
 
     def distance(self, x, y):
-        return min(from_side(x, y, *map(float, a + b)) for a, b in self.sides())
+        return min(from_side(x, y, *map(float, a + b)) for _, a, b in self.sides)
 
     def is_crossed(self, a, b):
         """Whether a side of the area's rim crosses an edge."""
-        (left, right), (low, top) = sorted([a[0], b[0]]), sorted([a[1], b[1]])
-        for p, q in self.sides():
-            if max(p[0], q[0]) > left and min(p[0], q[0]) < right and max(p[1], q[1]) > low and min(p[1], q[1]) < top:
+        left, low, right, top = rectangle(a, b)
+        for (p_left, p_low, p_right, p_top), p, q in self.sides:
+            if p_right >= left and p_left <= right and p_top >= low and p_low <= top:
                 if turns(a, b, p) * turns(a, b, q) < 0 and turns(p, q, a) * turns(p, q, b) < 0:
                     return True
         return False

@@ -1,6 +1,8 @@
 use std::borrow::Borrow;
 use std::convert::Infallible;
 
+use glam::DVec2;
+
 use crate::domain::DomainOnLattice;
 use crate::field::{RefinementRule, VertexRule};
 use crate::geometry::LatticePoint;
@@ -118,13 +120,23 @@ impl<'a> RefinementCriterion<'a> {
             return self.exceeds_at(corners, level);
         }
         let lattice = self.field.lattice();
-        let length = self.field.edge_lengths().of(corners, level);
+        let length = self.diameter(corners, level);
         let by_vertices = || {
             let targets = corners
                 .map(|corner| self.field.target_at_node(self.paint, lattice.world_from_lattice(corner)));
             Ok::<_, InvalidTarget>(targets.into_iter().any(|target| length > target))
         };
         self.domain.exceeds_at(corners, level, by_vertices).unwrap_or(false)
+    }
+
+    /// Returns h̄ at a point, in world units.
+    pub fn target_at(&self, point: DVec2) -> f64 {
+        self.field.target_at_node(self.paint, point)
+    }
+
+    /// Returns the diameter of a triangle, by its corners and level, that is compared with its target.
+    pub fn diameter(&self, corners: [LatticePoint; 3], level: u32) -> f64 {
+        self.field.edge_lengths().of(corners, level)
     }
 
     /// Returns whether a triangle, given by its corners, is bisected because of a surface.

@@ -11,7 +11,7 @@ use crate::mesh::{Cause, Limits, Mesh, TreeTriangle};
 use crate::surface::SurfaceDemand;
 
 pub use ages::{Ages, AgesNow};
-pub use bisections::Bisections;
+pub use bisections::{Bisections, Witness};
 pub use node::NodeFacts;
 pub use sentences::Words;
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Provenance;
 use meshbrush_core::document::PathCost;
 use meshbrush_core::domain::{Domain, Polygon};
-use meshbrush_core::explain::{Bisections, Demand};
+use meshbrush_core::explain::{Bisections, Witness};
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{DualFunction, LegProof};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint};
@@ -109,11 +109,11 @@ impl MeshFile {
     fn new(bisections: &Bisections, lattice: &Lattice, provenance: &Provenance) -> Self {
         let Bisections { coarse, leaves, asked } = bisections;
         let all = |triangles: &[TreeTriangle]| triangles.iter().map(corners).collect();
-        let demand = |(triangle, demand): &(TreeTriangle, Demand)| {
-            let why = match demand {
-                Demand::Outline => Why::Outline,
-                Demand::Target(least) => Why::Target { at: least.at.to_array(), target: least.target },
-                Demand::Surface(demand) => {
+        let demand = |(triangle, witness): &(TreeTriangle, Witness)| {
+            let why = match *witness {
+                Witness::Outline => Why::Outline,
+                Witness::Target { at, target } => Why::Target { at: at.to_array(), target },
+                Witness::Surface(demand) => {
                     Why::Surface { at: demand.at.to_array(), error: demand.error, most: demand.most }
                 }
             };
