@@ -185,3 +185,23 @@ pub(super) fn mean_cost(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
 fn mean_inverse_scale(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
     gauss_mean(|share| density.inverse_scale_at(p.lerp(q, share)))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::{CostFormula, Formula};
+    use crate::layers::{Layer, LayerKind, PaintLayers, RiskField};
+    use crate::path::FormulaCost;
+
+    #[test]
+    fn the_risk_along_a_path_is_its_integral() {
+        let risk = Layer::stack([LayerKind::risk(Formula::parse("x^2").unwrap())]);
+        let risk = RiskField::new(&risk, PaintLayers::blank());
+        let cost = FormulaCost { formula: CostFormula::parse("1").unwrap(), risk };
+        let along = RiskAlong::of(&[dvec2(0.0, 0.5), dvec2(1.0, 0.5)], &cost);
+        assert!((along.integral - 1.0 / 3.0).abs() < 1e-4, "{along:?}");
+        assert!((along.highest - 1.0).abs() < 1e-9 && (along.highest_at - 1.0).abs() < 1e-9, "{along:?}");
+    }
+}

@@ -247,3 +247,28 @@ fn sample_at(point: DVec2, along: &PathFigures, density: &dyn CostDensity) -> Pa
 
 /// Bounds of the cost of a piece of a profile differ by this share.
 const PROFILE_TOLERANCE: f64 = 1e-3;
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::CostFormula;
+    use crate::layers::RiskField;
+    use crate::path::FormulaCost;
+
+    #[test]
+    fn a_profile_goes_over_points_that_are_there_twice() {
+        let cost = FormulaCost { formula: CostFormula::parse("1").unwrap(), risk: RiskField::default() };
+        let [a, b, c] = [dvec2(0.0, 0.0), dvec2(0.5, 0.0), dvec2(0.5, 0.5)];
+        for points in
+            [vec![a, b, c], vec![a, a, b, c], vec![a, b, b, c], vec![a, b, c, c], vec![a, a], vec![a]]
+        {
+            let solution = Solution::of(points.clone(), &cost, 1e-3);
+            let profile = solution.profile(&cost, 9);
+            assert!(profile.iter().all(|sample| sample.point.is_finite()), "{points:?}");
+            let [first, last] = [0, points.len() - 1].map(|n| points[n]);
+            assert_eq!([profile[0].point, profile[profile.len() - 1].point], [first, last]);
+        }
+    }
+}

@@ -134,4 +134,7 @@ fn bad_input_is_refused_and_stopping_keeps_the_work() {
     assert_eq!(certificate.end(), Some(CertificateEnd::UpperBoundLimits));
     certificate.improve(vec![a, b], cost(&[a, b]));
     assert_eq!(certificate.end(), Some(CertificateEnd::Reached));
+    let programmes = certificate.programmes();
+    assert_eq!(certificate.advance(), Ok(Some(CertificateEnd::Reached)));
+    assert_eq!(certificate.programmes(), programmes, "nothing is left to do");
 }

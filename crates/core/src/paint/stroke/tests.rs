@@ -427,5 +427,11 @@ fn full_strength_gives_exactly_the_target() {
         let painted = brush.painted_value(1.0, f32::INFINITY, f32::INFINITY, h_max);
         let next_below = f32::from_bits(painted.to_bits() - 1);
         assert!(f64::from(painted) >= target && f64::from(next_below) < target, "{painted} {target}");
+        // A target that a pixel can have is met exactly.
+        let target = f64::from(painted);
+        for change in [DiameterChange::Finer, DiameterChange::Any] {
+            let brush = Brush { medium: Medium::Diameter(target, change), ..brush };
+            assert_eq!(brush.painted_value(1.0, f32::INFINITY, f32::INFINITY, h_max), painted, "{change:?}");
+        }
     }
 }

@@ -224,7 +224,9 @@ mod tests {
         let formula = CostFormula::parse("1").unwrap();
         let cost = Arc::new(FormulaCost { formula, risk: RiskField::default() });
         let ends = vec![dvec2(0.1, 0.1), dvec2(0.9, 0.9)];
-        let task = CertificateTask::in_rectangle(Rect::UNIT, cost, ends, 1.2, 0.01).unwrap().in_area(area);
+        let task = CertificateTask::in_rectangle(Rect::UNIT, cost, ends, 1.2, 0.01).unwrap();
+        let plain = task.clone();
+        let task = task.in_area(area);
         let mut mesh = Mesh::coarse_grid(&task.lattice, |_| true, &Limits::default()).unwrap();
         mesh.refine(&Limits::default(), |element| element.triangle.level() < 7).unwrap();
         let sides = |[a, b, c]: [DVec2; 3]| [[a, b], [b, c], [c, a]];
@@ -250,6 +252,20 @@ mod tests {
                 Placement::Outside => assert_eq!(passing, 0, "{corners:?}"),
                 Placement::Inside => assert_eq!(passing, points.count(), "{corners:?}"),
                 Placement::Cut => {}
+            }
+        }
+        // A region within a triangle, away from its edges.
+        let small = dvec2(0.31, 0.27);
+        let ring = [dvec2(0.0, 0.0), dvec2(0.002, 0.0), dvec2(0.0, 0.002)].map(|p| small + p);
+        for center in [small, dvec2(0.27, 0.31)] {
+            let moved = ring.map(|p| p - small + center).to_vec();
+            let area = PathArea::new(&domain, vec![Mask::new(&[vec![moved]]).unwrap()], 1e-4).unwrap();
+            let task = plain.clone().in_area(area);
+            let mut mesh = Mesh::coarse_grid(&task.lattice, |_| true, &Limits::default()).unwrap();
+            for level in 0..4 {
+                let around = mesh.locate(center).triangle().unwrap();
+                assert_eq!((task.placement)(&mesh.element(around)), Placement::Cut, "{level}");
+                mesh.refine(&Limits::default(), |element| element.triangle.level() <= level).unwrap();
             }
         }
         // Both kinds occur, and few are left undecided.

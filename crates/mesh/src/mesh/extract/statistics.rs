@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn a_refined_corner_shows_in_the_extremes_and_their_places() {
         let mut mesh = unit_square();
-        let corner = DVec2::ZERO;
+        let corner = DVec2::ONE;
         let contains = |corners: [DVec2; 3]| corners.contains(&corner);
         let rule = |element: &crate::mesh::Element| {
             element.triangle.level() < 8 && contains(element.world_corners())
@@ -166,8 +166,11 @@ mod tests {
         mesh.refine(&Limits::default(), rule).unwrap();
         let statistics = mesh.extract().statistics().unwrap();
         assert!(near(statistics.shortest_edge, 0.5 / 16.0), "{}", statistics.shortest_edge);
-        assert!(statistics.shortest_edge_at.length() < 0.1);
-        assert!(near(statistics.longest_edge, 0.5_f64.sqrt()) && statistics.longest_edge_at.length() > 0.3);
+        assert!(statistics.shortest_edge_at.distance(corner) < 0.1);
+        assert!(
+            near(statistics.longest_edge, 0.5_f64.sqrt())
+                && statistics.longest_edge_at.distance(corner) > 0.3
+        );
         let extract = mesh.extract();
         let edges = extract.triangles().iter().flat_map(|triangle| triangle.edge_nodes());
         let ends: Vec<_> = edges.map(|(a, b)| [extract.world(a), extract.world(b)]).collect();
@@ -177,6 +180,7 @@ mod tests {
         assert!(is_middle(statistics.shortest_edge_at, statistics.shortest_edge));
         assert!(is_middle(statistics.longest_edge_at, statistics.longest_edge));
         assert!(ends.iter().any(|[a, b]| a.midpoint(*b) == statistics.size_ratio_at));
+        assert!(Rect::UNIT.contains(statistics.size_ratio_at));
         assert!(near(statistics.size_ratio, 2.0_f64.sqrt()), "neighbours differ by one level at most");
         assert!(near(statistics.largest_area / statistics.smallest_area, 256.0));
     }
