@@ -65,18 +65,19 @@ impl Angles {
             [point(0, 0), point(2, 2), point(0, 4)],
         ];
         let turned = |[a, b, c]: [LatticePoint; 3]| [[a, b, c], [b, c, a], [c, a, b]];
-        let worst = |corners| self.worst_of_cuts(corners);
+        let worst = |corners| self.worst_of_halves(corners);
         let homes = shapes.into_iter().flat_map(turned).map(worst).fold(0.0, f64::max);
         COT_18_4.max(homes * (1.0 + 1e-9))
     }
 
-    /// Returns the cotangent of the smallest angle of the pieces that cuts through the middles of edges leave
-    /// of a triangle whose first corner is on the outline or alone on its side.
-    fn worst_of_cuts(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
-        let [ab, bc, ca] = [a.midpoint(b), b.midpoint(c), c.midpoint(a)];
-        let from_corner = self.worst([a, b, bc]).max(self.worst([a, bc, c]));
-        let [first, second] = self.diagonals([ab, b, c, ca]);
-        from_corner.max(self.worst([a, ab, ca])).max(first.min(second))
+    /// Returns the cotangent of the smallest angle of the pieces that a cut from the first corner through the
+    /// middle of the opposite edge leaves of a triangle.
+    ///
+    /// Cuts through the middles of two edges leave no smaller angle: the corner that they cut off has the
+    /// angles of the triangle, and the better diagonal of the rest makes pieces of such halves.
+    fn worst_of_halves(&self, [a, b, c]: [LatticePoint; 3]) -> f64 {
+        let middle = b.midpoint(c);
+        self.worst([a, b, middle]).max(self.worst([a, middle, c]))
     }
 
     /// Returns the cotangents of the smallest angles of the two triangles on either side of a diagonal of a
