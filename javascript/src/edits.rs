@@ -1,7 +1,7 @@
 //! Edits of the options and of the stack of layers.
 
 use js_sys::Array;
-use meshbrush_core::document::{Document, Setting, Settings};
+use meshbrush_core::document::{Document, Setting};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
 use wasm_bindgen::prelude::*;
 
@@ -21,7 +21,7 @@ impl Core {
         let options = Table(options);
         let (level, parts) = (max_level(options)?, kept(options)?);
         let wanted = changed(options, self.settings().clone())?;
-        change_to(&mut self.document, wanted)?;
+        self.document.change_numbers(wanted).map_err(error)?;
         self.has_smallest |= options.get("hMin").is_some();
         self.max_level = level.or(self.max_level);
         // What is said about parts counts for every domain.
@@ -140,30 +140,6 @@ impl Core {
         self.document.end_gesture();
         set
     }
-}
-
-/// Makes each change of a setting that leads from a document to the wanted settings; none of them, if one is
-/// impossible.
-fn change_to(document: &mut Document, wanted: Settings) -> Result<(), JsError> {
-    let wanted = wanted.checked().map_err(error)?;
-    let changes = [
-        Setting::Spacing(wanted.spacing),
-        Setting::LargestDiameter(wanted.transfer.h_max),
-        Setting::SmallestDiameter(wanted.transfer.h_min),
-        Setting::DiameterAtRiskOne(wanted.transfer.h_risk),
-        Setting::TransferShape(wanted.transfer.shape),
-        Setting::Gradation(wanted.gradation),
-        Setting::RefinementRule(wanted.rule),
-        Setting::Boundary(wanted.boundary),
-        Setting::Cleaning(wanted.cleaning),
-        Setting::MaxTriangles(wanted.max_triangles),
-        Setting::MaxMemory(wanted.max_memory),
-    ];
-    for change in changes {
-        document.set(change).map_err(error)?;
-        document.end_gesture();
-    }
-    Ok(())
 }
 
 fn row_of(layer: &Layer) -> JsValue {

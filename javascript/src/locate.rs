@@ -1,8 +1,7 @@
 //! Points in the triangles of a mesh.
 
-use glam::DVec2;
 use js_sys::{Array, Float64Array, Int32Array, Uint8Array};
-use meshbrush_mesh::mesh::{Extract, Location, Locator, NodeId, TriangleId, barycentric};
+use meshbrush_mesh::mesh::{Location, Locator};
 use wasm_bindgen::prelude::*;
 
 use crate::document::{Core, Derived};
@@ -41,7 +40,7 @@ impl Core {
             places[number] = code(&location);
             if let Some(id) = triangle {
                 triangles[number] = id.index() as i32;
-                weights[3 * number..3 * number + 3].copy_from_slice(&weights_in(extract, id, point));
+                weights[3 * number..3 * number + 3].copy_from_slice(&extract.weights_at(id, point));
             }
         }
         let [triangles, places, weights] = [
@@ -51,12 +50,6 @@ impl Core {
         ];
         Ok(Array::of3(&triangles, &weights, &places))
     }
-}
-
-/// The barycentric coordinates of a point, in the order of the corners in files.
-fn weights_in(extract: &Extract<'_>, triangle: TriangleId, point: DVec2) -> [f64; 3] {
-    let corners = extract.cell(triangle).corners.map(|node| extract.node(NodeId::from_index(node)));
-    barycentric(corners, extract.lattice().lattice_from_world(point))
 }
 
 /// The numbers of the words that `meshbrush locate` prints.

@@ -6,7 +6,7 @@ use meshbrush_core::document::{MAX_COARSE_TRIANGLES, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_mesh::geometry::{Lattice, Rect};
-use meshbrush_mesh::mesh::{CoarseError, KeptParts, MOST_TRIANGLES, bisection_edge_length};
+use meshbrush_mesh::mesh::{CoarseError, KeptParts, MOST_TRIANGLES};
 use wasm_bindgen::prelude::*;
 
 use crate::errors::{compiled, error};
@@ -71,7 +71,7 @@ pub fn settings_of(options: Table<'_>) -> Result<Settings, JsError> {
         max_memory: Settings::MAX_MEMORY,
         ..Settings::default()
     };
-    with_limits_of_the_grid(changed(options, settings)?)
+    changed(options, settings)?.with_limits_of_the_grid().map_err(error)
 }
 
 /// Returns settings with the values of options in place of their own.
@@ -173,22 +173,4 @@ fn domain_of(domain: Table<'_>) -> Result<(Domain, BoundaryMarks), JsError> {
     let inside = domain.text("inside")?.map(|text| compiled("inside", &text, Formula::parse)).transpose()?;
     let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);
     Ok((Domain { bounds, shape, projection: None }, BoundaryMarks::default()))
-}
-
-/// Returns the settings with the diameters of the smallest and the largest triangles of the lattice as limits
-/// where there are none. The mesh is the same.
-fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, JsError> {
-    let lattice = settings.lattice().map_err(error)?;
-    let [smallest, largest] =
-        [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));
-    let largest = settings.domain.longest_on_earth(largest);
-    let transfer = &mut settings.transfer;
-    if transfer.h_max == f64::MAX {
-        transfer.h_max = largest.max(transfer.h_risk);
-    }
-    if transfer.h_min == f64::MIN_POSITIVE {
-        transfer.h_min = smallest.min(transfer.h_max);
-        transfer.h_risk = transfer.h_risk.max(transfer.h_min);
-    }
-    Ok(settings)
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use meshbrush_cli::cli::build::{FinishedMesh, MeshOrigin};
 use meshbrush_core::build::{BuildError, BuildStage, BuiltMesh, MeshBuilder, MeshSpec};
-use meshbrush_core::document::{self as core, Setting, Settings};
+use meshbrush_core::document::{self as core, Settings};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::DerivedMesh;
@@ -222,7 +222,7 @@ impl Document {
                 state.parts.domain.parts = saved.domain.parts;
             }
             state.parts.domain.keep_pinches |= saved.domain.keep_pinches;
-            change_to(&mut state.document, wanted)
+            state.document.change_numbers(wanted).map_err(mesh_error)
         })
     }
 
@@ -280,30 +280,6 @@ impl Document {
             format!("<meshbrush.Document “{}”: {count} layer{plural}>", settings.name)
         })
     }
-}
-
-/// Makes each change of a setting that leads from a document to the wanted settings; none of them, if one is
-/// impossible.
-fn change_to(document: &mut core::Document, wanted: Settings) -> PyResult<()> {
-    let wanted = wanted.checked().map_err(mesh_error)?;
-    let changes = [
-        Setting::Spacing(wanted.spacing),
-        Setting::LargestDiameter(wanted.transfer.h_max),
-        Setting::SmallestDiameter(wanted.transfer.h_min),
-        Setting::DiameterAtRiskOne(wanted.transfer.h_risk),
-        Setting::TransferShape(wanted.transfer.shape),
-        Setting::Gradation(wanted.gradation),
-        Setting::RefinementRule(wanted.rule),
-        Setting::Boundary(wanted.boundary),
-        Setting::Cleaning(wanted.cleaning),
-        Setting::MaxTriangles(wanted.max_triangles),
-        Setting::MaxMemory(wanted.max_memory),
-    ];
-    for change in changes {
-        document.set(change).map_err(mesh_error)?;
-        document.end_gesture();
-    }
-    Ok(())
 }
 
 /// Returns the mesh that follows the document, where it is that of the document as it is.

@@ -1,7 +1,7 @@
 //! Many points in the triangles of a mesh.
 
 use glam::DVec2;
-use meshbrush_mesh::mesh::{Extract, Location, Locator, NodeId, TriangleId, barycentric};
+use meshbrush_mesh::mesh::{Location, Locator};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -72,7 +72,7 @@ impl Shared {
                     places[n] = code(&location);
                     if let Some(id) = triangle {
                         triangles[n] = id.index() as i64;
-                        weights[3 * n..3 * n + 3].copy_from_slice(&weights_in(extract, id, point));
+                        weights[3 * n..3 * n + 3].copy_from_slice(&extract.weights_at(id, point));
                     }
                 }
             });
@@ -86,12 +86,6 @@ impl Found {
     fn of(points: usize) -> Self {
         Self { triangles: vec![-1; points], places: vec![0; points], weights: vec![f64::NAN; 3 * points] }
     }
-}
-
-/// The barycentric coordinates of a point, in the order of the corners in files.
-fn weights_in(extract: &Extract<'_>, triangle: TriangleId, point: DVec2) -> [f64; 3] {
-    let corners = extract.cell(triangle).corners.map(|node| extract.node(NodeId::from_index(node)));
-    barycentric(corners, extract.lattice().lattice_from_world(point))
 }
 
 /// The numbers of the words that `meshbrush locate` prints.

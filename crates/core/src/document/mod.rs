@@ -29,6 +29,7 @@ mod stage;
 mod strokes;
 mod surfaces;
 mod transfer_price;
+mod whole_settings;
 
 pub use background::{Background, Picture};
 pub use celtic_sea::SeaChart;

@@ -3,9 +3,8 @@ use std::path::Path;
 use super::super::Meter;
 use super::super::settings::SavedParts;
 use super::{LoadError, Loaded, Loading, Recipe, read};
-use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::document::Document;
 use meshbrush_core::domain::BoundaryTreatment;
-use meshbrush_mesh::mesh::{CoarseError, bisection_edge_length};
 
 /// A recipe as a document.
 #[derive(Debug)]
@@ -27,27 +26,9 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
     let Loaded { settings, paint, mut notes, coordinates: _ } =
         recipe.settings.load_files(&name, &Loading::for_document(meter))?;
     notes.extend(not_held(&recipe, settings.boundary));
-    let document = Document::new(with_limits_of_the_grid(settings)?, Some(paint));
+    let document = Document::new(settings.with_limits_of_the_grid()?, Some(paint));
     let unsuited = |error| LoadError::Unsuited(format!("{}: {error}", path.display()));
     Ok(OpenedRecipe { document: document.map_err(unsuited)?, notes })
-}
-
-/// Returns the settings with limits that a person can read where the recipe has none: the diameters of the
-/// smallest and the largest triangles of the lattice. The mesh is the same.
-pub(super) fn with_limits_of_the_grid(mut settings: Settings) -> Result<Settings, CoarseError> {
-    let lattice = settings.lattice()?;
-    let [smallest, largest] =
-        [lattice.deepest_level(), 0].map(|level| bisection_edge_length(lattice.spacing(), level));
-    let largest = settings.domain.longest_on_earth(largest);
-    let transfer = &mut settings.transfer;
-    if transfer.h_max == f64::MAX {
-        transfer.h_max = largest.max(transfer.h_risk);
-    }
-    if transfer.h_min == f64::MIN_POSITIVE {
-        transfer.h_min = smallest.min(transfer.h_max);
-        transfer.h_risk = transfer.h_risk.max(transfer.h_min);
-    }
-    Ok(settings)
 }
 
 /// Returns sentences about the settings of a recipe that a document does not have.

@@ -10,7 +10,6 @@ use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
 use super::notes::notes;
-use super::open::with_limits_of_the_grid;
 use super::{LoadError, Loaded, Loading, Recipe, found_in};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
@@ -89,7 +88,7 @@ impl SavedSettings {
     /// Fails as [`Self::load_files`] does, and when no document can have these settings.
     pub fn into_document(&self, name: &str, loading: &Loading) -> Result<LoadedDocument, LoadError> {
         let Loaded { settings, paint, notes, coordinates } = self.load_files(name, loading)?;
-        let document = Document::new(with_limits_of_the_grid(settings)?, Some(paint));
+        let document = Document::new(settings.with_limits_of_the_grid()?, Some(paint));
         let document = document.map_err(|error| LoadError::Unsuited(error.to_string()))?;
         Ok(LoadedDocument { document, coordinates, notes })
     }

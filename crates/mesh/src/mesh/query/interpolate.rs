@@ -1,6 +1,8 @@
 use glam::DVec2;
 
 use crate::geometry::LatticePoint;
+use crate::mesh::extract::Extract;
+use crate::mesh::kernel::{NodeId, TriangleId};
 
 /// Barycentric coordinates ζ₁ ζ₂ ζ₃ of `point` in the triangle with the given corners (Section 7).
 ///
@@ -34,4 +36,15 @@ pub fn barycentric(corners: [LatticePoint; 3], point: DVec2) -> [f64; 3] {
 pub fn interpolate(zeta: [f64; 3], values: [f64; 3]) -> f64 {
     let counts = |(zeta, _): &(f64, f64)| *zeta != 0.0;
     zeta.into_iter().zip(values).filter(counts).map(|(zeta, value)| zeta * value).sum()
+}
+
+impl Extract<'_> {
+    /// Returns the barycentric coordinates of a point, in world units, in the order of the corners of a cell.
+    ///
+    /// # Panics
+    /// Panics when there is no such triangle.
+    pub fn weights_at(&self, id: TriangleId, point: DVec2) -> [f64; 3] {
+        let corners = self.cell(id).corners.map(|node| self.node(NodeId::from_index(node)));
+        barycentric(corners, self.lattice().lattice_from_world(point))
+    }
 }
