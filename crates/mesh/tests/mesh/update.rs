@@ -9,8 +9,8 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
 use meshbrush_mesh::mesh::{
-    ChangedArea, Changes, Element, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress, RefineError,
-    RuleAnswers, SharedRule, TargetChange, Updater,
+    ChangedArea, Changes, Element, Falloff, Forecast, InvalidTarget, Limits, Mesh, Orientation, Progress,
+    RefineError, RuleAnswers, SharedRule, TargetChange, Updater,
 };
 
 type Answer = Result<bool, InvalidTarget>;
@@ -125,34 +125,43 @@ fn any_spot(random: &mut Rng, mesh: &Mesh) -> Spot {
     Spot { at, radius, level: random.u32(1..=finest) }
 }
 
-/// Adds, removes, moves or changes a spot; returns the rectangles in which that says something else, and how
-/// the targets change there.
-fn edit(random: &mut Rng, spots: &mut Vec<Spot>, mesh: &Mesh) -> Vec<(LatticeRect, TargetChange)> {
+/// Adds, removes, moves or changes a spot; returns the rectangles in which that says something else, how the
+/// targets change there, and mostly how small those are that do.
+fn edit(random: &mut Rng, spots: &mut Vec<Spot>, mesh: &Mesh) -> Vec<ChangedArea> {
     use TargetChange::{Coarser, Finer};
+    let tells_least = random.u8(..4) > 0;
+    let changed = |spot: &Spot, change, level| {
+        let rect = spot.area(mesh);
+        let falloff = Falloff { core: rect, least: mesh.diameter(level), slope: 0.0 };
+        ChangedArea { rect, change, falloff: tells_least.then_some(falloff) }
+    };
     let pick = (!spots.is_empty()).then(|| random.usize(..spots.len()));
     match (random.u8(..6), pick) {
         (0..3, Some(i)) if spots.len() > random.usize(..6) => {
-            vec![(spots.swap_remove(i).area(mesh), Coarser)]
+            let spot = spots.swap_remove(i);
+            vec![changed(&spot, Coarser, spot.level)]
         }
         (3, Some(i)) => {
             let before = spots[i];
             spots[i].level = any_spot(random, mesh).level.min(before.level + 2);
-            vec![(before.area(mesh), if spots[i].level < before.level { Coarser } else { Finer })]
+            let change = if spots[i].level < before.level { Coarser } else { Finer };
+            vec![changed(&before, change, before.level.max(spots[i].level))]
         }
         (4, Some(i)) => {
             let before = spots[i];
             spots[i] = Spot { at: any_spot(random, mesh).at, ..before };
-            vec![(before.area(mesh), Coarser), (spots[i].area(mesh), Finer)]
+            vec![changed(&before, Coarser, before.level), changed(&spots[i], Finer, before.level)]
         }
         _ => {
-            spots.push(any_spot(random, mesh));
-            spots.last().map(|spot| (spot.area(mesh), Finer)).into_iter().collect()
+            let spot = any_spot(random, mesh);
+            spots.push(spot);
+            vec![changed(&spot, Finer, spot.level)]
         }
     }
 }
 
-fn areas_of(changes: Vec<(LatticeRect, TargetChange)>) -> Vec<LatticeRect> {
-    changes.into_iter().map(|(area, _)| area).collect()
+fn areas_of(changes: &[ChangedArea]) -> Vec<LatticeRect> {
+    changes.iter().map(|area| area.rect).collect()
 }
 
 fn from_scratch(coarse: &Mesh, spots: &[Spot]) -> Mesh {
@@ -218,8 +227,11 @@ fn after_any_edits_cut_anywhere_the_mesh_is_the_one_made_from_scratch() {
         let mut updater = Updater::new(Limits::default());
         let mut spots = Vec::new();
         for count in 0..edits / 9 {
-            for (area, change) in edit(&mut random, &mut spots, &mesh) {
-                if random.u8(..4) == 0 { updater.add(area) } else { updater.add_change(area, change) }
+            // Up to ten edits at once: small areas are then large together.
+            for _ in 0..if random.u8(..8) == 0 { 10 } else { 1 } {
+                for area in edit(&mut random, &mut spots, &mesh) {
+                    if random.u8(..4) == 0 { updater.add(area.rect) } else { updater.add_area(area) }
+                }
             }
             // Half the time the next edit comes before the work is done.
             let slice = 1 << random.u32(..8);
@@ -274,9 +286,7 @@ fn an_update_gives_the_same_arrays_on_any_number_of_threads() {
             let (mut mesh, mut updater) = (coarse.clone(), Updater::new(Limits::default()));
             let mut spots = Vec::new();
             for _ in 0..60 {
-                for (area, change) in edit(&mut random, &mut spots, &mesh) {
-                    updater.add_change(area, change);
-                }
+                edit(&mut random, &mut spots, &mesh).into_iter().for_each(|area| updater.add_area(area));
                 let visits = random.usize(1..20_000);
                 pool.install(|| updater.advance(&mut mesh, &Eager(&spots), visits).unwrap());
                 largest = largest.max(mesh.raw_triangle_count());
@@ -329,17 +339,16 @@ fn a_forecast_is_what_the_update_then_does() {
             let changes = edit(&mut random, &mut spots, &mesh);
             let before = mesh.raw_triangle_count();
             let mut forecast = match random.bool() {
-                true => Forecast::new(&mesh, hull(&areas_of(changes.clone())), &Limits::default()),
+                true => Forecast::new(&mesh, hull(&areas_of(&changes)), &Limits::default()),
                 false => {
-                    let area = |&(rect, change)| ChangedArea { rect, change, falloff: None };
-                    let areas = changes.iter().map(area).collect();
+                    let areas = changes.clone();
                     Forecast::of_changes(&mesh, areas, &Limits::default()).expect("there is an area")
                 }
             };
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
             while forecast.advance(&mesh, &|| asks, |_, _| true, slice).unwrap() == Progress::More {}
-            changes.into_iter().for_each(|(area, change)| updater.add_change(area, change));
+            changes.into_iter().for_each(|area| updater.add_area(area));
             settle(&mut updater, &mut mesh, &spots);
             let (added, removed) = (forecast.added(), forecast.removed());
             assert_eq!(forecast.change(), added as i64 - removed as i64, "all belong");
@@ -518,7 +527,7 @@ fn the_level_cap_holds_for_updates_too() {
     let mut random = Rng::with_seed(22);
     let (mut mesh, mut updater, mut spots) = (coarse.clone(), Updater::new(limits), Vec::new());
     for _ in 0..300 {
-        areas_of(edit(&mut random, &mut spots, &mesh)).into_iter().for_each(|area| updater.add(area));
+        areas_of(&edit(&mut random, &mut spots, &mesh)).into_iter().for_each(|area| updater.add(area));
         settle(&mut updater, &mut mesh, &spots);
         let mut rebuilt = coarse.clone();
         rebuilt.refine(&limits, rule(&spots)).unwrap();

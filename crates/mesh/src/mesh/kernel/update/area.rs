@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::scan::Concern;
 use crate::geometry::{LatticePoint, LatticeRect};
 use crate::mesh::kernel::Mesh;
 
@@ -22,6 +23,27 @@ pub(super) struct Area {
     pub(super) changed: ChangedArea,
     /// Whether all triangles that touch it count as changed.
     pub(super) reports_all: bool,
+}
+
+impl Area {
+    /// Returns what the change can have done to a triangle that touches the rectangle.
+    #[inline]
+    pub(super) fn concern(&self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> Concern {
+        let [asks, loosens] = self.changed.concerns(mesh, corners, level);
+        Concern { asks, loosens, is_reported: self.reports_all }
+    }
+
+    /// Returns the first level from which on it concerns no triangle.
+    pub(super) fn levels(&self, mesh: &Mesh) -> u32 {
+        if self.reports_all {
+            return u32::MAX;
+        }
+        let least = self.changed.falloff.map_or(0.0, |falloff| falloff.least * ROUNDED_DOWN);
+        let deepest = mesh.lattice().deepest_level();
+        let exceeding = (0..=deepest).take_while(|&level| mesh.diameter(level) > least).count() as u32;
+        // A triangle is also concerned where its parent exceeds the least diameter.
+        exceeding + u32::from(self.changed.change != TargetChange::Finer)
+    }
 }
 
 /// A rectangle in which the target diameters of a rule have changed, and what is known of that.

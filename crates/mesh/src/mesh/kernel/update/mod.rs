@@ -13,8 +13,9 @@
 //! Three kinds of work: *search* for the triangles that touch a changed rectangle; *refine* those that exceed
 //! their target, until none does; *coarsen*: remove nodes that are no longer needed, until there is none.
 //! Rectangles that touch are all searched before the mesh changes: afterwards there may be a hundred times
-//! as many triangles in both. Others wait until the mesh has changed, and a large rectangle is searched in
-//! parts, of which each is refined and coarsened before the next one: the mesh begins to follow at once.
+//! as many triangles in both. Others wait until the mesh has changed. Rectangles that are large together are
+//! searched at the same time, in parts of the array, of which each is refined and coarsened before the next
+//! one: the mesh begins to follow at once.
 //!
 //! Each kind of work is done in batches: one thread collects triangles, all threads ask the rule about them,
 //! and one thread changes the mesh.
@@ -85,6 +86,7 @@ mod coarsen;
 mod known;
 mod questions;
 mod refine;
+mod scan;
 mod search;
 
 use super::changes::ChangeLog;
@@ -95,7 +97,7 @@ pub use area::{ChangedArea, Falloff, TargetChange};
 use coarsen::Freed;
 use known::KnownLevels;
 use questions::{Found, Loose, Open};
-use search::{Search, Way};
+use search::Search;
 
 /// Triangles of a batch, unless a slice is smaller. Few enough that they stay in the cache.
 const BATCH: usize = 4096;
@@ -105,8 +107,8 @@ const BATCH: usize = 4096;
 /// For a mesh that satisfied a monotone rule before ([`Mesh::refine`] makes one), the result is the mesh made
 /// from scratch, up to the order of its entries. The minimum of a target over the closed triangle is such a
 /// rule; the report's Eq. (12), the minimum over the vertices, is not. Time and memory go with the triangles
-/// that touch the changed rectangles, and those that change, and not with the mesh; only for a rectangle that
-/// covers an eighth of the lattice, all triangles are looked at. The mesh is conforming after every slice.
+/// that touch the changed rectangles, and those that change, and not with the mesh; only for rectangles that
+/// cover an eighth of the lattice, all triangles are looked at. The mesh is conforming after every slice.
 ///
 /// ```
 /// use meshbrush_mesh::geometry::{Lattice, LatticePoint, LatticeRect, Rect};
@@ -264,8 +266,12 @@ impl Updater {
     }
 
     fn next_work(&self) -> Work {
-        let is_flooding = matches!(self.search, Some(Search { way: Way::Flood(_), .. }));
-        if is_flooding || (self.is_short && self.has_areas()) || self.area_beside().is_some() {
+        let is_searching = match &self.search {
+            Some(Search::Flood(..)) => true,
+            Some(Search::Scan(scan)) => !scan.has_part(),
+            None => false,
+        };
+        if is_searching || (self.is_short && self.has_areas()) || self.area_beside().is_some() {
             Work::Search
         } else if self.is_short && self.loose.count() > 0 {
             Work::Coarsen

@@ -2,43 +2,37 @@
 
 use super::area::Area;
 use super::questions::{Found, OfEntries};
+use super::scan::{Concern, Scan};
 use super::{Open, Updater};
-use crate::geometry::LatticePoint;
+use crate::geometry::LatticeRect;
 use crate::mesh::kernel::{LevelsWithin, Mesh, RectSearch, SharedRule, TriangleId, ask_all};
 
-/// An area is searched entry by entry of the array where it covers at least this share of the lattice, with
-/// changes after each part.
+/// Areas are searched entry by entry of the array where they cover at least this share of the lattice.
 const LARGE_SHARE: f64 = 1.0 / 8.0;
 
-/// The search of an area.
+/// A search for the triangles that changes concern.
 #[derive(Clone, Debug)]
-pub(super) struct Search {
-    pub(super) area: Area,
-    pub(super) way: Way,
-}
-
-#[derive(Clone, Debug)]
-pub(super) enum Way {
-    /// From neighbour to neighbour. Nothing may move meanwhile.
-    Flood(RectSearch),
-    /// Down the array, from its end. The entries before this one are left: what is appended or moved
-    /// meanwhile comes to lie behind it, or was before it already.
-    Scan(usize),
+pub(super) enum Search {
+    /// In one area, from neighbour to neighbour. Nothing may move meanwhile.
+    Flood(Area, RectSearch),
+    /// In all areas that there were, down the array.
+    Scan(Scan),
 }
 
 impl Search {
-    fn new(mesh: &Mesh, area: Area) -> Self {
-        let rect = area.changed.rect;
-        let extent = mesh.lattice().extent();
-        let share = |low: u32, high: u32, all: u32| f64::from(high - low) / f64::from(all.max(1));
-        let covered = share(rect.min.x, rect.max.x, extent.x) * share(rect.min.y, rect.max.y, extent.y);
-        let way = if covered < LARGE_SHARE {
-            Way::Flood(RectSearch::new(mesh, rect))
-        } else {
-            Way::Scan(mesh.raw_triangle_count())
-        };
-        Self { area, way }
+    fn into_areas(self) -> Vec<Area> {
+        match self {
+            Self::Flood(area, _) => vec![area],
+            Self::Scan(scan) => scan.into_areas(),
+        }
     }
+}
+
+/// Returns the share of the lattice that a rectangle covers.
+fn share_of(mesh: &Mesh, rect: &LatticeRect) -> f64 {
+    let extent = mesh.lattice().extent();
+    let share = |low: u32, high: u32, all: u32| f64::from(high - low) / f64::from(all.max(1));
+    share(rect.min.x, rect.max.x, extent.x) * share(rect.min.y, rect.max.y, extent.y)
 }
 
 impl Updater {
@@ -51,10 +45,9 @@ impl Updater {
     ) -> Result<usize, R::Error> {
         let Some(mut search) = self.search.take().or_else(|| self.next_search(mesh)) else { return Ok(0) };
         let mut found = std::mem::take(&mut self.found);
-        let Search { area, way } = &mut search;
-        let (looked, is_done) = match way {
-            Way::Flood(flood) => self.flood(mesh, area, flood, &mut found, most),
-            Way::Scan(left) => self.scan(mesh, area, left, &mut found, most),
+        let (looked, is_done) = match &mut search {
+            Search::Flood(area, flood) => self.flood(mesh, area, flood, &mut found, most),
+            Search::Scan(scan) => self.scan(mesh, scan, &mut found, most),
         };
         let asked = ask_all(&OfEntries { mesh }, &mut found, rule);
         if asked.is_ok() {
@@ -67,23 +60,35 @@ impl Updater {
         }
         match asked {
             // It is searched from the beginning once the rule is another one.
-            Err(_) => self.areas.push(search.area),
+            Err(_) => self.areas.extend(search.into_areas()),
             Ok(()) if !is_done => self.search = Some(search),
             Ok(()) => {}
         }
         asked.map(|()| looked)
     }
 
-    /// Begins the search of another area: of one that touches those searched before, if the mesh has marks.
+    /// Begins another search: of all areas, if they are large together; otherwise of one, which touches those
+    /// searched before if the mesh has marks.
     fn next_search(&mut self, mesh: &Mesh) -> Option<Search> {
         if self.exceeding.count() == 0 && self.loose.count() == 0 {
             self.searched = None;
         }
-        let last = self.areas.len().checked_sub(1);
-        let area = self.areas.swap_remove(self.area_beside().or(last)?);
-        let rect = area.changed.rect;
+        let last = self.areas.len().checked_sub(1)?;
+        let covered: f64 = self.areas.iter().map(|area| share_of(mesh, &area.changed.rect)).sum();
+        let search = if covered >= LARGE_SHARE {
+            let areas = std::mem::take(&mut self.areas);
+            areas.iter().for_each(|area| self.note_searched(area.changed.rect));
+            Search::Scan(Scan::new(mesh, areas))
+        } else {
+            let area = self.areas.swap_remove(self.area_beside().unwrap_or(last));
+            self.note_searched(area.changed.rect);
+            Search::Flood(area, RectSearch::new(mesh, area.changed.rect))
+        };
+        Some(search)
+    }
+
+    fn note_searched(&mut self, rect: LatticeRect) {
         self.searched = Some(self.searched.map_or(rect, |searched| searched.union(&rect)));
-        Some(Search::new(mesh, area))
     }
 
     /// Finds up to `most` triangles. Returns how many places were looked at, and whether there are no more.
@@ -97,7 +102,8 @@ impl Updater {
     ) -> (usize, bool) {
         for looked in 0..most {
             if let Some(id) = flood.found() {
-                self.look(mesh, area, id, mesh.corners(id), found);
+                let concern = area.concern(mesh, mesh.corners(id), mesh.triangle(id).level());
+                self.note(mesh, id, concern, found);
                 flood.spread_from(mesh, id, &mut self.reached);
             } else if !flood.enter_next(mesh, &mut self.reached) {
                 return (looked, true);
@@ -107,45 +113,32 @@ impl Updater {
     }
 
     /// Looks at the last `most` entries that are left. Returns how many, and whether these are all.
-    fn scan(
-        &mut self,
-        mesh: &Mesh,
-        area: &Area,
-        left: &mut usize,
-        found: &mut Vec<Found>,
-        most: usize,
-    ) -> (usize, bool) {
-        // The array can have become shorter.
-        let end = (*left).min(mesh.raw_triangle_count());
-        *left = end.saturating_sub(most);
-        for id in (*left..end).map(TriangleId::from_index) {
-            let corners = mesh.corners(id);
-            if area.changed.rect.touches(corners) {
-                self.look(mesh, area, id, corners, found);
+    fn scan(&mut self, mesh: &Mesh, scan: &mut Scan, found: &mut Vec<Found>, most: usize) -> (usize, bool) {
+        if scan.has_part() {
+            scan.begin_part();
+        }
+        let entries = scan.take(mesh, most);
+        let looked = entries.len();
+        for id in entries.map(TriangleId::from_index) {
+            let level = mesh.triangle(id).level();
+            if scan.has_level(level) {
+                let concern = scan.concern(mesh, mesh.corners(id), level);
+                self.note(mesh, id, concern, found);
             }
         }
-        (end - *left, *left == 0)
+        (looked, scan.is_done())
     }
 
-    /// Notes what the change of an area can have done to a triangle that touches it.
+    /// Notes what changes can have done to a triangle.
     #[inline]
-    fn look(
-        &mut self,
-        mesh: &Mesh,
-        area: &Area,
-        id: TriangleId,
-        corners: [LatticePoint; 3],
-        found: &mut Vec<Found>,
-    ) {
-        let level = mesh.triangle(id).level();
-        let [asks, loosens] = area.changed.concerns(mesh, corners, level);
-        if asks && level < self.limits.level_cap() {
+    fn note(&mut self, mesh: &Mesh, id: TriangleId, concern: Concern, found: &mut Vec<Found>) {
+        if concern.asks && mesh.triangle(id).level() < self.limits.level_cap() {
             found.push(Found { id, exceeds: false });
         }
-        if loosens {
+        if concern.loosens {
             self.loose.insert(id.index());
         }
-        if area.reports_all {
+        if concern.is_reported {
             self.log.triangle(id);
             self.log.step();
         }
@@ -162,6 +155,6 @@ impl Updater {
     /// Returns whether an entry is still to be looked at by the search of a large area.
     #[inline]
     pub(super) fn is_unsearched(&self, id: TriangleId) -> bool {
-        matches!(self.search, Some(Search { way: Way::Scan(left), .. }) if id.index() < left)
+        matches!(&self.search, Some(Search::Scan(scan)) if scan.is_left(id.index()))
     }
 }
