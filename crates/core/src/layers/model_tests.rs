@@ -7,6 +7,7 @@ use super::{
 };
 use crate::field::{Formula, Quadratic, Transfer};
 use crate::geometry::{Lattice, LatticePoint, Rect};
+use crate::mesh::bisection_edge_length;
 
 fn threats(random: &mut fastrand::Rng, count: usize, ranges: &[f64]) -> Threats {
     let mut threat = || Threat {
@@ -46,8 +47,9 @@ fn the_risk_lies_within_its_model() {
             let middle = [near.at + toward, dvec2(random.f64(), random.f64())][random.usize(..2)];
             let side = [1e-9, 1e-4, 0.01, 0.1, 0.5][random.usize(..5)];
             let half = side * (0.5 + dvec2(random.f64(), random.f64()));
-            let model = threats.model(&place(middle, half));
-            let bounds = model.bounds();
+            let bounded = threats.bounded_model(&place(middle, half));
+            let model = bounded.polynomial;
+            let bounds = model.bounds().intersection(bounded.bounds);
             narrow += usize::from(bounds.greatest - bounds.least < 0.1);
             for _ in 0..8 {
                 let mut share = || 2.0 * random.f64() - 1.0;
@@ -78,8 +80,11 @@ fn the_risk_of_one_threat_lies_within_its_model() {
         let distance = [0.5, 0.75, 1.0, 1.2 * random.f64()][random.usize(..4)] * range;
         let beside = half * (2.0 * dvec2(random.f64(), random.f64()) - 1.0);
         let middle = at + distance * DVec2::from_angle(6.3 * random.f64()) + beside;
-        let model = threats.model(&place(middle, half));
-        let bounds = model.bounds();
+        let bounded = threats.bounded_model(&place(middle, half));
+        let model = bounded.polynomial;
+        // Of one threat, however large the place, no bound is beyond the peak.
+        let bounds = model.bounds().intersection(bounded.bounds);
+        assert!(bounds.greatest <= peak + 1e-12, "{law:?} {peak} {bounds:?}");
         narrow += usize::from(model.rest() < 1e-3 * peak);
         for n in 0..8 {
             let corner = 2.0 * dvec2(f64::from(n & 1), f64::from(n >> 1 & 1)) - 1.0;
@@ -173,15 +178,9 @@ fn models_change_no_answer() {
     assert!(asked.iter().all(|&count| count > runs * 6), "{asked:?}");
 }
 
-/// The cost of the area rule follows the mesh, not the length of the formula.
-#[test]
-fn a_long_sum_is_evaluated_about_once_for_each_triangle() {
-    let mut random = fastrand::Rng::with_seed(53);
-    let terms: Vec<String> =
-        (0..20).map(|_| format!("sin({}*x+{}*y)^2", 30.0 * random.f64(), 30.0 * random.f64())).collect();
-    let formula = Formula::parse(&format!("0.002+0.001*({})", terms.join("+"))).unwrap();
-    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
-    let field = field(Layer::stack([LayerKind::target(formula)]), 0.2, &lattice);
+/// Asks about all triangles of a mesh from scratch with coarse cells of a quarter, and returns how many it
+/// has and how often a whole function was evaluated.
+fn leaves_and_evaluations(field: &SizeField, lattice: &Lattice) -> [usize; 2] {
     let (paint, mut squares) = (PaintLayers::blank(), SettledSquares::default());
     let before = MADE.get();
     let mut leaves = 0;
@@ -204,6 +203,36 @@ fn a_long_sum_is_evaluated_about_once_for_each_triangle() {
         let middle = LatticePoint::new((a.x + b.x) / 2, (a.y + b.y) / 2);
         open.extend([[middle, apex, a], [middle, b, apex]].map(|corners| (corners, level + 1)));
     }
-    let made = MADE.get() - before;
+    [leaves, MADE.get() - before]
+}
+
+/// The cost of the area rule follows the mesh, not the length of the formula.
+#[test]
+fn a_long_sum_is_evaluated_about_once_for_each_triangle() {
+    let mut random = fastrand::Rng::with_seed(53);
+    let terms: Vec<String> =
+        (0..20).map(|_| format!("sin({}*x+{}*y)^2", 30.0 * random.f64(), 30.0 * random.f64())).collect();
+    let formula = Formula::parse(&format!("0.002+0.001*({})", terms.join("+"))).unwrap();
+    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
+    let field = field(Layer::stack([LayerKind::target(formula)]), 0.2, &lattice);
+    let [leaves, made] = leaves_and_evaluations(&field, &lattice);
     assert!(leaves > 1000 && made < 3 * leaves / 2, "{made} evaluations for {leaves} triangles");
+}
+
+/// Along the edge of a plateau of the risk, models of a square are never close. But none asks for more than
+/// the plateau does.
+#[test]
+fn the_edge_of_a_plateau_that_is_just_satisfied_needs_few_evaluations() {
+    let lattice = Lattice::covering(Rect::UNIT, 0.25, 1_000_000).unwrap();
+    // The target of the plateau is 0.1 % above the diameter of level 9.
+    let [h_min, h_max] = [0.0005f64, 0.2];
+    let asked: f64 = 1.001 * bisection_edge_length(lattice.spacing(), 9);
+    let peak = (h_max / asked).ln() / (h_max / h_min).ln();
+    for law in [ThreatLaw::Radar, ThreatLaw::Disc] {
+        let list = (0..9).map(|n| Threat { at: dvec2(0.1 * f64::from(n), 0.43), range: 0.049, peak, law });
+        let threats = Threats::new(list.collect()).unwrap();
+        let field = field(Layer::stack([LayerKind::Threats(threats)]), h_max, &lattice);
+        let [leaves, made] = leaves_and_evaluations(&field, &lattice);
+        assert!(made < 20 * leaves, "{law:?}: {made} evaluations for {leaves} triangles");
+    }
 }

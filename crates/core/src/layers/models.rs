@@ -47,6 +47,21 @@ impl ModelPlace {
     }
 }
 
+/// A model of a function over a place, with what else is known of its values there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundedModel {
+    pub polynomial: Quadratic,
+    /// Bounds of the values anywhere in the place.
+    pub bounds: Bounds,
+}
+
+impl BoundedModel {
+    /// Returns a model without other bounds.
+    pub const fn of(polynomial: Quadratic) -> Self {
+        Self { polynomial, bounds: Bounds::ANYTHING }
+    }
+}
+
 /// A dyadic square of 2^bits cells along each side, and a rim around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Square {
@@ -76,7 +91,7 @@ const KEPT_BITS: u32 = 9;
 struct Kept {
     function: ModelId,
     square: Square,
-    model: Quadratic,
+    model: BoundedModel,
 }
 
 thread_local! {
@@ -109,7 +124,7 @@ pub fn bounds(
     function: ModelId,
     cells: &Cells,
     lattice: &Lattice,
-    model: impl Fn(&ModelPlace) -> Quadratic,
+    model: impl Fn(&ModelPlace) -> BoundedModel,
     bounds: impl FnOnce(Bounds) -> Bounds,
 ) -> Bounds {
     let middle = [0, 1].map(|axis: usize| 0.5 * (cells.min[axis] + cells.max[axis]) as f64);
@@ -127,8 +142,9 @@ pub fn bounds(
         let (square, mut skipped) = (around(square_bits), 1);
         if let Some((center, half)) = square.part(middle, half) {
             let model = kept(function, square, || model(&square.place(lattice)));
-            let found = model.bounds_over(center, half);
-            let (rest, change) = (model.rest(), found.greatest - found.least - 2.0 * model.rest());
+            let (found, rest) = (model.polynomial.bounds_over(center, half), model.polynomial.rest());
+            let change = found.greatest - found.least - 2.0 * rest;
+            let found = found.intersection(model.bounds);
             let is_least = square_bits == least_bits;
             if rest <= if is_least { FAIR } else { GOOD } * change || rest == 0.0 {
                 return found;
@@ -152,7 +168,7 @@ fn halvings(factor: f64) -> u32 {
     (exponent.saturating_sub(1023) / 3).max(1)
 }
 
-fn kept(function: ModelId, square: Square, model: impl FnOnce() -> Quadratic) -> Quadratic {
+fn kept(function: ModelId, square: Square, model: impl FnOnce() -> BoundedModel) -> BoundedModel {
     let Square { bits, at: [x, y] } = square;
     let key = function.0 << 54 ^ u64::from(bits) << 58 ^ (x as u64) << 29 ^ y as u64;
     let place = (key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - KEPT_BITS)) as usize;

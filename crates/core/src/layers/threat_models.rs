@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::Threats;
-use super::models::ModelPlace;
+use super::models::{BoundedModel, ModelPlace};
 use super::threat_series::{Series, Squared};
 use super::threats::NO_SURVIVAL;
 use crate::field::{Bounds, Quadratic};
@@ -11,20 +11,27 @@ use crate::field::{Bounds, Quadratic};
 impl Threats {
     /// Returns a model of the combined risk.
     pub(super) fn model(&self, place: &ModelPlace) -> Quadratic {
+        self.bounded_model(place).polynomial
+    }
+
+    /// Returns a model of the combined risk, and bounds that are closer where a threat is at its peak.
+    pub(super) fn bounded_model(&self, place: &ModelPlace) -> BoundedModel {
         let (mut survival, mut is_felt) = (Survival::default(), false);
         let certain = self.visit_meeting(&place.rect(), |threat| {
             let squared = Squared::new(threat, place);
             let Some(risk) = threat.series(&squared) else { return ControlFlow::Continue(()) };
             is_felt = true;
-            survival.meet(&squared, &risk);
+            survival.meet(&squared, &risk, threat.peak);
             if survival.is_lost() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let one = Quadratic::constant(1.0);
         match certain {
             // Exactly: a risk of rounding errors would ask for more than none does.
-            ControlFlow::Continue(()) if !is_felt => Quadratic::constant(0.0),
-            ControlFlow::Continue(()) => one.minus(&survival.model()),
-            ControlFlow::Break(()) => one,
+            ControlFlow::Continue(()) if !is_felt => BoundedModel::of(Quadratic::constant(0.0)),
+            ControlFlow::Continue(()) => {
+                BoundedModel { polynomial: one.minus(&survival.model()), bounds: survival.risk_bounds() }
+            }
+            ControlFlow::Break(()) => BoundedModel::of(one),
         }
     }
 }
@@ -53,6 +60,10 @@ struct Survival {
     others: Quadratic,
     /// No value of that is greater.
     most_of_others: f64,
+    /// The products of what is survived of each threat at least, and at most.
+    range: [f64; 2],
+    /// The number of threats.
+    count: u32,
 }
 
 impl Default for Survival {
@@ -63,6 +74,8 @@ impl Default for Survival {
             rest: 0.0,
             others: Quadratic::constant(1.0),
             most_of_others: 1.0,
+            range: [1.0; 2],
+            count: 0,
         }
     }
 }
@@ -73,8 +86,12 @@ impl Survival {
     /// With y = p − p(middle) = slope · d + bend · d² ± rest for a step d of the square of distance / range,
     /// and z = y / (1 − p(middle)): ln (1 − p) − ln (1 − p(middle)) = ln (1 − z) = −z − z²/2 − …, where what
     /// follows is |z|³ / (3 (1 − |z|)) at most.
-    fn meet(&mut self, squared: &Squared, risk: &Series) {
+    fn meet(&mut self, squared: &Squared, risk: &Series, peak: f64) {
         let step = squared.step();
+        let reach = (risk.slope.abs() + risk.bend.abs() * step) * step + risk.rest;
+        let [least, greatest] = [(risk.value - reach).max(0.0), (risk.value + reach).min(peak)];
+        self.range = [self.range[0] * (1.0 - greatest), self.range[1] * (1.0 - least)];
+        self.count += 1;
         let inverse = 1.0 / (1.0 - risk.value);
         let (slope, bend, rest) = (inverse * risk.slope, inverse * risk.bend, inverse * risk.rest);
         let linear_change = slope.abs() * step;
@@ -127,6 +144,16 @@ impl Survival {
     fn is_lost(&self) -> bool {
         let most = self.middle * self.most_of_others;
         most < NO_SURVIVAL && 2.0 * most * libm::exp(self.most_change()) < NO_SURVIVAL
+    }
+
+    /// Returns bounds of the risk from those of each threat: where one is at its peak and no other is felt,
+    /// the risk is not greater than that.
+    fn risk_bounds(&self) -> Bounds {
+        // Each factor and each product is off by half an ulp at most, here and in the risk at a point.
+        let margin = f64::EPSILON * (8.0 * f64::from(self.count) + 8.0);
+        let [least, most] = self.range;
+        let bounds = Bounds::new(1.0 - most * (1.0 + margin), 1.0 - least * (1.0 - margin)).widened(2);
+        Bounds { least: bounds.least.max(0.0), greatest: bounds.greatest.min(1.0), ..bounds }
     }
 
     /// Returns the series as a model.

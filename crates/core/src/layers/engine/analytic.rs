@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
-use crate::layers::models::{self, ModelId, ModelPlace};
+use crate::layers::models::{self, BoundedModel, ModelId, ModelPlace};
 use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
@@ -157,11 +157,13 @@ impl Function {
         }
     }
 
-    fn model(&self, place: &ModelPlace) -> Quadratic {
+    fn model(&self, place: &ModelPlace) -> BoundedModel {
         match self {
-            Self::Formula(formula) => formula.model(place.coordinates),
-            Self::Threats(threats) => threats.model(place),
-            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => Quadratic::UNKNOWN,
+            Self::Formula(formula) => BoundedModel::of(formula.model(place.coordinates)),
+            Self::Threats(threats) => threats.bounded_model(place),
+            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => {
+                BoundedModel::of(Quadratic::UNKNOWN)
+            }
         }
     }
 
