@@ -261,8 +261,8 @@ impl<I: Iterator> Entries<I> {
     }
 }
 
-/// What entries are collected into. An iterator that hands its entries to a closure takes fewer bytes than one that is
-/// asked for the next, and for how many remain.
+/// What entries are collected into. An iterator that hands its entries to a closure takes fewer bytes than
+/// one that is asked for the next, and for how many remain.
 pub trait FromEntries<T> {
     /// Collects the entries.
     fn from_entries(entries: impl Iterator<Item = T>) -> Self;

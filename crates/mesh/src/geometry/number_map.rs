@@ -9,8 +9,8 @@ pub type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
 /// A set of such numbers.
 pub type NumberSet<K> = HashSet<K, BuildHasherDefault<NumberHasher>>;
 
-/// Hashes numbers of up to 64 bits, also several, in a few instructions: the hasher of std takes ten times as many,
-/// and as much more of the code of each table.
+/// Hashes numbers of up to 64 bits, also several, in a few instructions: the hasher of std takes ten times as
+/// many, and each table is so much more code.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NumberHasher(u64);
 

@@ -1,5 +1,6 @@
-//! Decimal numbers as text. The parser of std brings 10 kB of tables along, and the module for JavaScript is sent to
-//! whoever opens a page; this one is short, has the same values, and is as fast for numbers of up to 15 digits.
+//! Decimal numbers as text. The parser of std brings 10 kB of tables along, and the module for JavaScript is
+//! sent to whoever opens a page. This one is short, has the same values, and is fast for numbers of up to 15
+//! digits.
 
 use std::cmp::Ordering;
 
@@ -12,8 +13,8 @@ const PRECISION: i32 = 53;
 /// The exponent of the least normal f64.
 const LEAST_EXPONENT: i32 = -1022;
 
-/// Returns the f64 that is nearest to a decimal number such as `-12.5e-3`, the even one of two: as the parser of std
-/// does. Without a digit, or with anything else in it, there is none.
+/// Returns the f64 that is nearest to a decimal number such as `-12.5e-3`, the even one of two, as the parser
+/// of std does. Without a digit, or with anything else in it, there is none.
 pub fn parse(text: &str) -> Option<f64> {
     let (is_negative, text) = match text.as_bytes().first()? {
         b'-' => (true, &text[1..]),
