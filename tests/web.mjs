@@ -8,10 +8,12 @@ import fs from "node:fs";
 import http from "node:http";
 import { createRequire } from "node:module";
 import path from "node:path";
+import zlib from "node:zlib";
 
 const [folder, program, scratch, npmPackage] = process.argv.slice(2).map((name) => path.resolve(name));
 const { chromium } = createRequire(path.join(scratch, "x.js"))("playwright-core");
 const assets = path.resolve(import.meta.dirname, "../assets");
+const recording = path.resolve(import.meta.dirname, "sessions/random_gestures.jsonl");
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".png": "image/png" };
@@ -319,6 +321,18 @@ const tests = {
       assert.match(await until("a sentence", () => message(page)), words);
       await paint(page);
       await until("the empty document is painted", async () => { const now = await fingerprint(page); return now && now !== empty; });
+    }
+  },
+
+  async "a recording, done again from a link, has the meshes of the desktop"({ page }) {
+    const [, start, ...edits] = fs.readFileSync(recording, "utf8").trim().split("\n").map((line) => JSON.parse(line));
+    for (let count = edits.length; count > 0; count -= 9) {
+      const gestures = { start: start.start, edits: edits.slice(0, count).map((edit) => edit.does) };
+      const packed = zlib.deflateSync(JSON.stringify(gestures), { level: 9 }).toString("base64url");
+      await page.goto("about:blank");
+      await page.goto(`${url}#2.g.${packed}.${Buffer.from("{}").toString("base64url")}`);
+      assert.equal(await settled(page), edits[count - 1].gives.mesh.fingerprint, `after ${count} edits`);
+      assert.equal((await message(page)) ?? "", "");
     }
   },
 
