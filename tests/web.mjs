@@ -8,10 +8,12 @@ import fs from "node:fs";
 import http from "node:http";
 import { createRequire } from "node:module";
 import path from "node:path";
+import zlib from "node:zlib";
 
 const [folder, program, scratch, npmPackage] = process.argv.slice(2).map((name) => path.resolve(name));
 const { chromium } = createRequire(path.join(scratch, "x.js"))("playwright-core");
 const assets = path.resolve(import.meta.dirname, "../assets");
+const recording = path.resolve(import.meta.dirname, "sessions/random_gestures.jsonl");
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".png": "image/png" };
@@ -96,7 +98,7 @@ async function settled(page) {
 }
 
 async function until(what, condition) {
-  for (let tries = 0; tries < 200; tries++) {
+  for (let tries = 0; tries < 600; tries++) {
     const value = await condition();
     if (value) {
       return value;
@@ -104,7 +106,15 @@ async function until(what, condition) {
     await sleep(50);
   }
   await open.page.shot("failed");
-  throw new Error(`${what}: waited for 10 s in vain`);
+  throw new Error(`${what}: waited for 30 s in vain`);
+}
+
+/** Opens an example in the place of another document, and returns the fingerprint of its mesh. */
+async function openedExample(page, name) {
+  const before = await settled(page);
+  await page.evaluate((name) => window.meshbrush.openExample(name), name);
+  await until("the example is opened", async () => (await fingerprint(page)) !== before);
+  return settled(page);
 }
 
 /** Returns the fingerprint that the desktop program finds for the bytes of a project. */
@@ -248,8 +258,7 @@ const tests = {
   async "a mesh is exported as the desktop writes it"({ page }) {
     await page.goto(url);
     await settled(page);
-    await page.evaluate(() => window.meshbrush.openExample("The report's diamond"));
-    await settled(page);
+    await openedExample(page, "The report's diamond");
     const project = path.join(scratch, "diamond.meshbrush");
     fs.writeFileSync(project, await projectOf(page));
     await page.keyboard.press("Control+e");
@@ -267,9 +276,7 @@ const tests = {
   async "a recipe is dropped with its rasters, and alone it names what is missing"({ page }) {
     await page.goto(url);
     await settled(page);
-    await page.evaluate(() => window.meshbrush.openExample("Celtic Sea with depths"));
-    await sleep(200);
-    const example = await settled(page);
+    const example = await openedExample(page, "Celtic Sea with depths");
     await page.reload();
     await settled(page);
     await drop(page, [path.join(assets, "celtic_sea.toml")]);
@@ -283,9 +290,7 @@ const tests = {
   async "a file is chosen in the browser's dialog"({ page }) {
     await page.goto(url);
     await settled(page);
-    await page.evaluate(() => window.meshbrush.openExample("Threats and a path"));
-    await sleep(200);
-    const shown = await settled(page);
+    const shown = await openedExample(page, "Threats and a path");
     const file = path.join(scratch, "chosen.meshbrush");
     fs.writeFileSync(file, await projectOf(page));
     await page.reload();
@@ -299,9 +304,7 @@ const tests = {
   async "a link has the same mesh, and one that is no good is a sentence"({ page }) {
     await page.goto(url);
     await settled(page);
-    await page.evaluate(() => window.meshbrush.openExample("Threats and a path"));
-    await sleep(200);
-    const shown = await settled(page);
+    const shown = await openedExample(page, "Threats and a path");
     const link = await page.evaluate(() => window.meshbrush.link());
     const visit = async (hash) => {
       await page.goto("about:blank");
@@ -319,6 +322,18 @@ const tests = {
       assert.match(await until("a sentence", () => message(page)), words);
       await paint(page);
       await until("the empty document is painted", async () => { const now = await fingerprint(page); return now && now !== empty; });
+    }
+  },
+
+  async "a recording, done again from a link, has the meshes of the desktop"({ page }) {
+    const [, start, ...edits] = fs.readFileSync(recording, "utf8").trim().split("\n").map((line) => JSON.parse(line));
+    for (let count = edits.length; count > 0; count -= 9) {
+      const gestures = { start: start.start, edits: edits.slice(0, count).map((edit) => edit.does) };
+      const packed = zlib.deflateSync(JSON.stringify(gestures), { level: 9 }).toString("base64url");
+      await page.goto("about:blank");
+      await page.goto(`${url}#2.g.${packed}.${Buffer.from("{}").toString("base64url")}`);
+      assert.equal(await settled(page), edits[count - 1].gives.mesh.fingerprint, `after ${count} edits`);
+      assert.equal((await message(page)) ?? "", "");
     }
   },
 
@@ -527,9 +542,7 @@ const tests = {
     };
     await page.goto(url);
     await settled(page);
-    await page.evaluate(() => window.meshbrush.openExample("The report's diamond"));
-    await sleep(200);
-    const shown = await settled(page);
+    const shown = await openedExample(page, "The report's diamond");
     await page.keyboard.press("h");
     await page.mouse.move(500, 400);
     await page.mouse.wheel(0, -600);

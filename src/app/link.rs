@@ -6,15 +6,15 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::App;
-use super::command::{Command, FileCommand, Opened, ShellCommand, StepCommand, ViewCommand};
+use super::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, StepCommand, ViewCommand};
 use super::features::ROWS;
 use super::files::new_document;
 use super::kit::all_tools;
 use super::tools::Tools;
 use super::view::View;
-use meshbrush_io::io::link::{self, LinkView, Linked};
+use meshbrush_io::io::link::{self, LinkSpace, LinkView, Linked};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_render::scene::Camera;
+use meshbrush_render::scene::{Camera, ViewDirection};
 
 /// Returns the part of a link after `#`, where a name of a file is a link to a page of the program, or that
 /// part alone.
@@ -26,8 +26,7 @@ pub fn part_of(name: &Path) -> Option<String> {
 }
 
 impl App {
-    /// Returns the document, and how it is looked at, as the part of a link after `#`. The view is that of
-    /// the plan.
+    /// Returns the document, and how it is looked at, as the part of a link after `#`.
     ///
     /// # Errors
     /// Fails with a sentence where the document is too large for a link.
@@ -37,6 +36,11 @@ impl App {
         let view = LinkView {
             area: area.map(|area| [area.min.x, area.min.y, area.max.x, area.max.y]),
             tool: (tool != Tools::for_domain(1.0, 1.0).tool).then(|| tool.name.to_owned()),
+            space: self.view.space.shown().map(|(from, [exaggeration, height])| LinkSpace {
+                direction: [from.azimuth, from.altitude],
+                exaggeration,
+                height,
+            }),
             step: self.features.stepping.steps().map(|steps| steps.player().map_or(0, |p| p.position())),
         };
         link::write(self.session.document(), &view)
@@ -52,6 +56,14 @@ impl App {
         let bounds = document.settings().lattice().map(|lattice| lattice.bounds());
         let opened = Opened { document: Arc::new(document), home: None };
         self.send(Command::File(FileCommand::Show(opened)));
+        match view.space {
+            Some(LinkSpace { direction: [azimuth, altitude], exaggeration, height }) => {
+                let direction = ViewDirection { azimuth, altitude };
+                let show = SpaceCommand::Show(direction, [exaggeration, height]);
+                self.send(Command::View(ViewCommand::Space(show)));
+            }
+            None => self.view.leave_space(),
+        }
         if let (Ok(bounds), Some([x0, y0, x1, y1])) = (bounds, view.area) {
             let area = Rect::spanning(DVec2::new(x0, y0), DVec2::new(x1, y1));
             self.send(Command::View(ViewCommand::ShowAreaOf(bounds, area)));
@@ -78,7 +90,9 @@ impl View {
     /// Shows the area that is wanted of the domain with these bounds, if one is.
     pub(super) fn show_wanted_area(&mut self, bounds: Rect) {
         if let Some([_, area]) = self.wanted_area.take_if(|[of, _]| *of == bounds) {
+            let height = self.space.middle();
             self.show_area(area);
+            self.space.keep_height(height);
         }
     }
 }

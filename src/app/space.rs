@@ -102,6 +102,23 @@ impl Space {
         self.lands = true;
     }
 
+    /// Returns what [`SpaceCommand::Show`] needs for the same view; `None` in the plan.
+    pub fn shown(&self) -> Option<(ViewDirection, [Option<f64>; 2])> {
+        self.is_on.then_some((self.direction, [self.exaggeration, self.height]))
+    }
+
+    /// Returns the height in the middle, if one is known.
+    pub fn middle(&self) -> Option<f64> {
+        self.height
+    }
+
+    /// Moves the plan without another height in the middle, if one is known.
+    pub fn keep_height(&mut self, height: Option<f64>) {
+        if height.is_some() {
+            (self.height, self.lands) = (height, false);
+        }
+    }
+
     /// Forgets the height in the middle: the whole surface is shown.
     pub fn forget_height(&mut self) {
         (self.height, self.lands) = (None, false);
@@ -113,6 +130,10 @@ impl Space {
             SpaceCommand::Toggle => (self.is_on, self.extent) = (!self.is_on, None),
             SpaceCommand::Exaggerate(factor) => self.exaggeration = factor,
             SpaceCommand::Light(light) => self.light = light,
+            SpaceCommand::Show(direction, [exaggeration, height]) => {
+                (self.is_on, self.extent, self.lands) = (true, None, false);
+                (self.direction, self.exaggeration, self.height) = (direction, exaggeration, height);
+            }
             SpaceCommand::Turn(_) | SpaceCommand::About(_) | SpaceCommand::LookFrom(_) => return false,
         }
         true
@@ -152,6 +173,12 @@ impl View {
     /// Runs a command about the view in space.
     pub(super) fn change_space(&mut self, command: SpaceCommand) {
         let was_on = self.space.is_on;
+        if matches!(command, SpaceCommand::Show(..)) {
+            // Before it, because it says the height in the middle.
+            self.fit();
+            self.space.set(command);
+            return;
+        }
         if self.space.set(command) {
             if self.is_fitted && was_on != self.space.is_on {
                 self.fit();
@@ -164,7 +191,7 @@ impl View {
                 SpaceCommand::Turn(by) => camera.turned(by.x, by.y),
                 SpaceCommand::About(height) => camera.about(height),
                 SpaceCommand::LookFrom(direction) => camera.seen_from(direction),
-                SpaceCommand::Toggle | SpaceCommand::Exaggerate(_) | SpaceCommand::Light(_) => camera,
+                _ => camera, // all others are done
             },
         );
     }

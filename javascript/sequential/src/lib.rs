@@ -251,12 +251,35 @@ impl<I: Iterator> Entries<I> {
         self.0.unzip()
     }
 
-    pub fn collect<C: FromIterator<I::Item>>(self) -> C {
-        self.0.collect()
+    pub fn collect<C: FromEntries<I::Item>>(self) -> C {
+        C::from_entries(self.0)
     }
 
     pub fn collect_into_vec(self, all: &mut Vec<I::Item>) {
         all.clear();
-        all.extend(self.0);
+        self.0.for_each(|entry| all.push(entry));
+    }
+}
+
+/// What entries are collected into. An iterator that hands its entries to a closure takes fewer bytes than
+/// one that is asked for the next, and for how many remain.
+pub trait FromEntries<T> {
+    /// Collects the entries.
+    fn from_entries(entries: impl Iterator<Item = T>) -> Self;
+}
+
+impl<T> FromEntries<T> for Vec<T> {
+    fn from_entries(entries: impl Iterator<Item = T>) -> Self {
+        let mut all = Self::new();
+        entries.for_each(|entry| all.push(entry));
+        all
+    }
+}
+
+impl<T, E> FromEntries<Result<T, E>> for Result<Vec<T>, E> {
+    fn from_entries(mut entries: impl Iterator<Item = Result<T, E>>) -> Self {
+        let mut all = Vec::new();
+        entries.try_for_each(|entry| entry.map(|entry| all.push(entry)))?;
+        Ok(all)
     }
 }

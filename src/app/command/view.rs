@@ -74,4 +74,6 @@ pub enum SpaceCommand {
     Exaggerate(Option<f64>),
     /// Puts the light elsewhere.
     Light(Light),
+    /// Shows the mesh in space from a direction, with a factor for heights and a height in the middle.
+    Show(ViewDirection, [Option<f64>; 2]),
 }

@@ -10,7 +10,7 @@ use crate::app::tools::PAN;
 use meshbrush_core::document::Example;
 
 /// Copies a link, and returns it.
-fn copied(window: &mut Window) -> String {
+pub fn copied(window: &mut Window) -> String {
     window.state_mut().send(Command::File(FileCommand::CopyLink));
     (0..10)
         .find_map(|_| {
@@ -23,7 +23,7 @@ fn copied(window: &mut Window) -> String {
         .expect("a link")
 }
 
-fn open(window: &mut Window, link: &str) {
+pub fn open(window: &mut Window, link: &str) {
     send(window, Command::File(FileCommand::Open(PathBuf::from(link))));
 }
 

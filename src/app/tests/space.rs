@@ -4,6 +4,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
+use super::links::{copied, open};
 use super::{
     Window, canvas, entries, key, notice, press_at, release_at, scratch, send, settings, wait_for_jobs,
     wheel, window,
@@ -78,6 +79,33 @@ fn a_picture_of_the_mesh_is_in_space_as_the_view_is() {
     key(&mut window, Modifiers::SHIFT, Key::V);
     let plan = picture(&mut window, "app-space-plan.png").unwrap();
     assert!(plan != usual && picture(&mut window, "app-space-plan.svg").is_some());
+}
+
+#[test]
+fn a_link_shows_the_same_view_in_space() {
+    let mut first = hills();
+    let exaggerated = SpaceCommand::Exaggerate(Some(0.3));
+    send(&mut first, Command::View(ViewCommand::Space(exaggerated)));
+    drag(&mut first, PointerButton::Middle, Modifiers::NONE, [50.0, -20.0]);
+    let at = canvas(&first).center() + vec2(90.0, 40.0);
+    wheel(&mut first, at, 300.0);
+    wait_for_jobs(&mut first);
+    let link = copied(&mut first);
+    let mut second = window();
+    open(&mut second, &link);
+    wait_for_jobs(&mut second);
+    let [shown, expected] = [&second, &first].map(|window| sight(window).camera);
+    assert_eq!(shown.direction(), expected.direction());
+    let places = [dvec2(0.2, 0.3), dvec2(0.5, 0.5), dvec2(0.8, 0.6)];
+    for place in places {
+        let distance = seen(&second, place).distance(seen(&first, place));
+        assert!(distance < 0.1, "{place}: {distance}");
+    }
+    // A link without it shows the plan.
+    key(&mut first, Modifiers::SHIFT, Key::V);
+    let link = copied(&mut first);
+    open(&mut second, &link);
+    assert!(!second.state().view().space.is_on);
 }
 
 #[test]

@@ -1,9 +1,10 @@
 //! The gestures that can be undone and redone, and the memory that they keep alive.
 
-use std::collections::{BTreeSet, HashMap, VecDeque};
+use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use super::{PathCost, Settings};
+use crate::geometry::NumberMap;
 use crate::layers::{Layer, LayerId};
 use crate::paint::Patch;
 
@@ -181,7 +182,7 @@ struct Memory {
     own: usize,
     /// Data that entries share, by address. The address stays valid: an entry with an `Arc` to the data is in
     /// the history.
-    shared: HashMap<usize, Shared>,
+    shared: NumberMap<usize, Shared>,
     /// Bytes of all shared data, each counted once.
     shared_bytes: usize,
 }
@@ -262,7 +263,7 @@ mod tests {
     fn counted(document: &Document) -> usize {
         let History { done, undone, memory } = document.history();
         let settings = done.iter().chain(undone).filter_map(|entry| entry.data.settings());
-        let mut data: HashMap<usize, usize> = settings.flat_map(shared_data).collect();
+        let mut data: NumberMap<usize, usize> = settings.flat_map(shared_data).collect();
         shared_data(document.settings()).for_each(|(address, _)| _ = data.remove(&address));
         let own: usize = done.iter().chain(undone).map(|entry| entry.data.own_bytes()).sum();
         assert_eq!(own, memory.own);

@@ -1,13 +1,12 @@
 //! Finds where two regions differ, in slices.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::Region;
 use super::region::EdgeCursor;
-use crate::geometry::Rect;
+use crate::geometry::{NumberMap, Rect};
 use crate::mesh::Progress;
 
 /// Compares two regions in the same frame by their edges.
@@ -33,7 +32,7 @@ pub struct RegionComparison {
     /// The edges that the current pass has not visited.
     to_visit: [Edges; 2],
     /// How many edges of the region before still have no equal in the region after, by their ends.
-    unmatched: HashMap<EdgeKey, u32>,
+    unmatched: NumberMap<EdgeKey, u32>,
     areas: Areas,
 }
 
@@ -85,7 +84,7 @@ impl RegionComparison {
             to_visit: [none; 2],
             regions: [before, after],
             pass: Pass::SkipFirst,
-            unmatched: HashMap::new(),
+            unmatched: NumberMap::default(),
             areas: Areas::default(),
         }
     }

@@ -19,7 +19,6 @@
 //! The discs are found from their contact points, by a disc that shrinks until no coast is within it: it
 //! touches the coast at the point, and keeps its centre on the normal there (Ma, Bae, Choi 2012).
 
-use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
@@ -28,7 +27,7 @@ use rayon::prelude::*;
 
 use crate::domain::{CoastEdge, Coasts, Domain, Region};
 use crate::field::Bounds;
-use crate::geometry::{BoxTree, Rect, nearest_on_segment};
+use crate::geometry::{BoxTree, NumberMap, Rect, nearest_on_segment};
 
 /// The way along a ring from one side of a crossing to the other, at least, as a multiple of its length.
 /// Corners wider than 53°, and coves wider than deep, have none.
@@ -345,7 +344,7 @@ fn thinned(mut discs: Vec<StraitDisc>) -> Vec<StraitDisc> {
         }
         let cell = CENTERS * libm::exp2(libm::log2(disc.width).floor());
         if grids.last().is_none_or(|last| last.cell != cell) {
-            grids.push(CenterGrid { cell, centers: HashMap::new() });
+            grids.push(CenterGrid { cell, centers: NumberMap::default() });
         }
         if let Some(grid) = grids.last_mut() {
             grid.centers.entry(grid.place(disc.center)).or_default().push(disc.center);
@@ -359,7 +358,7 @@ fn thinned(mut discs: Vec<StraitDisc>) -> Vec<StraitDisc> {
 struct CenterGrid {
     /// The side of a cell: at most `CENTERS` times the width of each disc.
     cell: f64,
-    centers: HashMap<[i64; 2], Vec<DVec2>>,
+    centers: NumberMap<[i64; 2], Vec<DVec2>>,
 }
 
 impl CenterGrid {

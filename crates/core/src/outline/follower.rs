@@ -26,11 +26,11 @@ use rayon::prelude::*;
 use super::band::{GRAIN, RINGS};
 use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit, beside};
 use super::corners::TurningCorners;
-use super::numbers::{NumberMap, Numbers, Pages};
+use super::numbers::{Numbers, Pages};
 use super::window::{LOCAL_RINGS, Rings, SLACK, Window, expected};
 use super::writer::Writer;
 use crate::domain::{DomainOnLattice, RegionOnLattice};
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::{Changes, DrawnPiece, Mesh, MeshPatch, NodeId, PatchTriangle, Replacement, TriangleId};
 
 /// A place on the lattice as one number: of a node, or three times the centroid of a triangle. No triangle

@@ -1,7 +1,4 @@
-//! Numbers for nodes and triangles of a mesh: for all of them, or for few, and maps by numbers.
-
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+//! Numbers for nodes and triangles of a mesh: for all of them, or for few.
 
 /// A number for some entries of an array.
 pub(super) trait Numbers: Sync {
@@ -60,33 +57,5 @@ impl Numbers for Pages {
             self.numbers.push([0; PAGE]);
         }
         std::mem::replace(&mut self.numbers[*place as usize][index % PAGE], number + 1) == 0
-    }
-}
-
-/// A map by numbers that are spread by a multiplication: no one chooses them to collide.
-pub(super) type NumberMap<K, V> = HashMap<K, V, BuildHasherDefault<NumberHasher>>;
-
-/// Hashes numbers of 32 and 64 bits.
-#[derive(Clone, Copy, Default)]
-pub(super) struct NumberHasher(u64);
-
-impl Hasher for NumberHasher {
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(u64::from(byte)));
-    }
-
-    #[inline]
-    fn write_u32(&mut self, number: u32) {
-        self.write_u64(u64::from(number));
-    }
-
-    #[inline]
-    fn write_u64(&mut self, number: u64) {
-        let spread = (self.0 ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = spread ^ (spread >> 32);
     }
 }

@@ -1,7 +1,5 @@
 //! The pieces of the triangles near the outline, whose nodes and edges are improved.
 
-use std::collections::HashSet;
-
 use rayon::prelude::*;
 
 use super::angles::{Angles, COT_5, COT_30};
@@ -9,7 +7,7 @@ use super::band::{Band, GRAIN};
 use super::flat::{boundary_edges, has_sector};
 use super::stencil::Placement;
 use super::triangulation::{NONE, Triangulation};
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, NumberSet};
 
 /// Number of passes in which edges are flipped.
 const PASSES: usize = 6;
@@ -244,7 +242,7 @@ impl Patchwork {
                         .for_each(|&v| self.acted[v as usize] = true);
                 }
             }
-            let mut taken = HashSet::with_capacity(2 * flips.len());
+            let mut taken = NumberSet::default();
             for (_, t, i) in flips {
                 let across = self.triangles.across[t as usize][i];
                 if !taken.contains(&t) && !taken.contains(&across) {

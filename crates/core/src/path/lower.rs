@@ -31,6 +31,17 @@ pub struct LowerBound {
     /// The triangles through which a path that costs at most the upper bound may go.
     counting: Vec<u32>,
     factors: Vec<f64>,
+    /// Half the difference of the distances from the start and from the goal.
+    w: Vec<f64>,
+    /// The nodes of triangles in which `w` is 0 somewhere.
+    crossed: Vec<u32>,
+    /// The factors by which costs were lowered around nodes.
+    at_nodes: Vec<f64>,
+    /// The bound so far.
+    best: f64,
+    upper: f64,
+    /// How often v was computed.
+    corrections: usize,
 }
 
 /// The bound is rounded down by this share.
@@ -64,6 +75,23 @@ impl LowerBound {
         [us, ug]: [&March; 2],
         upper: f64,
     ) -> f64 {
+        self.begin(mesh, costs, [start, goal], [us, ug], upper);
+        loop {
+            if let Some(bound) = self.raise(mesh, costs, [start, goal]) {
+                return bound;
+            }
+        }
+    }
+
+    /// Begins the work of [`Self::compute`], which [`Self::raise`] goes on with for the same places.
+    pub(super) fn begin(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        [start, goal]: [Place; 2],
+        [us, ug]: [&March; 2],
+        upper: f64,
+    ) {
         let problem = Problem { mesh, costs, start, goal };
         self.from_start.clear();
         self.from_start.extend(us.values().map(finite));
@@ -75,24 +103,33 @@ impl LowerBound {
         );
         let clamped_gain = problem.gain(&clamps.0).max(-problem.gain(&clamps.1));
         self.find_counting(&problem, &clamps, upper);
-        let w: Vec<f64> = self.from_start.iter().zip(&self.from_goal).map(|(s, g)| 0.5 * (s - g)).collect();
-        let mut best = clamped_gain.max(problem.bound(&w, &self.counting));
-        let crossed = problem.crossed(&w);
-        let mut at_nodes = vec![1.0_f64; mesh.node_count()];
-        for correction in 0..=MOST_CORRECTIONS {
-            let seed = |&node: &u32| (node, w[node as usize].abs() * at_nodes[node as usize]);
-            let seeds: Vec<(u32, f64)> = crossed.iter().map(seed).collect();
-            self.march.run(mesh, &self.costs, Passage::Partly, &seeds, None);
-            self.v.clear();
-            self.v.extend(self.march.values().zip(&w).map(|(v, &w)| finite(v).copysign(w)));
-            best = best.max(problem.bound(&self.v, &self.counting));
-            // Lower costs do not give more.
-            if problem.gain(&self.v) - best <= LEAST_GAIN * upper || correction == MOST_CORRECTIONS {
-                break;
-            }
-            self.lower_costs(&problem, &mut at_nodes);
+        self.w.clear();
+        self.w.extend(self.from_start.iter().zip(&self.from_goal).map(|(s, g)| 0.5 * (s - g)));
+        self.best = clamped_gain.max(problem.bound(&self.w, &self.counting));
+        self.crossed = problem.crossed(&self.w);
+        self.at_nodes.clear();
+        self.at_nodes.resize(mesh.node_count(), 1.0);
+        (self.upper, self.corrections) = (upper, 0);
+    }
+
+    /// Raises the bound by one function v. Returns it once that is all.
+    pub(super) fn raise(&mut self, mesh: &PathMesh, costs: &[f64], [start, goal]: [Place; 2]) -> Option<f64> {
+        let problem = Problem { mesh, costs, start, goal };
+        let Self { w, at_nodes, .. } = self;
+        let seed = |&node: &u32| (node, w[node as usize].abs() * at_nodes[node as usize]);
+        let seeds: Vec<(u32, f64)> = self.crossed.iter().map(seed).collect();
+        self.march.run(mesh, &self.costs, Passage::Partly, &seeds, None);
+        self.v.clear();
+        self.v.extend(self.march.values().zip(w).map(|(v, &mut w)| finite(v).copysign(w)));
+        self.best = self.best.max(problem.bound(&self.v, &self.counting));
+        // Lower costs do not give more.
+        let is_last = problem.gain(&self.v) - self.best <= LEAST_GAIN * self.upper;
+        if is_last || self.corrections == MOST_CORRECTIONS {
+            return Some(self.best.max(0.0) * (1.0 - ROUNDING));
         }
-        best.max(0.0) * (1.0 - ROUNDING)
+        self.corrections += 1;
+        self.lower_costs(&problem);
+        None
     }
 
     /// Finds the triangles through which a path that costs at most `upper` may go, and closes those that are
@@ -111,10 +148,10 @@ impl LowerBound {
         }
     }
 
-    /// Lowers the costs around triangles where v is too steep. `at_nodes` collects the factors.
-    fn lower_costs(&mut self, problem: &Problem, at_nodes: &mut [f64]) {
+    /// Lowers the costs around triangles where v is too steep.
+    fn lower_costs(&mut self, problem: &Problem) {
         self.factors.clear();
-        self.factors.resize(at_nodes.len(), 1.0);
+        self.factors.resize(self.at_nodes.len(), 1.0);
         let v = &self.v;
         let ratios = self.counting.par_iter().with_min_len(TOGETHER).map(|&t| problem.ratio(t, v).min(1.0));
         let ratios: Vec<f64> = ratios.collect();
@@ -129,7 +166,7 @@ impl LowerBound {
         self.costs.par_iter_mut().zip(triangles).for_each(|(cost, triangle)| {
             *cost *= triangle.corners.iter().map(|&node| factors[node as usize]).fold(1.0, f64::min);
         });
-        at_nodes.iter_mut().zip(&self.factors).for_each(|(all, factor)| *all *= factor);
+        self.at_nodes.iter_mut().zip(&self.factors).for_each(|(all, factor)| *all *= factor);
     }
 }
 

@@ -5,24 +5,20 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::integral::PathFigures;
+use super::leg::LegSearch;
 use super::lines::Lines;
 use super::lower::LowerBound;
 use super::march::March;
-use super::obstacle::obstacle;
 use super::origin::Origin;
 use super::path_mesh::PathMesh;
 use super::place::Place;
+use super::planning::Planning;
 use super::refine::{Effort, refine};
-use super::shortest::Shortest;
-use super::taut::is_constant_along;
 use super::trace::{trace, trace_by_nodes};
 use super::triangle_costs::{TriangleCost, TriangleCosts};
 use super::walls::Walls;
-use super::ways::Ways;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
 use crate::geometry::Rect;
-use crate::mesh::Progress;
 
 /// The requirements of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,11 +37,6 @@ impl PathRequest {
     /// A path for one frame, without a lower bound.
     pub const LIVE: Self = Self { effort: Effort::LIVE, has_bounds: false, tolerance: 2e-3 };
 }
-
-/// The tolerance with which two paths are compared.
-const COMPARED: f64 = 1e-3;
-/// Another way is worth a closer look if sketches promise that it costs less by this share.
-const LEAST_GAIN: f64 = 1e-4;
 
 /// Finds paths of least cost on one mesh.
 ///
@@ -95,12 +86,12 @@ impl Planner {
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn new(mesh: impl Into<Arc<PathMesh>>, density: &dyn CostDensity) -> Result<Self, PathError> {
-        let base = mesh.into();
-        let known = base.all_costs(density)?;
-        let mut mesh = Arc::clone(&base);
-        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
-        let adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
-        Ok(Self { adaptation, ..Self::with_costs(mesh, costs) })
+        let mut planning = Planning::new(mesh);
+        loop {
+            if let Some(planner) = planning.advance(density)? {
+                return Ok(planner);
+            }
+        }
     }
 
     /// Creates a planner that uses the mesh without further bisections.
@@ -113,7 +104,7 @@ impl Planner {
         Ok(Self::with_costs(mesh, costs))
     }
 
-    fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
+    pub(super) fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
         let walls = Arc::new(Walls::new(&mesh));
         let (origins, origins_for_bounds, bounds) = Default::default();
         Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bounds }
@@ -155,13 +146,25 @@ impl Planner {
         request: PathRequest,
     ) -> Result<Vec<Solution>, PathError> {
         let places = self.places(places)?;
-        self.march_from(&places, false, request.has_bounds);
+        self.legs_between(density, &places, request)
+    }
+
+    pub(super) fn legs_between(
+        &mut self,
+        density: &dyn CostDensity,
+        places: &[Place],
+        request: PathRequest,
+    ) -> Result<Vec<Solution>, PathError> {
+        self.march_from(places, false, request.has_bounds);
         let mut bounds = std::mem::take(&mut self.bounds);
         bounds.resize_with(places.len() - 1, LowerBound::default);
         let leg = |(leg, (pair, bound)): (usize, (&[Place], &mut LowerBound))| {
-            let [from, to] = [leg, leg + 1].map(|index| Waypoint::of(index, places.len()));
-            self.leg(density, leg, [pair[0], pair[1]], (request, bound))?
-                .ok_or_else(|| obstacle(&self.mesh, [pair[0], pair[1]], [from, to]))
+            let mut search = LegSearch::new(leg, [pair[0], pair[1]], request);
+            loop {
+                if let Some(found) = search.advance(self, density, bound, places.len())? {
+                    return Ok(found);
+                }
+            }
         };
         let legs = places.par_windows(2).zip(&mut bounds).enumerate().map(leg);
         let legs: Vec<Result<Solution, PathError>> = legs.collect();
@@ -170,29 +173,22 @@ impl Planner {
         legs.into_iter().collect()
     }
 
-    /// Does a part of the work of [`Self::solve`] beforehand, where one thread does all of it: the march with
-    /// this number from one of the places. Returns whether there are more.
-    ///
-    /// # Errors
-    /// Fails when a place is not in the domain.
-    pub fn march_ahead(
-        &mut self,
-        places: &[DVec2],
-        request: PathRequest,
-        number: usize,
-    ) -> Result<Progress, PathError> {
-        if rayon::current_num_threads() > 1 {
-            return Ok(Progress::Done);
-        }
-        let places = self.places(places)?;
-        self.resize_origins(places.len(), request.has_bounds);
+    /// Does the march with this number of those from the places. Returns whether there was one.
+    pub(super) fn march_one(&mut self, places: &[Place], has_bounds: bool, number: usize) -> bool {
+        self.resize_origins(places.len(), has_bounds);
         let mesh = Arc::clone(&self.mesh);
-        let marches = self.marches(&places, false, request.has_bounds);
+        let marches = self.marches(places, false, has_bounds);
         let Some(Marching { origin, costs, least, place, until }) = marches.into_iter().nth(number) else {
-            return Ok(Progress::Done);
+            return false;
         };
         origin.run(&mesh, costs, least, place, until);
-        Ok(Progress::More)
+        true
+    }
+
+    /// Returns what is known for the bound of a leg, of so many.
+    pub(super) fn bound_of(&mut self, leg: usize, legs: usize) -> &mut LowerBound {
+        self.bounds.resize_with(legs, LowerBound::default);
+        &mut self.bounds[leg]
     }
 
     /// Returns the places on the mesh.
@@ -253,6 +249,11 @@ impl Planner {
         [&self.origins[leg].march, &self.origins[leg + 1].march]
     }
 
+    /// Returns the marches with least costs from the ends of a leg.
+    pub(super) fn partly_open_marches(&self, leg: usize) -> [&March; 2] {
+        [leg, leg + 1].map(|place| &self.origins_for_bounds[place].march)
+    }
+
     /// Returns a path with each leg moved to where it costs least nearby.
     pub(super) fn relaxed(&self, path: &Solution, density: &dyn CostDensity, tolerance: f64) -> Solution {
         let leg = |stops: &[usize]| {
@@ -263,127 +264,14 @@ impl Planner {
     }
 
     /// Returns a polyline that the walls admit, with its figures.
-    fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
+    pub(super) fn solution(&self, points: Vec<DVec2>, density: &dyn CostDensity, tolerance: f64) -> Solution {
         debug_assert!(self.walls.admit_all(&points), "a path leaves the open triangles: {points:?}");
         Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
     }
 
-    /// Returns the path of a leg; `None` where no march leads to its goal.
-    ///
-    /// # Errors
-    /// Fails when its cost is not finite.
-    fn leg(
-        &self,
-        density: &dyn CostDensity,
-        leg: usize,
-        ends: [Place; 2],
-        (request, bound): (PathRequest, &mut LowerBound),
-    ) -> Result<Option<Solution>, PathError> {
-        let [start, goal] = ends;
-        if start.point == goal.point {
-            return Ok(Some(self.solution(vec![start.point, goal.point], density, request.tolerance)));
-        }
-        let Some(traced) = self.traced(leg, ends) else { return Ok(None) };
-        let refined = refine(&traced, density, &self.walls, request.effort);
-        let mut solution = self.solution(refined, density, request.tolerance);
-        // Where the cost jumps, a refined path can cost more.
-        self.take_better(&mut solution, traced.clone(), density, request);
-        if request.effort == Effort::FULL {
-            self.try_others(&mut solution, (leg, ends, traced), density, request);
-        }
-        if !solution.upper.is_finite() {
-            return Err(PathError::CostOutOfRange { at: start.point, value: solution.upper });
-        }
-        // A path through a part of the domain that no triangle covers may cost less than any that is known.
-        if request.has_bounds && self.mesh.covers_domain {
-            let marches = [leg, leg + 1].map(|place| &self.origins_for_bounds[place].march);
-            let lower = bound.compute(&self.mesh, &self.costs.least, ends, marches, solution.upper);
-            solution.lower = lower.min(solution.upper);
-        }
-        Ok(Some(solution))
-    }
-
-    /// Takes a path in place of the solution if it costs less.
-    fn take_better(
-        &self,
-        solution: &mut Solution,
-        points: Vec<DVec2>,
-        density: &dyn CostDensity,
-        request: PathRequest,
-    ) {
-        // Bounds are much work: only for what promises to cost less.
-        if PathFigures::of(&points, density, COMPARED).cost < solution.cost {
-            let other = self.solution(points, density, request.tolerance);
-            if other.upper < solution.upper {
-                *solution = other;
-            }
-        }
-    }
-
-    /// Looks for paths that cost less than the solution, which was found beside the traced one.
-    fn try_others(
-        &self,
-        solution: &mut Solution,
-        (leg, ends, traced): (usize, [Place; 2], Vec<DVec2>),
-        density: &dyn CostDensity,
-        request: PathRequest,
-    ) {
-        let march = self.march_back(ends);
-        let back = self.traced_back(&march, ends);
-        let marches = [&self.origins[leg].march, &march];
-        let ways = Ways { mesh: &self.mesh, costs: &self.costs.mean, walls: &self.walls, ends, marches };
-        let known: Vec<Vec<DVec2>> = [traced].into_iter().chain(back).collect();
-        let others = ways.others(&known);
-        let sketch = |way: &[DVec2]| {
-            let sketch = refine(way, density, &self.walls, Effort::SKETCH);
-            (PathFigures::of(&sketch, density, COMPARED).cost, sketch)
-        };
-        let (mut least, _) = sketch(&known[0]);
-        for (promised, sketched) in known[1..].iter().chain(&others).map(|way| sketch(way)) {
-            if promised < least * (1.0 - LEAST_GAIN) {
-                least = promised;
-                let refined = refine(&sketched, density, &self.walls, request.effort);
-                self.take_better(solution, refined, density, request);
-                self.take_better(solution, sketched, density, request);
-            }
-        }
-        if let Some(along) = self.along_lines(density, ends, solution.cost) {
-            let refined = refine(&along, density, &self.walls, request.effort);
-            self.take_better(solution, refined, density, request);
-            self.take_better(solution, along, density, request);
-        }
-        if is_constant_along(&solution.points, |rectangle| density.range_on_ground(rectangle))
-            && let Some(points) = self.shortest(density, ends, solution)
-        {
-            let refined = refine(&points, density, &self.walls, request.effort);
-            self.take_better(solution, points, density, request);
-            self.take_better(solution, refined, density, request);
-        }
-    }
-
-    /// Returns the shortest way in the plane, where the solution has one cost all along. `None` where the
-    /// solution is no longer than that.
-    fn shortest(
-        &self,
-        density: &dyn CostDensity,
-        ends: [Place; 2],
-        solution: &Solution,
-    ) -> Option<Vec<DVec2>> {
-        let (first, means) = (ends[0].triangle, &self.costs.mean);
-        let range = |triangle: u32| density.range_on_ground(&self.mesh.rectangle(triangle));
-        let cost = range(first);
-        let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
-        let shortest = Shortest { mesh: &self.mesh, walls: &self.walls, has_cost: &has_cost };
-        // On the Earth a longer line in the plane can be the shorter one.
-        let scales = solution.points.iter().map(|&at| density.inverse_scale_at(at));
-        let [least, greatest] =
-            scales.fold([f64::INFINITY, 0.0_f64], |[a, b], scale| [a.min(scale), b.max(scale)]);
-        shortest.way(ends, solution.length * (greatest / least))
-    }
-
     /// A march from the goal as far as the start. It errs elsewhere than one from the start, and can find the
     /// better one of two ways that cost nearly the same.
-    fn march_back(&self, [start, goal]: [Place; 2]) -> March {
+    pub(super) fn march_back(&self, [start, goal]: [Place; 2]) -> March {
         let (mut march, costs) = (March::default(), &self.costs.mean);
         let seeds = goal.seeds(&self.mesh, costs);
         march.run(&self.mesh, costs, Passage::Open, &seeds, Some(start.corner_nodes(&self.mesh)));
@@ -391,21 +279,26 @@ impl Planner {
     }
 
     /// The path that a march from the goal leads to.
-    fn traced_back(&self, march: &March, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
+    pub(super) fn traced_back(&self, march: &March, [start, goal]: [Place; 2]) -> Option<Vec<DVec2>> {
         let mut traced = trace(&self.mesh, &self.costs.mean, march, [goal, start])?;
         traced.reverse();
         self.walls.admit_all(&traced).then_some(traced)
     }
 
     /// Returns a path by way of lines that are cheaper than the triangles around them.
-    fn along_lines(&self, density: &dyn CostDensity, ends: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
+    pub(super) fn along_lines(
+        &self,
+        density: &dyn CostDensity,
+        ends: [Place; 2],
+        known: f64,
+    ) -> Option<Vec<DVec2>> {
         let size = self.mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
         let lines = Lines { mesh: &self.mesh, costs: &self.costs, walls: &self.walls, density, size };
         lines.path(ends, known, Effort::FULL)
     }
 
     /// Returns the path that a march leads to, through open triangles only.
-    fn traced(&self, leg: usize, ends: [Place; 2]) -> Option<Vec<DVec2>> {
+    pub(super) fn traced(&self, leg: usize, ends: [Place; 2]) -> Option<Vec<DVec2>> {
         let march = &self.origins[leg].march;
         let traced = trace(&self.mesh, &self.costs.mean, march, ends)?;
         // In triangles as small as rounding, a point beside an edge may belong to a third one.

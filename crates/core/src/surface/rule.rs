@@ -1,6 +1,5 @@
 //! Which triangles must be bisected for a surface.
 
-use std::collections::HashSet;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -9,7 +8,7 @@ use super::nodes::{SurfaceNodes, SurfaceTriangle};
 use super::order::{Measured, triangle_key};
 use super::queue::{ErrorQueue, QueueGoal};
 use super::samples::{LayerSamples, SurfaceSamples};
-use crate::geometry::{Lattice, LatticePoint};
+use crate::geometry::{Lattice, LatticePoint, NumberSet};
 use crate::layers::{Layer, LayerId, LayerKind, Surface, SurfaceGoal, SurfaceNorm};
 use crate::mesh::Element;
 
@@ -24,7 +23,7 @@ pub struct SurfaceRule {
     /// What each layer of the samples asks for.
     asked: Vec<Asked>,
     /// The triangles that are bisected for sums of squares, as [`triangle_key`].
-    bisected: Arc<HashSet<u64>>,
+    bisected: Arc<NumberSet<u64>>,
     /// The errors by the norms of sums of squares that the mesh was made for.
     summed: Vec<(SurfaceNorm, f64)>,
     /// The number of triangles that a layer allows, where the mesh has more without the surface.

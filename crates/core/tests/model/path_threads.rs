@@ -10,7 +10,8 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
-    CertificateTask, PathCertificate, PathMesh, PathRequest, Planner, Solution, WeightedCost, Weights,
+    CertificateTask, PathCertificate, PathMesh, PathRequest, PathSearch, Planner, Solution, WeightedCost,
+    Weights,
 };
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Limits, Mesh};
@@ -62,7 +63,11 @@ fn found(seed: u64) -> Vec<Vec<u64>> {
         }
         let places: Vec<DVec2> = (0..random.usize(2..5)).map(|_| dvec2(random.f64(), random.f64())).collect();
         let request = if is_live { PathRequest::LIVE } else { PathRequest::FULL };
+        let mut in_steps = planner.clone();
+        let mut search = PathSearch::new(&in_steps, &places, request).unwrap();
+        let in_steps = (0..).find_map(|_| search.advance(&mut in_steps, &density).unwrap()).unwrap();
         let solution = planner.solve(&density, &places, request).unwrap();
+        assert_eq!(bits(&in_steps), bits(&solution), "{seed}");
         all.push(bits(&solution));
         if edit + 1 == EDITS && solution.upper > 0.0 {
             let task = CertificateTask::in_rectangle(

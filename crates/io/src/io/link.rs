@@ -44,6 +44,34 @@ pub struct LinkView {
     /// The number of steps of the refinement that are done, where steps are shown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
+    /// The view in space; the plan where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub space: Option<LinkSpace>,
+}
+
+/// How a view in space looks. Its middle and its scale are those of the area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LinkSpace {
+    /// Where one looks, in degrees: clockwise from the y axis, and how high the viewer is above the horizon.
+    pub direction: [f64; 2],
+    /// The factor for heights, where a person chose one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub exaggeration: Option<f64>,
+    /// The height in the middle, in units of height; half way up where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+}
+
+impl LinkSpace {
+    /// Returns whether there is such a view.
+    fn is_possible(&self) -> bool {
+        let [azimuth, altitude] = self.direction;
+        azimuth.is_finite()
+            && (0.0..=90.0).contains(&altitude)
+            && self.exaggeration.is_none_or(|factor| factor > 0.0 && factor.is_finite())
+            && self.height.is_none_or(f64::is_finite)
+    }
 }
 
 /// What a link holds.
@@ -119,6 +147,9 @@ pub fn read(link: &str) -> Result<Linked, String> {
     if !view.area.is_none_or(|area| area.iter().all(is_number) && area[0] < area[2] && area[1] < area[3]) {
         return Err(DAMAGED.into());
     }
+    if !view.space.is_none_or(|space| space.is_possible()) {
+        return Err(DAMAGED.into());
+    }
     let document = match kind {
         "p" => of_project(packed)?,
         // No longer ones are written: to do edits again takes time.
@@ -152,7 +183,16 @@ mod tests {
     }
 
     fn view() -> LinkView {
-        LinkView { area: Some([0.1, 0.25, 0.3, 0.5]), tool: Some("Brush".into()), step: Some(12) }
+        LinkView {
+            area: Some([0.1, 0.25, 0.3, 0.5]),
+            tool: Some("Brush".into()),
+            step: Some(12),
+            space: Some(space()),
+        }
+    }
+
+    fn space() -> LinkSpace {
+        LinkSpace { direction: [120.0, 30.0], exaggeration: Some(2.5), height: Some(-7.0) }
     }
 
     fn is_of_a_link(link: &str) -> bool {

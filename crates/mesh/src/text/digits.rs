@@ -1,4 +1,4 @@
-use super::group_digits;
+use super::{decimal, group_digits};
 
 /// `value` with exactly `decimals` digits after the point, grouped before it: `1,234.50`.
 pub fn fixed(value: f64, decimals: usize) -> String {
@@ -41,7 +41,7 @@ pub fn digits(value: f64, digits: usize) -> String {
 /// `value` rounded to `digits` significant digits: exactly what [`significant`] shows.
 pub fn rounded(value: f64, digits: usize) -> f64 {
     let text = format!("{:.*e}", digits.max(1) - 1, value);
-    text.parse().unwrap_or(value)
+    decimal::parse(&text).unwrap_or(value)
 }
 
 /// `number` with its unit, if there is one. Only the sign of degrees follows without a space.

@@ -1,6 +1,7 @@
 //! Parts of messages for a person: counts, lengths and their unit, sizes in bytes, excerpts of files.
 
 mod bytes;
+pub mod decimal;
 mod digits;
 mod excerpt;
 mod grouped;

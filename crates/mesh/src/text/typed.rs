@@ -1,5 +1,7 @@
 //! Numbers as users type them.
 
+use super::decimal;
+
 /// Units of length, as factors of a metre.
 const LENGTHS: [(&str, f64, f64); 5] =
     [("mm", 1.0, 1000.0), ("cm", 1.0, 100.0), ("m", 1.0, 1.0), ("km", 1000.0, 1.0), ("nmi", 1852.0, 1.0)];
@@ -49,7 +51,7 @@ fn plain_number(text: &str) -> Option<f64> {
     let plain: String =
         text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     let plain = if groups_thousands(&plain) { plain.replace(',', "") } else { plain.replacen(',', ".", 1) };
-    plain.parse().ok().filter(|value: &f64| value.is_finite())
+    decimal::parse(&plain).filter(|value| value.is_finite())
 }
 
 /// Returns whether the commas of `text` stand where thousands are grouped: `1,234,567.8`, but not `0,123`.

@@ -11,10 +11,11 @@ use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, metres_along};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
-    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, Planner, Solution,
+    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, PathSearch, Planner,
+    Planning, Solution,
 };
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Extract, Mesh, Progress};
+use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::LengthUnit;
 
 /// Places on a path at which its profile is known.
@@ -52,14 +53,13 @@ pub(super) struct KnownPlanner {
 
 impl KnownPlanner {
     fn new(
+        planner: Planner,
         meshes: [Arc<PathMesh>; 2],
-        density: &Arc<dyn CostDensity>,
         (plan, risk): (Arc<PathPlan>, RiskField),
         domain: &Domain,
-    ) -> Result<Self, PathError> {
-        let planner = Planner::new(Arc::clone(&meshes[1]), &**density)?;
+    ) -> Self {
         let domain = domain.clone();
-        Ok(Self {
+        Self {
             planner,
             plan,
             risk,
@@ -68,7 +68,7 @@ impl KnownPlanner {
             corridor: None,
             #[cfg(test)]
             moves: 0,
-        })
+        }
     }
 
     /// Returns whether its paths may go where those of a plan may.
@@ -230,13 +230,16 @@ enum Step {
     Close(PlannerSource),
     /// Makes smaller triangles for the places.
     Detail(Arc<PathMesh>),
-    Plan([Arc<PathMesh>; 2]),
+    /// Makes a planner.
+    Plan([Arc<PathMesh>; 2], Planning),
     /// A planner follows, on another mesh if there is one.
     Follow(Box<KnownPlanner>, Option<Box<PathMesh>>),
-    /// Marches for the next route, after so many.
-    March(Box<KnownPlanner>, usize),
-    /// Finds the path of the next route.
-    Solve(Box<KnownPlanner>),
+    /// Begins with the next route.
+    Begin(Box<KnownPlanner>),
+    /// Finds its path.
+    Search(Box<KnownPlanner>, Box<PathSearch>),
+    /// Finds the profile of the path.
+    Profile(Box<KnownPlanner>, Box<Solution>),
     /// Nothing is left to do.
     Done,
 }
@@ -284,12 +287,16 @@ impl PathWork {
             }
             Step::Detail(mesh) => {
                 let detailed = mesh.detailed(&plan.routes);
-                Step::Plan([mesh, detailed])
+                let planning = Planning::new(Arc::clone(&detailed));
+                Step::Plan([mesh, detailed], planning)
             }
-            Step::Plan(meshes) => {
-                let known = KnownPlanner::new(meshes, density, (plan.clone(), risk.clone()), domain)?;
-                Step::March(Box::new(known), 0)
-            }
+            Step::Plan(meshes, mut planning) => match planning.advance(&**density)? {
+                None => Step::Plan(meshes, planning),
+                Some(planner) => {
+                    let known = KnownPlanner::new(planner, meshes, (plan.clone(), risk.clone()), domain);
+                    Step::Begin(Box::new(known))
+                }
+            },
             Step::Follow(mut known, mesh) => {
                 let areas = known.changed_areas(plan, risk, domain);
                 match mesh {
@@ -297,34 +304,36 @@ impl PathWork {
                     None => known.follow(plan.clone(), &**density, &areas, *is_live)?,
                 }
                 (known.risk, known.domain, known.corridor) = (risk.clone(), domain.clone(), None);
-                Step::March(known, 0)
+                Step::Begin(known)
             }
-            Step::March(mut known, number) => {
+            Step::Begin(known) => {
                 let Some(places) = plan.routes.get(self.found.len()) else {
                     return Ok(ControlFlow::Break(Some(self.work(*known))));
                 };
-                let request = request(*is_live);
-                match known.planner.march_ahead(places, request, number) {
-                    Ok(Progress::More) => Step::March(known, number + 1),
-                    // A problem is found again, and told.
-                    Ok(Progress::Done) | Err(_) => Step::Solve(known),
+                match PathSearch::new(&known.planner, places, request(*is_live)) {
+                    Ok(search) => Step::Search(known, Box::new(search)),
+                    Err(problem) => self.without_path(known, problem),
                 }
             }
-            Step::Solve(mut known) => {
-                let found = self.solve(&mut known.planner);
-                self.found.push(found);
-                Step::March(known, 0)
+            Step::Search(mut known, mut search) => match search.advance(&mut known.planner, &**density) {
+                Ok(None) => Step::Search(known, search),
+                Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
+                Err(problem) => self.without_path(known, problem),
+            },
+            Step::Profile(known, solution) => {
+                let place = (EarthPlane::new(domain.projection, self.unit), self.unit);
+                self.found.push(Ok(FoundPath::new(*solution, &**density, place)));
+                Step::Begin(known)
             }
             Step::Done => return Ok(ControlFlow::Break(None)),
         }))
     }
 
-    fn solve(&self, planner: &mut Planner) -> Result<FoundPath, PathError> {
-        let Self { plan, domain, unit, density, is_live, .. } = self;
-        let places = &plan.routes[self.found.len()];
-        let found = planner.solve(&**density, places, request(*is_live));
-        let solution = found.map_err(|problem| problem.in_domain(domain, places))?;
-        Ok(FoundPath::new(solution, &**density, (EarthPlane::new(domain.projection, *unit), *unit)))
+    /// The next route has no path, for a reason.
+    fn without_path(&mut self, known: Box<KnownPlanner>, problem: PathError) -> Step {
+        let places = &self.plan.routes[self.found.len()];
+        self.found.push(Err(problem.in_domain(&self.domain, places)));
+        Step::Begin(known)
     }
 
     fn work(&mut self, planner: KnownPlanner) -> Work {

@@ -1,12 +1,11 @@
 //! Names, types and splits of a boundary, as people or files give them.
 
-use std::collections::HashMap;
-
 use glam::DVec2;
 
 use super::super::segments::Segments;
 use super::super::{Domain, Polygon, RegionError};
 use super::{BoundaryKind, BoundaryPieces, BoundaryType};
+use crate::geometry::NumberMap;
 
 /// Most characters of a name; longer ones are cut.
 pub const LONGEST_NAME: usize = 80;
@@ -90,7 +89,7 @@ impl BoundaryMarks {
             }
         }
         let Some(segments) = Segments::new(segments) else { return marks };
-        let mut islands: HashMap<usize, usize> = HashMap::new();
+        let mut islands: NumberMap<usize, usize> = NumberMap::default();
         for piece in pieces.list().iter().filter(|piece| piece.kind != BoundaryKind::Open) {
             let middle = piece.middle();
             let owner = match segments.nearest(middle, |_| true) {

@@ -1,6 +1,6 @@
 //! The pieces of a boundary: stretches, split by marks, with the names and types of marks.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
@@ -391,9 +391,9 @@ fn middles_beside(points: &[DVec2], place: DVec2) -> Vec<DVec2> {
 /// Adds a number to names that occur again. Given names come first. `domain` is the name of the triangles in
 /// files.
 fn make_unique(pieces: &mut [BoundaryPiece]) {
-    let mut taken: HashSet<String> = HashSet::from(["domain".to_owned()]);
+    let mut taken: BTreeSet<String> = BTreeSet::from(["domain".to_owned()]);
     // The next number to try for each name, as thousands of pieces can have the same.
-    let mut numbers: HashMap<String, usize> = HashMap::new();
+    let mut numbers: BTreeMap<String, usize> = BTreeMap::new();
     for is_named in [true, false] {
         for piece in pieces.iter_mut().filter(|piece| piece.is_named == is_named) {
             let mut unique = piece.name.clone();

@@ -313,7 +313,7 @@ pub(super) fn coordinates(third: Third) -> &'static str {
 
 /// Returns a name to write instead of an unknown one, if one is similar enough.
 pub(super) fn suggestion(name: &str, third: Third) -> Option<String> {
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     if third == Third::Depth && distance(&name, "depth") < 3 {
         return Some("`depth`".to_owned());
     }

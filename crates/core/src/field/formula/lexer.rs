@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::error::{ParseError, quote};
 use super::program::Compare;
+use crate::text::decimal;
 
 /// The smallest meaningful part of a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +146,7 @@ impl<'a> Lexer<'a> {
             let message = format!("The number {} {what}.", quote(text));
             ParseError::new(self.source, span.clone(), message)
         };
-        let value: f64 = text.parse().map_err(|_| mistake("cannot be read"))?;
+        let value = decimal::parse(text).ok_or_else(|| mistake("cannot be read"))?;
         let digits = text.split(['e', 'E']).next().unwrap_or(text);
         if value.is_infinite() {
             Err(mistake("is too large: the largest is about 1.8e308"))

@@ -437,7 +437,7 @@ fn named_operator(name: &str) -> Op {
 
 /// Returns the operator to write instead of a word that is an operator in other languages.
 fn operator_word(name: &str) -> Option<&'static str> {
-    match name.to_lowercase().as_str() {
+    match name.to_ascii_lowercase().as_str() {
         "and" => Some("`and` in small letters"),
         "or" => Some("`or` in small letters"),
         "xor" => Some("`(a != 0) != (b != 0)`"),

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use unicode_width::UnicodeWidthChar;
-
 /// Columns of the text that a pointer shows, not counting an ellipsis at either end.
 const POINTER_COLUMNS: usize = 68;
 /// Columns of the marked part that a pointer shows at most; the other columns show the text around it.
@@ -76,7 +74,37 @@ fn columns(text: &str) -> usize {
 }
 
 /// Returns the columns of a character in a fixed-width font: 0 for accents that join the letter before, 2 for
-/// East Asian letters and pictographs.
+/// East Asian letters and pictographs. Blocks of Unicode decide, because tables of all characters take 8 kB.
 fn char_columns(c: char) -> usize {
-    c.width().unwrap_or(0) // none for control characters, which are not shown
+    let is_in = |blocks: &[[char; 2]]| blocks.iter().any(|&[first, last]| (first..=last).contains(&c));
+    match c {
+        _ if c.is_control() || is_in(&JOINING) => 0, // control characters are not shown
+        _ if is_in(&WIDE) => 2,
+        _ => 1,
+    }
 }
+
+/// The first and last characters of blocks that join the letter before, or show nothing.
+const JOINING: [[char; 2]; 8] = [
+    ['\u{300}', '\u{36f}'],
+    ['\u{483}', '\u{489}'],
+    ['\u{591}', '\u{5bd}'],
+    ['\u{64b}', '\u{65f}'],
+    ['\u{1ab0}', '\u{1aff}'],
+    ['\u{1dc0}', '\u{1dff}'],
+    ['\u{20d0}', '\u{20ff}'],
+    ['\u{fe00}', '\u{fe2f}'],
+];
+/// The first and last characters of blocks whose characters take two columns.
+const WIDE: [[char; 2]; 10] = [
+    ['\u{1100}', '\u{115f}'],
+    ['\u{2e80}', '\u{303e}'],
+    ['\u{3041}', '\u{a4cf}'],
+    ['\u{a960}', '\u{a97f}'],
+    ['\u{ac00}', '\u{d7a3}'],
+    ['\u{f900}', '\u{faff}'],
+    ['\u{fe30}', '\u{fe6f}'],
+    ['\u{ff00}', '\u{ff60}'],
+    ['\u{1f300}', '\u{1faff}'],
+    ['\u{20000}', '\u{3fffd}'],
+];

@@ -1,11 +1,9 @@
 //! What changes with the shapes that a distance is measured to.
 
-use std::collections::HashSet;
-
 use glam::DVec2;
 
 use super::Steps;
-use crate::geometry::Rect;
+use crate::geometry::{NumberSet, Rect};
 use crate::layers::extent::{Extent, ExtentContext};
 use crate::layers::{Combine, DistanceTo, Layer, LayerKind, Shapes};
 use crate::mesh::TargetChange::{Any, Coarser, Finer};
@@ -72,7 +70,7 @@ fn of_lines(layer: &Layer) -> Option<(&Shapes, [f64; 3])> {
     (has_lines_only && is_increasing).then_some((shapes, [*at_zero, *slope, *range]))
 }
 
-fn segments(shapes: &Shapes) -> HashSet<Ends> {
+fn segments(shapes: &Shapes) -> NumberSet<Ends> {
     let bits = |point: DVec2| point.to_array().map(f64::to_bits);
     let lines = shapes.list().lines.iter();
     lines.flat_map(|line| line.windows(2).map(move |ends| [bits(ends[0]), bits(ends[1])])).collect()

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use glam::DVec2;
 
 use super::{Certificate, CertificateEnd, CertificateTask, DualFunction};
-use crate::path::{CostDensity, PathError, PathMesh, PathRequest, Planner, Solution};
+use crate::path::{CostDensity, PathError, PathMesh, PathRequest, PathSearch, Planner, Solution};
 
 /// Upper bounds are above the cost by about this part of the requested width.
 const TOLERANCE: f64 = 0.05;
@@ -23,6 +23,16 @@ pub struct PathCertificate {
     cost: Arc<dyn CostDensity>,
     width: f64,
     mesh: Option<Arc<PathMesh>>,
+    /// The search for a better path of the leg with the widest interval.
+    seeking: Option<Seeking>,
+}
+
+/// A search for a better path of a leg.
+#[derive(Clone)]
+enum Seeking {
+    /// Through this mesh.
+    Through(Arc<PathMesh>),
+    With(Box<Planner>, PathSearch),
 }
 
 #[derive(Clone)]
@@ -67,7 +77,7 @@ impl PathCertificate {
             Ok(Leg { certificate, solution, searches: MOST_SEARCHES })
         };
         let legs = solution.stops.windows(2).enumerate().map(leg).collect::<Result<_, _>>()?;
-        Ok(Self { legs, cost: Arc::clone(&task.cost), width: task.width, mesh: None })
+        Ok(Self { legs, cost: Arc::clone(&task.cost), width: task.width, mesh: None, seeking: None })
     }
 
     /// Returns this work with a search for better paths through the open triangles of a mesh.
@@ -136,8 +146,8 @@ impl PathCertificate {
         self.legs.first().map(|leg| leg.certificate.stop_signal()).unwrap_or_default()
     }
 
-    /// Solves one programme, or looks for a better path, for the leg with the widest interval. Returns why
-    /// all ended, or `None` if it goes on.
+    /// Solves one programme, or takes a step of the search for a better path, for the leg with the widest
+    /// interval. Returns why all ended, or `None` if it goes on.
     ///
     /// # Errors
     /// Fails as [`Certificate::advance`] does.
@@ -149,7 +159,7 @@ impl PathCertificate {
             let certificate = &mut self.legs[leg].certificate;
             match certificate.end() {
                 None => _ = certificate.advance().map_err(|error| error.of_leg(leg, count))?,
-                Some(_) => self.seek(leg),
+                Some(_) => self.seeking = self.seek(leg),
             }
         }
         Ok(self.end())
@@ -164,26 +174,44 @@ impl PathCertificate {
         }
     }
 
-    /// Looks for a better path of a leg, on a mesh that is as fine as the certificate's.
-    fn seek(&mut self, leg: usize) {
+    /// Takes a step of the search for a better path of a leg, on a mesh that is as fine as the certificate's.
+    /// Returns what is left of it.
+    fn seek(&mut self, leg: usize) -> Option<Seeking> {
         let Leg { certificate, solution, searches } = &mut self.legs[leg];
-        let Some(mesh) = &self.mesh else { return };
-        *searches -= 1;
-        let mut mesh = Arc::clone(mesh);
-        certificate.refine_like(Arc::make_mut(&mut mesh));
-        let tolerance = TOLERANCE * self.width;
-        let request = PathRequest { has_bounds: false, tolerance, ..PathRequest::FULL };
-        let ends = [certificate.task.start(), certificate.task.goal()];
-        let found = Planner::new(mesh, &*self.cost)
-            .and_then(|mut planner| planner.solve(&*self.cost, &ends, request));
+        let found = match self.seeking.take() {
+            None => {
+                let mut mesh = self.mesh.clone()?;
+                certificate.refine_like(Arc::make_mut(&mut mesh));
+                return Some(Seeking::Through(mesh));
+            }
+            Some(Seeking::Through(mesh)) => {
+                let tolerance = TOLERANCE * self.width;
+                let request = PathRequest { has_bounds: false, tolerance, ..PathRequest::FULL };
+                let ends = [certificate.task.start(), certificate.task.goal()];
+                let begun = Planner::new(mesh, &*self.cost).and_then(|planner| {
+                    PathSearch::new(&planner, &ends, request).map(|search| (Box::new(planner), search))
+                });
+                match begun {
+                    Ok((planner, search)) => return Some(Seeking::With(planner, search)),
+                    Err(_) => None,
+                }
+            }
+            Some(Seeking::With(mut planner, mut search)) => match search.advance(&mut planner, &*self.cost) {
+                Ok(None) => return Some(Seeking::With(planner, search)),
+                Ok(found) => found,
+                Err(_) => None,
+            },
+        };
         match found {
-            Ok(found) if found.upper < solution.upper * (1.0 - LEAST_GAIN * self.width) => {
+            Some(found) if found.upper < solution.upper * (1.0 - LEAST_GAIN * self.width) => {
                 certificate.improve(found.points.clone(), found.upper);
                 *solution = found;
+                *searches -= 1;
             }
             // The same search would find the same again.
             _ => *searches = 0,
         }
+        None
     }
 
     /// Returns the leg with the widest interval of those that count.

@@ -1,6 +1,6 @@
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 use std::sync::Arc;
+
+use crate::geometry::NumberMap;
 
 /// Side of a chunk, in blocks.
 const CHUNK: i32 = 8;
@@ -12,7 +12,7 @@ const CHUNK_BLOCKS: usize = (CHUNK * CHUNK) as usize;
 /// copied and not the whole table.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks<T> {
-    chunks: HashMap<Key, Arc<Chunk<T>>, BuildHasherDefault<KeyHasher>>,
+    chunks: NumberMap<Key, Arc<Chunk<T>>>,
     count: usize,
 }
 
@@ -20,7 +20,7 @@ type Chunk<T> = [Option<T>; CHUNK_BLOCKS];
 
 impl<T> Default for Blocks<T> {
     fn default() -> Self {
-        Self { chunks: HashMap::default(), count: 0 }
+        Self { chunks: NumberMap::default(), count: 0 }
     }
 }
 
@@ -103,27 +103,5 @@ impl Key {
     /// Column and row of the first block of the chunk.
     fn corner(self) -> [i32; 2] {
         [(self.0 >> 32) as i32, self.0 as u32 as i32].map(|n| n * CHUNK)
-    }
-}
-
-/// A hash of one multiplication: the table is read for each square that the mesher looks at.
-#[derive(Clone, Copy, Default)]
-struct KeyHasher(u64);
-
-impl Hasher for KeyHasher {
-    #[inline]
-    fn finish(&self) -> u64 {
-        self.0
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(self.0 << 8 | u64::from(byte)));
-    }
-
-    #[inline]
-    fn write_u64(&mut self, key: u64) {
-        // Fibonacci hashing. The upper half depends on all bits of the key, and the table uses both ends.
-        let product = key.wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.0 = product ^ (product >> 32);
     }
 }

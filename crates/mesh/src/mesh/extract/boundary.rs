@@ -1,7 +1,7 @@
-use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use super::Extract;
+use crate::geometry::NumberMap;
 use crate::mesh::kernel::NodeId;
 
 impl Extract<'_> {
@@ -18,7 +18,7 @@ impl Extract<'_> {
     /// [`Self::boundary_edges`] in place of their first nodes.
     pub fn boundary_edge_loops(&self) -> Vec<Vec<usize>> {
         let edges: Vec<[usize; 2]> = self.boundary_edges().map(|edge| edge.ends).collect();
-        let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
+        let mut leaving: NumberMap<usize, Vec<usize>> = NumberMap::default();
         for (index, [from, _]) in edges.iter().enumerate() {
             leaving.entry(*from).or_default().push(index);
         }

@@ -1,14 +1,13 @@
 //! A mesh with some of its triangles replaced by others.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
 use super::Extract;
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::kernel::{Kind, Mesh, Neighbour, NodeId, Orientation, Triangle, TriangleId, append_pieces};
 
 /// The changes of a mesh before it is exported. All ids are indices into the mesh's own arrays
@@ -240,7 +239,7 @@ impl Assembly {
 /// Makes neighbours of triangles that have an edge in common, in opposite directions.
 fn join(triangles: &mut [Triangle], edges: impl Iterator<Item = (usize, usize)>) {
     // Edges with one known triangle.
-    let mut open: HashMap<(NodeId, NodeId), (usize, usize)> = HashMap::new();
+    let mut open: NumberMap<(NodeId, NodeId), (usize, usize)> = NumberMap::default();
     for (index, j) in edges {
         let (from, to) = triangles[index].edge_nodes()[j];
         match open.remove(&(to, from)) {

@@ -1,10 +1,9 @@
 //! The triangles of a patch as arrays of their own, to be drawn over the mesh.
 
-use std::collections::HashMap;
 use std::ops::Range;
 
 use super::{Extract, MeshPatch, PatchTriangle};
-use crate::geometry::LatticePoint;
+use crate::geometry::{LatticePoint, NumberMap};
 use crate::mesh::kernel::{Changes, Mesh, Neighbour, NodeId, Triangle, TriangleId};
 
 /// The triangles that are drawn in place of some triangles of a mesh: the pieces of a [`MeshPatch`].
@@ -29,11 +28,11 @@ pub struct PatchPieces {
     replaced: Vec<(TriangleId, Range<usize>)>,
     is_retired: Vec<bool>,
     /// Triangles that were replaced later, and provisional pieces.
-    later: HashMap<TriangleId, Range<usize>>,
+    later: NumberMap<TriangleId, Range<usize>>,
     /// Nodes that the patch moved, in ascending order: where the mesh has them, and the patch.
     moved: Vec<(NodeId, [LatticePoint; 2])>,
     /// The same for the corners of triangles that were replaced later.
-    moved_later: HashMap<NodeId, [LatticePoint; 2]>,
+    moved_later: NumberMap<NodeId, [LatticePoint; 2]>,
 }
 
 /// What is drawn in place of one triangle of a mesh, for [`PatchPieces::replace`].
@@ -61,7 +60,7 @@ impl PatchPieces {
     pub fn new(mesh: &Mesh, patch: &MeshPatch, extract: &Extract) -> Self {
         let moved = patch.moved.iter().map(|&(id, point)| (id, [mesh.node(id), point])).collect();
         let mut pieces = Self { is_retired: vec![false; patch.changed.len()], moved, ..Self::default() };
-        let mut numbers: HashMap<NodeId, NodeId> = HashMap::new();
+        let mut numbers: NumberMap<NodeId, NodeId> = NumberMap::default();
         let mut place = 0;
         let mut next_unchanged = 0;
         for (id, range) in &patch.changed {
@@ -79,7 +78,7 @@ impl PatchPieces {
         pieces
     }
 
-    fn push(&mut self, extract: &Extract, triangle: &Triangle, numbers: &mut HashMap<NodeId, NodeId>) {
+    fn push(&mut self, extract: &Extract, triangle: &Triangle, numbers: &mut NumberMap<NodeId, NodeId>) {
         let own = Neighbour::from(TriangleId::from_index(self.triangles.len()));
         let mut piece = *triangle;
         piece.vertices = triangle.vertices.map(|node| {

@@ -18,13 +18,13 @@
 //! triangles lose the same ones.
 
 use std::cmp::{Ordering, Reverse};
-use std::collections::HashMap;
 use std::mem;
 
 use glam::DVec2;
 
 use super::forest::Forest;
 use super::parts::{Part, Parts, place_key};
+use crate::geometry::NumberMap;
 use crate::mesh::extract::{Extract, MeshPatch};
 use crate::mesh::kernel::{Mesh, NodeId, TriangleId};
 
@@ -251,7 +251,7 @@ impl<'a> Cleaner<'a> {
 
     /// Removes the smaller fans at pinches, all at once.
     fn remove_fans(&mut self, pinches: &[NodeId], parts: &Parts) {
-        let mut around: HashMap<NodeId, Vec<usize>> =
+        let mut around: NumberMap<NodeId, Vec<usize>> =
             pinches.iter().map(|&node| (node, Vec::new())).collect();
         for index in self.left() {
             for node in self.extract.triangles()[index].vertices {
@@ -289,7 +289,7 @@ impl<'a> Cleaner<'a> {
                 }
             }
         }
-        let mut fans: HashMap<usize, Vec<usize>> = HashMap::new();
+        let mut fans: NumberMap<usize, Vec<usize>> = NumberMap::default();
         for (n, &index) in around.iter().enumerate() {
             fans.entry(groups.root(n)).or_default().push(index);
         }

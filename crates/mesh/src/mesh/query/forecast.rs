@@ -15,11 +15,8 @@
 //!          o
 //! ```
 
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
-
 use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
-use crate::geometry::{LatticePoint, LatticeRect};
+use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::kernel::{
     Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
     TargetChange, TreeTriangle, TriangleId, WalkEnd, ask_all,
@@ -70,9 +67,9 @@ pub struct Forecast {
     /// Triangles that coarsening would restore and whose newest vertex can perhaps be removed.
     restored: Vec<TreeTriangle>,
     chain: Vec<TreeTriangle>,
-    fates: HashMap<LatticePoint, Fate, BuildHasherDefault<PlaceHasher>>,
+    fates: NumberMap<LatticePoint, Fate>,
     /// For each coarse triangle, by number, the end of the last walk in it, where the next walk begins.
-    near: HashMap<usize, TriangleId, BuildHasherDefault<PlaceHasher>>,
+    near: NumberMap<usize, TriangleId>,
     added: usize,
     removed: usize,
     change: i64,
@@ -87,37 +84,6 @@ enum Fate {
     Goes,
     /// A triangle that was cut there would exceed its target.
     Stays,
-}
-
-/// A hash of lattice points and small numbers: their coordinates differ in high bits too, and a product
-/// brings all of them into the bits that a table uses.
-#[derive(Clone, Copy, Debug, Default)]
-struct PlaceHasher(u64);
-
-impl Hasher for PlaceHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
-    }
-
-    #[inline]
-    fn write_u32(&mut self, number: u32) {
-        self.write_u64(number.into());
-    }
-
-    #[inline]
-    fn write_usize(&mut self, number: usize) {
-        self.write_u64(number as u64);
-    }
-
-    #[inline]
-    fn write_u64(&mut self, number: u64) {
-        self.0 = (self.0.rotate_left(32) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-
-    #[inline]
-    fn finish(&self) -> u64 {
-        self.0 ^ self.0 >> 32
-    }
 }
 
 /// Returns how many triangles of the domain come when one is bisected, or go below zero.
@@ -148,8 +114,8 @@ impl Forecast {
             loose: Vec::new(),
             restored: Vec::new(),
             chain: Vec::new(),
-            fates: HashMap::default(),
-            near: HashMap::default(),
+            fates: NumberMap::default(),
+            near: NumberMap::default(),
             added: 0,
             removed: 0,
             change: 0,

@@ -1,11 +1,11 @@
 //! Point location in a mesh with some of its triangles replaced.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use glam::DVec2;
 
 use super::Location;
-use crate::geometry::{LatticePoint, Side, side_of_line};
+use crate::geometry::{LatticePoint, NumberMap, Side, side_of_line};
 use crate::mesh::extract::{Extract, MeshPatch};
 use crate::mesh::kernel::{Mesh, NodeId, Triangle, TriangleId};
 
@@ -16,7 +16,7 @@ use crate::mesh::kernel::{Mesh, NodeId, Triangle, TriangleId};
 #[derive(Clone, Debug)]
 pub struct PatchedLocator {
     /// Triangles of the extract at and around changes, by the size of their squares and the square.
-    squares: HashMap<(u32, [u32; 2]), Vec<TriangleId>>,
+    squares: NumberMap<(u32, [u32; 2]), Vec<TriangleId>>,
     /// The sizes that occur: binary logarithms of the sides, in lattice steps.
     sizes: BTreeSet<u32>,
 }
@@ -34,7 +34,7 @@ impl PatchedLocator {
                 is_far[place.index()] = !triangle.vertices.iter().any(|v| at_change[v.index()]);
             }
         }
-        let mut locator = Self { squares: HashMap::new(), sizes: BTreeSet::new() };
+        let mut locator = Self { squares: NumberMap::default(), sizes: BTreeSet::new() };
         for (number, triangle) in extract.triangles().iter().enumerate().filter(|(n, _)| !is_far[*n]) {
             locator.insert(extract, TriangleId::from_index(number), triangle);
         }

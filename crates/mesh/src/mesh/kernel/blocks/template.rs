@@ -46,11 +46,13 @@ pub(super) struct Side {
 
 /// The templates, by depth, parity of the level, and orientation.
 static TEMPLATES: LazyLock<Vec<Template>> = LazyLock::new(|| {
-    let shapes = [Orientation::Clockwise, Orientation::Anticlockwise].map(|o| [0, 1].map(|level| (level, o)));
-    let of_depth = |depth| {
-        shapes.into_iter().flatten().map(move |(level, orientation)| Template::new(depth, level, orientation))
-    };
-    (0..=MOST_DEPTH).flat_map(of_depth).collect()
+    let mut templates = Vec::new();
+    for depth in 0..=MOST_DEPTH {
+        for orientation in [Orientation::Clockwise, Orientation::Anticlockwise] {
+            templates.extend([0, 1].map(|level| Template::new(depth, level, orientation)));
+        }
+    }
+    templates
 });
 
 /// Returns how often an edge is halved in a block of this depth; edge 0 is the bisection edge.

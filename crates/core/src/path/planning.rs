@@ -1,0 +1,47 @@
+//! A planner is made in steps.
+
+use std::sync::Arc;
+
+use super::path_mesh::PathMesh;
+use super::planner::Adaptation;
+use super::triangle_costs::{TriangleCost, TriangleCosts};
+use super::{CostDensity, PathError, Planner};
+
+/// One thread computes the costs of so many triangles in a step.
+const AT_ONCE: usize = 2048;
+
+/// The work of [`Planner::new`] in steps. Where there are more threads than one, they compute all costs in
+/// one step.
+#[derive(Clone, Debug)]
+pub struct Planning {
+    mesh: Arc<PathMesh>,
+    /// The costs of the first triangles.
+    costs: Vec<TriangleCost>,
+}
+
+impl Planning {
+    /// Begins to make a planner for a mesh.
+    pub fn new(mesh: impl Into<Arc<PathMesh>>) -> Self {
+        Self { mesh: mesh.into(), costs: Vec::new() }
+    }
+
+    /// Takes a step. Returns the planner at the end. The cost density is always the same.
+    ///
+    /// # Errors
+    /// Fails when the cost is zero, negative, NaN or infinite somewhere.
+    pub fn advance(&mut self, density: &dyn CostDensity) -> Result<Option<Planner>, PathError> {
+        let (known, all) = (self.costs.len(), self.mesh.triangle_count());
+        if known < all {
+            let most = if rayon::current_num_threads() > 1 { all } else { AT_ONCE };
+            let next: Vec<u32> = (known..all.min(known + most)).map(|triangle| triangle as u32).collect();
+            self.costs.extend(self.mesh.costs_of(&next, density)?);
+            return Ok(None);
+        }
+        let (base, costs) = (Arc::clone(&self.mesh), std::mem::take(&mut self.costs));
+        let mut mesh = Arc::clone(&base);
+        let adapted = TriangleCosts::on_adapted(&mut mesh, &costs, density)?;
+        let mut planner = Planner::with_costs(mesh, adapted);
+        planner.adaptation = Some(Adaptation { base, costs, changed: Vec::new() });
+        Ok(Some(planner))
+    }
+}

@@ -1,0 +1,76 @@
+//! The work of a planner in steps.
+
+use super::leg::LegSearch;
+use super::place::Place;
+use super::{CostDensity, PathError, PathRequest, Planner, Solution};
+use glam::DVec2;
+
+/// The work of [`Planner::solve`] in steps. Where there are more threads than one, they do it in one step.
+#[derive(Clone, Debug)]
+pub struct PathSearch {
+    places: Vec<Place>,
+    request: PathRequest,
+    step: Step,
+    found: Vec<Solution>,
+}
+
+/// What is done next.
+#[derive(Clone, Debug)]
+enum Step {
+    /// The march with this number.
+    March(usize),
+    Leg(Box<LegSearch>),
+}
+
+impl PathSearch {
+    /// Begins the search for the path of least cost from the first of the places to the last by way of the
+    /// others.
+    ///
+    /// # Errors
+    /// Fails when a place is not in the domain.
+    pub fn new(planner: &Planner, places: &[DVec2], request: PathRequest) -> Result<Self, PathError> {
+        let places = planner.places(places)?;
+        Ok(Self { places, request, step: Step::March(0), found: Vec::new() })
+    }
+
+    /// Takes a step. Returns the path at the end, which is that of [`Planner::solve`]. Planner and cost are
+    /// always the same, and nobody else uses the planner meanwhile.
+    ///
+    /// # Errors
+    /// Fails when no path leads from one place to the next.
+    pub fn advance(
+        &mut self,
+        planner: &mut Planner,
+        density: &dyn CostDensity,
+    ) -> Result<Option<Solution>, PathError> {
+        if rayon::current_num_threads() > 1 {
+            let legs = planner.legs_between(density, &self.places, self.request)?;
+            return Ok(Some(Solution::joined(legs)));
+        }
+        match &mut self.step {
+            Step::March(number) if planner.march_one(&self.places, self.request.has_bounds, *number) => {
+                *number += 1;
+            }
+            Step::March(_) => self.step = self.next_leg(),
+            Step::Leg(search) => {
+                let (leg, legs) = (self.found.len(), self.places.len() - 1);
+                let mut bound = std::mem::take(planner.bound_of(leg, legs));
+                let found = search.advance(planner, density, &mut bound, self.places.len());
+                *planner.bound_of(leg, legs) = bound;
+                if let Some(found) = found? {
+                    self.found.push(found);
+                    if self.found.len() == legs {
+                        return Ok(Some(Solution::joined(std::mem::take(&mut self.found))));
+                    }
+                    self.step = self.next_leg();
+                }
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_leg(&self) -> Step {
+        let leg = self.found.len();
+        Step::Leg(Box::new(LegSearch::new(leg, [self.places[leg], self.places[leg + 1]], self.request)))
+    }
+}
