@@ -1,5 +1,9 @@
 //! Questions whose second branch ordinary meshes do not need: each has the smallest input that does.
 
+mod fields;
+mod paths;
+mod prices;
+
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
