@@ -239,6 +239,22 @@ fn tiles_without_a_parent_or_beyond_the_limits_are_refused() {
     assert_eq!(read(&[parent, far]), Err(far));
 }
 
+/// Squares that no number of 32 bits counts lie beyond all tiles.
+#[test]
+fn squares_however_far_away_are_blank() {
+    let mut raster = TiledRaster::new(grid(), 0.5);
+    raster.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(Arc::new(Tile::filled(2.0))));
+    for far in [1_i64 << 31, 1 << 40, -(1 << 33), i64::MAX / 2] {
+        for scale in [-8, -1, 0, 3] {
+            for at in [[far, 0], [0, far], [far, -far]] {
+                let range = raster.range_anywhere(scale, at);
+                assert_eq!((range.least, range.greatest), (0.5, 0.5), "{scale} {at:?}");
+            }
+        }
+    }
+    assert_eq!(raster.range_anywhere(0, [3, 4]).least, 2.0);
+}
+
 /// Run by hand, in release: `cargo test --release … nanoseconds_per_range -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement"]

@@ -25,7 +25,7 @@ fn the_corner_with_the_least_target_counts() {
     }
 }
 
-/// Gradation carries a small diameter to a place where another layer asks for less: that layer is not the cause.
+/// Gradation carries a small diameter to where another layer asks for more: that layer is not the cause.
 #[test]
 fn the_layer_behind_gradation_is_that_of_the_place_it_comes_from() {
     let lattice = Lattice::covering(Rect::UNIT, 0.25, 100).unwrap();

@@ -19,7 +19,7 @@ fn mesh(spacing: f64) -> Arc<PathMesh> {
     Arc::new(PathMesh::new(mesh.view()))
 }
 
-/// A mesh that is fine enough for both costs is not divided, so that a planner keeps it and follows its marches.
+/// A mesh that is fine enough for both costs is not divided: a planner keeps it and follows its marches.
 #[test]
 fn a_cost_that_changes_on_the_same_triangles_is_followed() {
     let formulas = ["1", "1 + 0.02*x", "1 + 0.02*y", "1.5", "1.5 + 0.01*sin(3*x)"];

@@ -2,7 +2,7 @@
 
 use glam::dvec2;
 use meshbrush_core::build::MeshSpec;
-use meshbrush_core::document::{CountEstimate, Document, Follower, PathPlan, Settings, SizePricer};
+use meshbrush_core::document::{CountEstimate, Document, Follower, PathPlan, Setting, Settings, SizePricer};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
@@ -10,9 +10,9 @@ use meshbrush_core::paint::{Brush, Medium};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
-use super::spec;
+use super::{spec, target};
 
-/// Settings that differ from others in nothing but the coarse grid, the domain or the treatment of its boundary.
+/// Settings that differ from others in the coarse grid, the domain or the treatment of its boundary alone.
 fn other_grids(usual: &Settings) -> [Settings; 3] {
     let shape = DomainShape::Formula(Formula::parse("x > -9").unwrap());
     let domain = Domain { shape, ..usual.domain.clone() };
@@ -105,4 +105,32 @@ fn the_memory_of_a_plan_for_paths_grows_with_its_names() {
     let name = size_of::<String>();
     assert!(sizes[1] >= sizes[0] + name + 2, "{sizes:?}");
     assert!(sizes[2] >= sizes[0] + name + 8 && sizes[3] >= sizes[0] + 2 * name + 4, "{sizes:?}");
+}
+
+/// A mesh that is made again can fail long after somebody has changed the settings that make it too large.
+#[test]
+fn a_mistake_that_was_taken_back_meanwhile_is_not_reported() {
+    let layers = |formula: &str| Setting::Layers(Layer::stack([target(formula)]));
+    let settings = Settings { rule: RefinementRule::Vertex, ..Settings::default() };
+    let mut document = Document::new(settings, None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    document.set(layers("0.05")).unwrap();
+    document.set(Setting::MaxTriangles(5_000)).unwrap();
+    while !follower.advance(&mut document, 1_000).unwrap().is_settled() {}
+    let fingerprint = follower.mesh().fingerprint();
+    for slices in [1, 3, 10, 30] {
+        document.set(layers("0.002")).unwrap();
+        (0..slices).for_each(|_| _ = follower.advance(&mut document, 20).unwrap());
+        document.set(layers("0.05")).unwrap();
+        while !follower.advance(&mut document, 20).unwrap().is_settled() {}
+        assert_eq!(follower.mesh().fingerprint(), fingerprint, "{slices}");
+    }
+    document.set(layers("0.002")).unwrap();
+    let error = loop {
+        match follower.advance(&mut document, 1_000) {
+            Ok(stage) => assert!(!stage.is_settled(), "too many triangles"),
+            Err(error) => break error,
+        }
+    };
+    assert!(error.to_string().contains("5,000"), "{error}");
 }
