@@ -221,10 +221,11 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::field::RefinementRule;
+    use crate::field::{Formula, RefinementRule};
     use crate::fixture;
     use crate::layers::{
-        DepthRule, DepthSizes, Depths, Layer, LayerKind, NodeDepths, PositiveDepth, RasterSource,
+        DepthRule, DepthSizes, Depths, Layer, LayerKind, NodeDepths, PositiveDepth, RasterSource, Surface,
+        SurfaceGoal, SurfaceNorm, SurfaceSource,
     };
     use crate::mesh::Limits;
     use crate::raster::RasterPyramid;
@@ -320,6 +321,27 @@ mod tests {
         for (deepest, interval) in [(100.0, 10.0), (7000.0, 500.0), (0.3, 0.02), (2500.0, 200.0), (9.0, 1.0)]
         {
             assert!((isobath_interval(deepest) - interval).abs() < 1e-9 * interval, "{deepest}");
+        }
+    }
+
+    /// A mesh through points of a parabola lies above it everywhere, by the allowed difference at most.
+    #[test]
+    fn a_mesh_is_higher_than_a_parabola_by_up_to_what_is_allowed() {
+        for norm in [SurfaceNorm::Largest, SurfaceNorm::RootMeanSquare] {
+            let source = SurfaceSource::Formula(Formula::parse("100 + 3*x^2").unwrap());
+            let layer = LayerKind::Surface(Surface { source, goal: SurfaceGoal::Within(0.01), norm });
+            let built = fixture::built_with(Layer::stack([layer]), RefinementRule::Area, Limits::default());
+            let (extract, rule) = (built.mesh.extract(), built.surface.as_ref().unwrap());
+            let fit = rule.samples().fit(extract.view());
+            let pixels = (Rect::UNIT, [150, 150]);
+            let differences = surface_differences(extract.view(), &fit, rule, pixels, &|| true).unwrap();
+            let (least, greatest) = differences
+                .values()
+                .iter()
+                .fold((f32::MAX, f32::MIN), |(low, high), value| (low.min(*value), high.max(*value)));
+            assert!(least > -1e-3 && (0.5..1.01).contains(&greatest), "{norm:?}: {least} to {greatest}");
+            let nobody = surface_differences(extract.view(), &fit, rule, pixels, &|| false);
+            assert!(nobody.is_none());
         }
     }
 
