@@ -327,9 +327,14 @@ mod tests {
     /// A mesh through points of a parabola lies above it everywhere, by the allowed difference at most.
     #[test]
     fn a_mesh_is_higher_than_a_parabola_by_up_to_what_is_allowed() {
-        for norm in [SurfaceNorm::Largest, SurfaceNorm::RootMeanSquare] {
+        let within = SurfaceGoal::Within(0.01);
+        for (norm, goal) in [
+            (SurfaceNorm::Largest, within),
+            (SurfaceNorm::RootMeanSquare, within),
+            (SurfaceNorm::RootMeanSquare, SurfaceGoal::AtMost(500)),
+        ] {
             let source = SurfaceSource::Formula(Formula::parse("100 + 3*x^2").unwrap());
-            let layer = LayerKind::Surface(Surface { source, goal: SurfaceGoal::Within(0.01), norm });
+            let layer = LayerKind::Surface(Surface { source, goal, norm });
             let built = fixture::built_with(Layer::stack([layer]), RefinementRule::Area, Limits::default());
             let (extract, rule) = (built.mesh.extract(), built.surface.as_ref().unwrap());
             let fit = rule.samples().fit(extract.view());
@@ -339,7 +344,10 @@ mod tests {
                 .values()
                 .iter()
                 .fold((f32::MAX, f32::MIN), |(low, high), value| (low.min(*value), high.max(*value)));
-            assert!(least > -1e-3 && (0.5..1.01).contains(&greatest), "{norm:?}: {least} to {greatest}");
+            assert!(
+                least > -1e-3 && (0.5..1.01).contains(&greatest),
+                "{norm:?} {goal:?}: {least} to {greatest}"
+            );
             let nobody = surface_differences(extract.view(), &fit, rule, pixels, &|| false);
             assert!(nobody.is_none());
         }

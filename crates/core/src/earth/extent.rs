@@ -150,6 +150,10 @@ mod tests {
             let ends = [extent.south, extent.north];
             assert!(ends.contains(&pole) && ends.iter().all(|end| end.signum() == pole.signum()), "{ends:?}");
             assert!(ends.iter().any(|end| (70.0..85.0).contains(&end.abs())), "{ends:?}");
+            // Beside the pole, the margin does not reach beyond it.
+            let beside = Rect::new(DVec2::new(1e3, -1e6), DVec2::splat(1e6));
+            let extent = GeographicExtent::of_rectangle(&Coordinates::Plane(projection), beside).unwrap();
+            assert!(extent.pole.is_none() && [extent.south, extent.north].contains(&pole), "{extent:?}");
         }
     }
 

@@ -369,6 +369,10 @@ mod tests {
                 assert!(sizes.all(|size| (NUMBERS[0]..=NUMBERS[1]).contains(&size)), "{group}");
             }
             assert!(numbers.contains(">1</text>") || group(&drawing, "names").contains("= 1</text>"));
+            for (place, _) in player.names().labels() {
+                let NamedPlace::Triangle(number) = place else { continue };
+                assert!(!numbers.contains(&format!(">{number}</text>")), "its name has its number");
+            }
             let named = group(&drawing, "names").matches("</text>").count();
             assert_eq!(named, player.names().labels().count());
             assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());

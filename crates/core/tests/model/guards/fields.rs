@@ -2,10 +2,11 @@
 
 use glam::dvec2;
 use meshbrush_core::build::RefinementCriterion;
-use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainOnLattice};
-use meshbrush_core::field::{Bounds, RefinementRule};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainOnLattice, DomainShape};
+use meshbrush_core::field::{Bounds, Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, PaintLayers, SizeField, SizeFieldSpec};
 use meshbrush_mesh::geometry::{Lattice, LatticePoint, Rect};
+use meshbrush_mesh::mesh::{Limits, Mesh};
 
 use super::{spec, target};
 
@@ -49,4 +50,31 @@ fn bounds_say_whether_a_value_may_be_no_number() {
         assert_eq!(bounds.contains(value), holds, "{value}");
     }
     assert!(Bounds { valid: false, ..bounds }.contains(f64::NAN));
+}
+
+/// The domain of a formula, where its sign is known all over a triangle.
+#[test]
+fn a_triangle_has_nothing_of_a_domain_only_if_all_of_it_is_beyond() {
+    let lattice = Lattice::covering(Rect::UNIT, 0.1, 1_000).unwrap();
+    let shape = DomainShape::Formula(Formula::parse("x + 2*y < 1.2").unwrap());
+    let domain = Domain { shape, ..Domain::rectangle(Rect::UNIT) };
+    let domain = DomainOnLattice::new(&domain, BoundaryTreatment::Report, &lattice);
+    let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+    let mut counts = [0; 3];
+    for (id, _) in mesh.triangles() {
+        let element = mesh.element(id);
+        let corners = mesh.world_corners(id);
+        let rectangle = element.world_rectangle();
+        assert_eq!((rectangle.min, rectangle.max), {
+            let [a, b, c] = corners;
+            (a.min(b).min(c), a.max(b).max(c))
+        });
+        let value = |x: f64, y: f64| x + 2.0 * y < 1.2;
+        let [low, high] = [rectangle.min, rectangle.max].map(|at| value(at.x, at.y));
+        let has_none = domain.has_none_of(&element);
+        // By its rectangle: the formula grows along both axes.
+        assert_eq!(has_none, !low, "{corners:?}");
+        counts[usize::from(low) + usize::from(high)] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 5), "{counts:?}");
 }

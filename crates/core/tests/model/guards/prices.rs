@@ -10,7 +10,7 @@ use meshbrush_core::paint::{Brush, Medium};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
-use super::{spec, target};
+use super::spec;
 
 /// Settings that differ from others in the coarse grid, the domain or the treatment of its boundary alone.
 fn other_grids(usual: &Settings) -> [Settings; 3] {
@@ -110,22 +110,21 @@ fn the_memory_of_a_plan_for_paths_grows_with_its_names() {
 /// A mesh that is made again can fail long after somebody has changed the settings that make it too large.
 #[test]
 fn a_mistake_that_was_taken_back_meanwhile_is_not_reported() {
-    let layers = |formula: &str| Setting::Layers(Layer::stack([target(formula)]));
     let settings = Settings { rule: RefinementRule::Vertex, ..Settings::default() };
     let mut document = Document::new(settings, None).unwrap();
     let mut follower = Follower::new(&mut document).unwrap();
-    document.set(layers("0.05")).unwrap();
+    document.set(Setting::LargestDiameter(0.05)).unwrap();
     document.set(Setting::MaxTriangles(5_000)).unwrap();
     while !follower.advance(&mut document, 1_000).unwrap().is_settled() {}
     let fingerprint = follower.mesh().fingerprint();
     for slices in [1, 3, 10, 30] {
-        document.set(layers("0.002")).unwrap();
+        document.set(Setting::LargestDiameter(0.004)).unwrap();
         (0..slices).for_each(|_| _ = follower.advance(&mut document, 20).unwrap());
-        document.set(layers("0.05")).unwrap();
+        document.set(Setting::LargestDiameter(0.05)).unwrap();
         while !follower.advance(&mut document, 20).unwrap().is_settled() {}
         assert_eq!(follower.mesh().fingerprint(), fingerprint, "{slices}");
     }
-    document.set(layers("0.002")).unwrap();
+    document.set(Setting::LargestDiameter(0.004)).unwrap();
     let error = loop {
         match follower.advance(&mut document, 1_000) {
             Ok(stage) => assert!(!stage.is_settled(), "too many triangles"),

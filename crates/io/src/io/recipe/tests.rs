@@ -432,7 +432,7 @@ fn a_written_recipe_is_readable() {
     assert!(written.contains("\nparts = 0.01\n") && written.contains("file = \"sea.png\"\n"), "{written}");
 }
 
-/// A layer alone is read as the only one of a recipe; its mistakes must not be said to be in a list of layers.
+/// A layer alone is read as the only one of a recipe: its mistakes are not said to be in a list of layers.
 #[test]
 fn a_mistake_in_a_layer_alone_is_at_its_key() {
     let text = |text: &str| TextValue::Text(text.into());
