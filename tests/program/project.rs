@@ -530,6 +530,7 @@ fn a_project_without_names_of_the_boundary_opens() {
     assert!(!project.settings.boundary_marks.is_empty());
     let mut plain = project.clone();
     plain.settings.boundary_marks = Arc::default();
+    assert!(plain.settings.boundary_marks.is_empty());
     // The text is packed: the sizes show that nothing is written.
     assert!(bytes_of(&plain).len() + 50 < bytes_of(&project).len());
     assert_eq!(opened(&bytes_of(&plain)).unwrap(), plain);

@@ -9,9 +9,14 @@ use crate::mesh::{Cleaning, Limits, Progress};
 
 /// Returns the unit square with a target diameter by a formula.
 pub fn built(target: &str, rule: RefinementRule, limits: Limits) -> BuiltMesh {
+    built_with(Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]), rule, limits)
+}
+
+/// Returns the unit square with layers.
+pub fn built_with(layers: Vec<Layer>, rule: RefinementRule, limits: Limits) -> BuiltMesh {
     let domain = Domain::rectangle(Rect::UNIT);
     let field = SizeFieldSpec {
-        layers: Layer::stack([LayerKind::target(Formula::parse(target).unwrap())]),
+        layers,
         transfer: Transfer::between(0.001, 1.0),
         unasked: 1.0,
         outline: None,

@@ -276,7 +276,9 @@ mod tests {
         assert_eq!(sum(&triangles_plot(&levels), 0), triangles as f64);
         let plot = bisections_plot(&levels);
         let [required, forced] = [sum(&plot, 0), sum(&plot, 1)];
-        assert!(plot.note.starts_with(&format!("{} required", Grouped(required as usize))), "{}", plot.note);
+        let counts = [required, forced].map(|count| Grouped(count as usize));
+        let share = 100.0 * forced / (required + forced);
+        assert_eq!(plot.note, format!("{} required, {} forced ({share:.1} %)", counts[0], counts[1]));
         assert!(forced > 0.0);
         let plot = diameters_plot(&levels, LengthUnit::Kilometre);
         assert_eq!(plot.y.title(), "h (km)");

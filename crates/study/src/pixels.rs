@@ -78,6 +78,8 @@ impl<'a> PixelTriangles<'a> {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use glam::dvec2;
 
     use super::*;
@@ -108,10 +110,16 @@ mod tests {
         }
         assert!(both[0] > 100 && both[1] > 100, "{both:?}");
         let mut asked = 0;
-        let colors = pixels.colors(&|| true, [9; 4], |id| {
+        let rows = Cell::new(0);
+        let count = || {
+            rows.set(rows.get() + 1);
+            true
+        };
+        let colors = pixels.colors(&count, [9; 4], |id| {
             asked += 1;
             [u8::from(forced(id)); 4]
         });
+        assert_eq!(rows.get(), 40, "asked at the beginning of each row");
         let expected: Vec<_> = pixels.iter().map(|(_, id)| [u8::from(forced(id.unwrap())); 4]).collect();
         assert_eq!(colors, Some(expected));
         assert!(asked < 1600, "each triangle once: {asked}");
@@ -119,5 +127,22 @@ mod tests {
         // A coarse triangle has the diameter 0.14 where 0.3 is asked for.
         let corner = pixels.iter().find(|(point, _)| point.distance(dvec2(0.99, 0.99)) < 0.02).unwrap();
         assert!((f64::from(slack(corner.1.unwrap())) - libm::log2(0.3 / 0.141_421_356)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_slack_of_a_triangle_is_that_at_its_middle() {
+        let built = fixture::built("0.05 + 0.4*x*y", RefinementRule::Vertex, Limits::default());
+        let pixels = PixelTriangles::new(&built.mesh, Rect::UNIT, [20, 20]);
+        let mut squares = SettledSquares::default();
+        for (_, id) in pixels.iter() {
+            let id = id.unwrap();
+            let corners = built.mesh.world_corners(id);
+            let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let lengths = [0, 1, 2].map(|n| corners[n].distance(corners[(n + 1) % 3]));
+            let diameter = lengths.into_iter().fold(0.0, f64::max);
+            let expected = libm::log2((0.05 + 0.4 * middle.x * middle.y) / diameter).max(0.0);
+            let slack = pixels.slack(id, &built.field, PaintLayers::blank(), &mut squares);
+            assert!((f64::from(slack) - expected).abs() < 1e-5, "{middle}: {slack} {expected}");
+        }
     }
 }

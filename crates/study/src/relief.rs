@@ -221,10 +221,11 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::field::RefinementRule;
+    use crate::field::{Formula, RefinementRule};
     use crate::fixture;
     use crate::layers::{
-        DepthRule, DepthSizes, Depths, Layer, LayerKind, NodeDepths, PositiveDepth, RasterSource,
+        DepthRule, DepthSizes, Depths, Layer, LayerKind, NodeDepths, PositiveDepth, RasterSource, Surface,
+        SurfaceGoal, SurfaceNorm, SurfaceSource,
     };
     use crate::mesh::Limits;
     use crate::raster::RasterPyramid;
@@ -290,10 +291,65 @@ mod tests {
     }
 
     #[test]
+    fn a_plane_is_lit_by_its_slope() {
+        for slope in [dvec2(0.0, 0.0), dvec2(9.0, 0.0), dvec2(0.0, 9.0), dvec2(-4.0, 7.0), dvec2(8.0, -8.0)] {
+            let pixels = (Rect::UNIT, [20, 20]);
+            let relief =
+                Relief::of_heights(|at| Some(slope.dot(at)), 10.0, Rect::UNIT, pixels, &|| true).unwrap();
+            let slope = relief.exaggeration * slope;
+            let [east, north, up] = LIGHT;
+            let light = (up - slope.x * east - slope.y * north) / (1.0 + slope.length_squared()).sqrt() / up;
+            let seen = f64::from(relief.pixels().nth(20 * 7 + 9).unwrap().unwrap().light);
+            assert!((seen - light.max(0.0)).abs() < 1e-4, "{slope}: {seen} {light}");
+        }
+    }
+
+    #[test]
+    fn an_isobath_is_drawn_below_it_and_to_its_left() {
+        for axis in 0..2 {
+            let height = |at: DVec2| Some(if at[axis] < 0.5 { -5.0 } else { -15.0 });
+            let relief = Relief::of_heights(height, 100.0, Rect::UNIT, (Rect::UNIT, [20, 20]), &|| true);
+            let pixels: Vec<ReliefPixel> = relief.unwrap().pixels().map(Option::unwrap).collect();
+            for (number, pixel) in pixels.iter().enumerate() {
+                assert_eq!(pixel.is_isobath, [number % 20, number / 20][axis] == 9, "{axis} {number}");
+            }
+        }
+    }
+
+    #[test]
     fn intervals_are_1_2_or_5_times_a_power_of_ten() {
         for (deepest, interval) in [(100.0, 10.0), (7000.0, 500.0), (0.3, 0.02), (2500.0, 200.0), (9.0, 1.0)]
         {
             assert!((isobath_interval(deepest) - interval).abs() < 1e-9 * interval, "{deepest}");
+        }
+    }
+
+    /// A mesh through points of a parabola lies above it everywhere, by the allowed difference at most.
+    #[test]
+    fn a_mesh_is_higher_than_a_parabola_by_up_to_what_is_allowed() {
+        let within = SurfaceGoal::Within(0.01);
+        for (norm, goal) in [
+            (SurfaceNorm::Largest, within),
+            (SurfaceNorm::RootMeanSquare, within),
+            (SurfaceNorm::RootMeanSquare, SurfaceGoal::AtMost(500)),
+        ] {
+            let source = SurfaceSource::Formula(Formula::parse("100 + 3*x^2").unwrap());
+            let layer = LayerKind::Surface(Surface { source, goal, norm });
+            let built = fixture::built_with(Layer::stack([layer]), RefinementRule::Area, Limits::default());
+            let (extract, rule) = (built.mesh.extract(), built.surface.as_ref().unwrap());
+            let fit = rule.samples().fit(extract.view());
+            let pixels = (Rect::UNIT, [150, 150]);
+            let differences = surface_differences(extract.view(), &fit, rule, pixels, &|| true).unwrap();
+            let (least, greatest) = differences
+                .values()
+                .iter()
+                .fold((f32::MAX, f32::MIN), |(low, high), value| (low.min(*value), high.max(*value)));
+            assert!(
+                least > -1e-3 && (0.5..1.01).contains(&greatest),
+                "{norm:?} {goal:?}: {least} to {greatest}"
+            );
+            let nobody = surface_differences(extract.view(), &fit, rule, pixels, &|| false);
+            assert!(nobody.is_none());
         }
     }
 

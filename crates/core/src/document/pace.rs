@@ -55,6 +55,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_slice_that_took_ten_times_as_long_as_it_may_is_followed_by_a_tenth() {
+        let mut pace = Pace { visits: 2048 };
+        pace.took(10e-3);
+        assert_eq!(pace.visits(), 204);
+        pace.took(1.0);
+        assert_eq!(pace.visits(), *Pace::VISITS.start());
+    }
+
+    #[test]
     fn slices_grow_while_they_are_short_and_shrink_at_once_when_they_are_long() {
         let mut pace = Pace::default();
         let mut slice = |cost: f64| {

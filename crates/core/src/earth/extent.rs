@@ -137,6 +137,27 @@ mod tests {
     }
 
     #[test]
+    fn a_rectangle_around_a_pole_ends_there() {
+        let rect = Rect::new(DVec2::splat(-1e6), DVec2::splat(1e6));
+        for pole in [-90.0, 90.0] {
+            let text = format!(
+                "+proj=stere +lat_0={pole} +lat_ts={} +lon_0=0 +ellps=WGS84 +units=m",
+                pole / 90.0 * 70.0
+            );
+            let projection = text.parse::<Projection>().unwrap();
+            let extent = GeographicExtent::of_rectangle(&Coordinates::Plane(projection), rect).unwrap();
+            assert_eq!((extent.pole, extent.width), (Some(pole), 360.0));
+            let ends = [extent.south, extent.north];
+            assert!(ends.contains(&pole) && ends.iter().all(|end| end.signum() == pole.signum()), "{ends:?}");
+            assert!(ends.iter().any(|end| (70.0..85.0).contains(&end.abs())), "{ends:?}");
+            // Beside the pole, the margin does not reach beyond it.
+            let beside = Rect::new(DVec2::new(1e3, -1e6), DVec2::splat(1e6));
+            let extent = GeographicExtent::of_rectangle(&Coordinates::Plane(projection), beside).unwrap();
+            assert!(extent.pole.is_none() && [extent.south, extent.north].contains(&pole), "{extent:?}");
+        }
+    }
+
+    #[test]
     fn the_extent_of_a_rectangle_in_a_plane_contains_its_points() {
         use super::super::ProjectionChoice;
         let mut random = fastrand::Rng::with_seed(8);

@@ -132,6 +132,18 @@ mod tests {
     }
 
     #[test]
+    fn degrees_go_on_twice_round_the_earth_and_end_at_the_poles() {
+        let rect = |w, s, e, n| Rect::new(dvec2(w, s), dvec2(e, n));
+        for (area, expected) in [
+            (rect(-1e4, -1e3, 1e4, 1e3), rect(-720.0, -90.0, 720.0, 90.0)),
+            (rect(-10.0, 40.0, 20.0, 50.0), rect(-10.0, 40.0, 20.0, 50.0)),
+            (rect(-700.0, -95.0, 100.0, 0.0), rect(-700.0, -90.0, 100.0, 0.0)),
+        ] {
+            assert_eq!(extent(EarthPlane::Degrees, area), Some(expected));
+        }
+    }
+
+    #[test]
     fn labels_have_degrees_minutes_and_a_direction() {
         for (minutes, step, is_meridian, text) in [
             (-300.0, 60.0, true, "5° W"),

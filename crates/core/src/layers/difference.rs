@@ -427,3 +427,6 @@ fn formula_change(quantity: Quantity, [new, old]: [&Formula; 2], combine: Combin
         _ => Any,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -322,6 +322,21 @@ mod tests {
         points.chain(lines).chain(edges).fold(f64::INFINITY, f64::min)
     }
 
+    /// Clipped lines that are compared with others must not have moved.
+    #[test]
+    fn the_pieces_of_a_segment_end_where_it_ends() {
+        let mut random = fastrand::Rng::with_seed(9);
+        let area = Mask::new(&[vec![vec![dvec2(0.2, 0.2), dvec2(0.8, 0.3), dvec2(0.4, 0.9)]]]).unwrap();
+        let mut counts = [0, 0];
+        for _ in 0..1_000 {
+            let [a, b] = [near(&mut random), 3.0 * near(&mut random)];
+            let pieces = pieces(a, b, &area);
+            assert_eq!((pieces[0], pieces[pieces.len() - 1]), (a, b));
+            counts[usize::from(pieces.len() > 2)] += 1;
+        }
+        assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+    }
+
     #[test]
     fn the_distance_is_that_to_the_nearest_shape() {
         let mut random = fastrand::Rng::with_seed(91);

@@ -398,6 +398,21 @@ mod tests {
     }
 
     #[test]
+    fn straits_are_equal_only_with_the_same_widths_on_the_earth_and_in_the_plane() {
+        let bounds = crate::geometry::Rect::new(dvec2(4e5, 7e6), dvec2(5e5, 7.1e6));
+        let text = "+proj=merc +lat_ts=0 +ellps=WGS84 +units=m";
+        let plain = Domain::rectangle(bounds);
+        let on_earth = Domain { projection: Some(text.parse().unwrap()), ..plain.clone() };
+        let straits = |domain: &Domain, least: f64| StraitDiscs::of(domain, [least, 5e3]);
+        let all = [straits(&plain, 1e3), straits(&plain, 2e3), straits(&on_earth, 1e3)];
+        for (n, one) in all.iter().enumerate() {
+            assert!(one.discs().is_empty());
+            assert!(all.iter().enumerate().all(|(m, other)| (one == other) == (n == m)), "{n}");
+        }
+        assert_eq!(all[0], straits(&plain, 1e3));
+    }
+
+    #[test]
     fn a_ring_of_water_is_as_wide_everywhere() {
         let water = domain(vec![ring(DVec2::ZERO, 400, |_| 10.0), ring(DVec2::ZERO, 400, |_| 8.0)]);
         let straits = StraitDiscs::of(&water, [0.5, 5.0]);

@@ -181,3 +181,27 @@ impl PathMesh {
         way
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use crate::mesh::{Limits, Mesh};
+
+    #[test]
+    fn a_way_leads_through_triangles_that_touch_from_one_to_another() {
+        let lattice = Lattice::covering(Rect::UNIT, 0.1, 10_000).unwrap();
+        let mesh = PathMesh::new(Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap().view());
+        let at = |x, y| mesh.open_triangle_at(DVec2::new(x, y)).unwrap();
+        for (from, to) in [(at(0.03, 0.04), at(0.97, 0.52)), (at(0.51, 0.9), at(0.52, 0.13))] {
+            let way = mesh.way(from, to);
+            let touch = |a: u32, b: u32| {
+                let [a, b] = [a, b].map(|t| mesh.triangles[t as usize].corners);
+                a.iter().any(|node| b.contains(node))
+            };
+            let ends = [to, from];
+            let all: Vec<u32> = ends[..1].iter().chain(&way).chain(&ends[1..]).copied().collect();
+            assert!(way.len() > 5 && all.windows(2).all(|pair| touch(pair[0], pair[1])), "{way:?}");
+        }
+    }
+}

@@ -369,3 +369,28 @@ pub(super) fn contains(corners: &[DVec2; 3], point: DVec2) -> bool {
     let margin = -1e-12 * (b - a).perp_dot(c - a);
     [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| (to - from).perp_dot(point - from) >= margin)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Lattice;
+    use crate::mesh::{Limits, Mesh};
+
+    /// A planner keeps its marches on the same mesh only.
+    #[test]
+    fn a_mesh_is_the_same_as_its_copy_and_as_no_other() {
+        let mesh = |bounds: Rect, spacing: f64| {
+            let lattice = Lattice::covering(bounds, spacing, 10_000).unwrap();
+            PathMesh::new(Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap().view())
+        };
+        let [one, copy] = [(); 2].map(|()| mesh(Rect::UNIT, 0.25));
+        assert!(one.is_same_as(&one) && one.is_same_as(&copy));
+        let elsewhere = mesh(Rect::new(DVec2::splat(1.0), DVec2::splat(2.0)), 0.25);
+        assert_eq!(one.triangle_count(), elsewhere.triangle_count());
+        let mut turned = copy.clone();
+        turned.triangles[3].corners.rotate_left(1);
+        for other in [&elsewhere, &mesh(Rect::UNIT, 0.125), &turned] {
+            assert!(!one.is_same_as(other) && !other.is_same_as(&one));
+        }
+    }
+}

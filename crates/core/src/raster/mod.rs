@@ -53,16 +53,6 @@ impl PixelRect {
         (self.min[0]..self.max[0]).contains(&x) && (self.min[1]..self.max[1]).contains(&y)
     }
 
-    /// Splits off the lowest rows, at least one and about `count` pixels. Returns these rows and the rest, or
-    /// `None` if nothing is left.
-    pub fn split_after(self, count: usize) -> (Self, Option<Self>) {
-        let columns = self.max[0].saturating_sub(self.min[0]).max(1) as usize;
-        let rows = (count / columns).clamp(1, u32::MAX as usize) as u32;
-        let cut = self.min[1].saturating_add(rows).min(self.max[1]);
-        let rest = Self { min: [self.min[0], cut], ..self };
-        (Self { max: [self.max[0], cut], ..self }, (!rest.is_empty()).then_some(rest))
-    }
-
     /// Returns the smallest rectangle that contains this one and another.
     pub fn union(&self, other: &Self) -> Self {
         if self.is_empty() {

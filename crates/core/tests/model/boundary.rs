@@ -328,6 +328,11 @@ fn a_piece_is_named_split_and_joined() {
     let coast = pieces.list()[3].middle();
     let marks = pieces.split(&harbour, coast + dvec2(0.0, 0.004), 0.01).unwrap();
     assert_eq!(at(&marks).split(&marks, marks.splits[0], 0.01), None, "it is split there already");
+    // The coast is at most so steep that this is 0.7 times as far along it, or more.
+    for (tolerances, splits) in [(1.5, false), (3.5, true)] {
+        let beside = marks.splits[0] + dvec2(tolerances * pieces.tolerance(), 0.0);
+        assert_eq!(at(&marks).split(&marks, beside, 0.01).is_some(), splits, "{tolerances} tolerances away");
+    }
     let expected = [
         "open south",
         "open east",

@@ -1,5 +1,10 @@
 //! Questions whose second branch ordinary meshes do not need: each has the smallest input that does.
 
+mod bisections;
+mod fields;
+mod paths;
+mod prices;
+
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
@@ -168,6 +173,9 @@ fn pixels_are_none_without_columns_or_without_rows() {
     let rect = |min, max| PixelRect { min, max };
     assert!(!rect([1, 1], [2, 2]).is_empty());
     assert!(rect([1, 1], [1, 5]).is_empty() && rect([1, 1], [5, 1]).is_empty());
+    let (empty, full) = (rect([0, 9], [9, 9]), rect([2, 3], [4, 4]));
+    assert_eq!([full.union(&empty), empty.union(&full)], [full; 2]);
+    assert_eq!(full.union(&rect([3, 0], [5, 1])), rect([2, 0], [5, 4]));
     let raster = Raster::filled(Rect::UNIT, [8, 8], 0.0);
     let within_one = Rect::new(dvec2(0.3, 0.55), dvec2(0.35, 0.6));
     assert_eq!(raster.pixels_touching(&within_one), rect([2, 4], [3, 5]));

@@ -206,6 +206,7 @@ mod tests {
         let esri = r#"GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257]],
             PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]]"#;
         let feet = r#"projcs["NAD83 / New York",geogcs["NAD83"],unit["US survey foot",0.304800609601219]]"#;
+        let kilometres = r#"PROJCS["grid",GEOGCS["any"],UNIT["kilometre",1000]]"#;
         let second = r#"PROJCRS["ETRS89-extended / LAEA Europe",BASEGEOGCRS["ETRS89"],CS[Cartesian,2],
             LENGTHUNIT["metre",1],ID["EPSG",3035]]"#;
         let compound = format!(r#"COMPD_CS["both",{UTM},VERT_CS["height",UNIT["metre",1]]]"#);
@@ -215,6 +216,7 @@ mod tests {
             (UTM, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre, utm),
             (esri, Geographic, None, "GCS_WGS_1984", LengthUnit::Degree, degrees),
             (feet, Projected, None, "NAD83 / New York", LengthUnit::None, None),
+            (kilometres, Projected, None, "grid", LengthUnit::Kilometre, None),
             (second, Projected, Some(3035), "ETRS89-extended / LAEA Europe", LengthUnit::Metre, None),
             (&compound, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre, utm),
         ] {

@@ -209,3 +209,19 @@ impl PartialEq for MeshFormat {
 }
 
 impl Eq for MeshFormat {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_grow_with_the_triangles_and_their_digits() {
+        for format in MeshFormat::all() {
+            let sizes =
+                [1, 1_000, 1_000_000, 100_000_000].map(|count| format.approximate_bytes(count) as f64);
+            assert!((1.0..400.0).contains(&sizes[0]), "{}: {sizes:?}", format.ending());
+            assert!(sizes[1] >= 1e3 * sizes[0] && sizes[2] >= 10e6, "{}: {sizes:?}", format.ending());
+            assert!(sizes[3] >= 100.0 * sizes[2] && sizes[3] < 400e8, "{}: {sizes:?}", format.ending());
+        }
+    }
+}

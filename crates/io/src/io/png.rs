@@ -295,6 +295,50 @@ mod tests {
         decode(Cursor::new(file), Rect::UNIT, behind).unwrap().values().to_vec()
     }
 
+    /// Returns a greyscale picture whose rows come in seven passes, from every eighth pixel to all of them.
+    fn interlaced(size: [u32; 2], value: impl Fn(u32, u32) -> u8) -> Vec<u8> {
+        const PASSES: [[u32; 4]; 7] = [
+            [0, 0, 8, 8],
+            [4, 0, 8, 8],
+            [0, 4, 4, 8],
+            [2, 0, 4, 4],
+            [0, 2, 2, 4],
+            [1, 0, 2, 2],
+            [0, 1, 1, 2],
+        ];
+        let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+        for [first, top, along, down] in PASSES.into_iter().filter(|[first, ..]| *first < size[0]) {
+            for y in (top..size[1]).step_by(down as usize) {
+                packed.write_all(&[0]).unwrap();
+                (first..size[0])
+                    .step_by(along as usize)
+                    .for_each(|x| packed.write_all(&[value(x, y)]).unwrap());
+            }
+        }
+        let header = [&size[0].to_be_bytes()[..], &size[1].to_be_bytes(), &[8, 0, 0, 0, 1]].concat();
+        let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+        for (name, data) in [(b"IHDR", header), (b"IDAT", packed.finish().unwrap()), (b"IEND", Vec::new())] {
+            let body = [&name[..], &data].concat();
+            file.extend((data.len() as u32).to_be_bytes());
+            file.extend(&body);
+            file.extend(crc32fast::hash(&body).to_be_bytes());
+        }
+        file
+    }
+
+    #[test]
+    fn interlaced_pictures_are_read_like_others() {
+        for size in [[1, 1], [3, 2], [8, 8], [13, 21]] {
+            let value = |x: u32, y: u32| (7 * x + 31 * y) as u8;
+            let pixels = |y| (0..size[0]).map(move |x| value(x, y));
+            let rows: Vec<u8> = (0..size[1]).flat_map(pixels).collect();
+            let plain = encoded(ColorType::Grayscale, BitDepth::Eight, size, &rows);
+            let read = values(&interlaced(size, value), Behind::Black);
+            assert_eq!(read, values(&plain, Behind::Black), "{size:?}");
+            assert_eq!(read.len(), rows.len());
+        }
+    }
+
     #[test]
     fn every_pixel_format_becomes_a_value_from_0_to_1() {
         use BitDepth::{Eight, One, Sixteen, Two};

@@ -72,3 +72,18 @@ fn not_finite(value: f64) -> String {
 fn exponent_of(scientific: &str) -> i32 {
     scientific.split('e').nth(1).and_then(|e| e.parse().ok()).unwrap_or(0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_has_a_sign_of_its_own() {
+        for (value, sign) in
+            [(f64::INFINITY, "∞"), (f64::NEG_INFINITY, "−∞"), (f64::NAN, "–"), (-f64::NAN, "–")]
+        {
+            assert_eq!(digits(value, 4), sign);
+            assert_eq!(fixed(value, 2), sign);
+        }
+    }
+}

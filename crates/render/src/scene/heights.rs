@@ -93,6 +93,7 @@ mod tests {
         let heights = [Some(-350.25), None, Some(1200.5), Some(17.0 / 3.0), Some(f64::NAN)];
         let found = NodeHeights::new(&heights, &[Some(1.0)]).unwrap();
         assert_eq!(found.ends(), [0, 1 << 30]);
+        assert_eq!((found.scale.lowest(), found.scale.steps(Some(-350.25))), (-350.25, 0));
         assert_eq!((found.mesh[1], found.mesh[4]), (NO_HEIGHT, NO_HEIGHT));
         assert!((found.relief() - 1550.75).abs() < 1e-9);
         for (height, steps) in heights.iter().zip(&found.mesh).filter(|(_, steps)| **steps != NO_HEIGHT) {

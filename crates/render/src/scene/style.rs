@@ -231,6 +231,15 @@ mod tests {
     }
 
     #[test]
+    fn widths_keep_their_apparent_size_on_a_denser_screen() {
+        let style = Style::dark([[200; 4]; LEVELS]).for_triangles(usize::MAX);
+        let dense = style.clone().at_density(2.5);
+        assert_eq!(dense.edge_width_px, 2.5 * style.edge_width_px);
+        assert_eq!(dense.edge_fade_px, style.edge_fade_px.map(|px| 2.5 * px));
+        assert!(dense.merge_below_px == 2.5 * style.merge_below_px && style.merge_below_px > 0.0);
+    }
+
+    #[test]
     fn heights_and_legs_are_those_of_right_angled_isosceles_triangles() {
         for (level, paint) in paints(&Style::dark([[200; 4]; LEVELS]), 1.0).iter().enumerate() {
             let leg = 100.0 * 0.5f32.powf(level as f32 / 2.0);

@@ -182,6 +182,41 @@ mod tests {
     }
 
     #[test]
+    fn a_box_is_met_by_the_rays_that_go_through_it() {
+        let bounds = Bounds { min: DVec3::splat(1e6), max: DVec3::new(2e6, 3e6, 4e6) };
+        let mut random = fastrand::Rng::with_seed(1);
+        let mut counts = [0, 0];
+        for _ in 0..2_000 {
+            let mut number = |most: f64| most * (2.0 * random.f64() - 1.0);
+            let per_step = dvec2(number(2.0), number(2.0));
+            let ray = ViewRay { at: dvec2(number(4e6), number(4e6)), per_step };
+            // Points of the ray at the heights of the box, 2,000 or less beside one another.
+            let is_within = |reach: f64| {
+                let heights = (0..=3_000).map(|n| bounds.min.z + f64::from(n) * 1e3);
+                heights.map(|height| ray.at + per_step * height).any(|at| {
+                    (0..2)
+                        .all(|axis| (bounds.min[axis] - reach..=bounds.max[axis] + reach).contains(&at[axis]))
+                })
+            };
+            assert!(!is_within(0.0) || bounds.meets(&ray), "{ray:?}");
+            assert!(is_within(4e3) || !bounds.meets(&ray), "{ray:?}");
+            counts[usize::from(bounds.meets(&ray))] += 1;
+        }
+        assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+    }
+
+    #[test]
+    fn a_triangle_with_a_node_without_a_height_is_not_met() {
+        let (mesh, mut heights, _) = surface();
+        let (nodes, triangles) = (mesh.raw_nodes(), mesh.raw_triangles());
+        let first = &triangles[0];
+        let corners = |heights: &[u32]| SurfaceArrays { nodes, triangles, heights }.corners(first);
+        assert!(!first.is_outside() && corners(&heights).is_some());
+        heights[first.vertices[1].index()] = NO_HEIGHT;
+        assert!(corners(&heights).is_none());
+    }
+
+    #[test]
     fn a_vertical_ray_finds_the_height_at_a_node() {
         let (mesh, heights, _) = surface();
         let arrays =

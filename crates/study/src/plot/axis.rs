@@ -161,7 +161,7 @@ impl AxisRange {
         let decimals = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 17.0) as usize;
         let first = libm::ceil(self.low / step - 1e-9);
         let last = libm::floor(self.high / step + 1e-9);
-        let at = |number: f64| number * step + 0.0;
+        let at = |number: f64| number * step;
         let numbers = (0..).map(|i| first + f64::from(i)).take_while(|number| *number <= last);
         // Small numbers are written with a power of ten.
         let label = |value| if decimals > 4 { digits(value, 12) } else { fixed(value, decimals) };
@@ -229,6 +229,28 @@ mod tests {
         );
         assert_eq!(labels(Scale::Logarithmic, &[1e-9, 1e9], 4), ["1e-5", "1", "100,000"]);
         assert!(labels(Scale::Logarithmic, &[3.0, 3.5], 5).len() >= 2);
+        assert_eq!(labels(Scale::Linear, &[-0.5, 0.5], 3), ["−0.5", "0.0", "0.5"]);
+        assert_eq!(labels(Scale::Linear, &[0.0, 4e-6], 3), ["0", "2e-6", "4e-6"]);
+    }
+
+    #[test]
+    fn an_axis_from_zero_has_zero() {
+        for (values, low, high) in [([3.0, 9.0], 0.0, 9.45), ([-9.0, -3.0], -9.0, 0.45)] {
+            let range = AxisRange::around(&Axis::new("x", Scale::Linear), values.to_vec(), true);
+            assert_eq!([range.low(), range.high()], [low, high]);
+        }
+        // Values from zero on have no room below zero.
+        let range = AxisRange::around(&Axis::new("x", Scale::Linear), vec![0.1, 9.0], false);
+        assert_eq!(range.low(), 0.0);
+    }
+
+    #[test]
+    fn around_decades_there_is_a_twentieth_of_them_or_of_one() {
+        for (greatest, room) in [(1e10, 0.5), (10.0, 0.05), (2.0, 0.05)] {
+            let range = AxisRange::around(&Axis::new("x", Scale::Logarithmic), vec![1.0, greatest], false);
+            let decades = libm::log10(greatest);
+            assert!((range.low() + room).abs() < 1e-12 && (range.high() - decades - room).abs() < 1e-12);
+        }
     }
 
     #[test]

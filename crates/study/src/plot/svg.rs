@@ -290,6 +290,20 @@ mod tests {
     }
 
     #[test]
+    fn each_series_of_a_mark_looks_different() {
+        let lines = [Mark::Bars, Mark::Line, Mark::Points];
+        let series = lines.iter().flat_map(|mark| (0..2).map(|_| Series::new("", *mark, vec![[0.0, 1.0]])));
+        let (x, y) = (Axis::new("x", Scale::Linear), Axis::new("y", Scale::Linear));
+        let plot = Plot { title: String::new(), x, y, series: series.collect(), note: String::new() };
+        for first in [0, 2, 4] {
+            assert!(style(&plot, first) != style(&plot, first + 1), "{}", style(&plot, first));
+        }
+        // One series alone needs no legend.
+        let one = Plot { series: plot.series[..1].to_vec(), ..plot.clone() };
+        assert_eq!(Page::of(&plot).top - Page::of(&one).top, 1.5 * LINE);
+    }
+
+    #[test]
     fn bars_are_as_high_as_their_values() {
         let drawing = drawn(Scale::Linear);
         let required = drawing.split("<title>required</title>").nth(1).unwrap();
@@ -310,6 +324,14 @@ mod tests {
         let bar = measured.split("class=\"error\" d=\"").nth(1).unwrap().split('M').nth(2).unwrap();
         let (low, high) = bar.split_once(' ').unwrap().1.split_once('V').unwrap();
         let [low, high]: [f64; 2] = [low, high].map(|y| y.parse().unwrap());
+        // The strokes at its ends are as far to the left as to the right.
+        let stroke = measured.split("class=\"error\" d=\"M").nth(1).unwrap();
+        let number = |text: &str| {
+            let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap();
+            text[..end].parse::<f64>().unwrap()
+        };
+        let [left, width, x] = [stroke, stroke.split_once('h').unwrap().1, bar].map(number);
+        assert!((left + 0.5 * width - x).abs() < 0.11, "{stroke}");
         let share = (low - high) / (tick("0") - tick("100"));
         assert!((share - 0.99).abs() < 0.01, "{low} {high}");
     }

@@ -363,6 +363,12 @@ mod tests {
                 assert_equal(&rows, count);
                 let equal = |row: &Comparison| row.report == row.ours || row.report.contains('(');
                 assert!(rows.iter().all(equal), "{rows:?}");
+                let mut names = Names::default();
+                figure.add_letters(&player, &mut names);
+                let labels: Vec<String> = names.labels().map(|(_, label)| label).collect();
+                let has =
+                    |letter: &&str| labels.iter().any(|label| label.starts_with(&format!("{letter} = ")));
+                assert!(["a", "b", "c", "d"].iter().all(has), "{labels:?}");
             }
             player.go_to(0);
             assert!(figure.compare_step(&player).is_empty());

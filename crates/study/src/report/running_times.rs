@@ -138,6 +138,18 @@ mod tests {
     }
 
     #[test]
+    fn the_table_says_which_clock_was_read() {
+        let mut experiment = measured(1.01, 5);
+        assert!(experiment.table().contains("least of 2 runs in turn, wall time of one thread"));
+        experiment
+            .meshes
+            .iter_mut()
+            .flat_map(|mesh| &mut mesh.runs)
+            .for_each(|run| run.processor = Some(1.0));
+        assert!(experiment.table().contains("least of 2 runs in turn, processor time of one thread"));
+    }
+
+    #[test]
     fn the_line_of_figure_5_is_the_power_law_and_a_slow_run_does_not_move_it() {
         for slow in 5..=13 {
             let experiment = measured(1.01, slow);

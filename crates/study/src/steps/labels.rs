@@ -158,6 +158,30 @@ mod tests {
     }
 
     #[test]
+    fn an_extent_is_within_an_area_if_it_passes_no_side() {
+        let extent = Extent { low: [10.0, 20.0], high: [30.0, 40.0] };
+        assert!(extent.is_within([[10.0, 20.0], [30.0, 40.0]]));
+        for axis in 0..2 {
+            for shift in [-1.0, 1.0] {
+                let mut area = [[10.0, 20.0], [30.0, 40.0]];
+                area.iter_mut().for_each(|end| end[axis] += shift);
+                assert!(!extent.is_within(area), "{axis} {shift}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_place_of_the_grid_that_fits_is_taken() {
+        let label = LabelSize { at: [100.0, 70.0], size: [10.0; 2], gap: 0.0 };
+        let far = |at: &[f64; 2]| libm::hypot(at[0] - 100.0, at[1] - 70.0);
+        for reach in [0.0, 40.0, 90.0] {
+            let found = nearest_in(AREA, &label, |at| far(at) >= reach).unwrap();
+            assert!((reach..reach + 2.0 * GRID).contains(&far(&found)), "{reach}: {found:?}");
+        }
+        assert_eq!(nearest_in(AREA, &label, |_| false), None);
+    }
+
+    #[test]
     fn a_label_with_room_stays_at_its_place() {
         let of_triangle = LabelSize { at: [100.0, 100.0], size: [40.0, 16.0], gap: 0.0 };
         let of_node = LabelSize { at: [200.0, 100.0], gap: 5.0, ..of_triangle };

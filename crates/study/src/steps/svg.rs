@@ -363,7 +363,16 @@ mod tests {
                 triangles.lines().filter_map(|line| line.split("points=\"").nth(1)).map(area_of).sum();
             assert!((area / (1140.0 * 570.0) - 1.0).abs() < 0.01, "{area}");
             let numbers = group(&drawing, "numbers");
+            for group in [numbers, group(&drawing, "nodes")] {
+                let sizes = group.split("font-size=\"").skip(1).map(|rest| rest.split('"').next().unwrap());
+                let mut sizes = sizes.map(|size| size.parse::<f64>().unwrap());
+                assert!(sizes.all(|size| (NUMBERS[0]..=NUMBERS[1]).contains(&size)), "{group}");
+            }
             assert!(numbers.contains(">1</text>") || group(&drawing, "names").contains("= 1</text>"));
+            for (place, _) in player.names().labels() {
+                let NamedPlace::Triangle(number) = place else { continue };
+                assert!(!numbers.contains(&format!(">{number}</text>")), "its name has its number");
+            }
             let named = group(&drawing, "names").matches("</text>").count();
             assert_eq!(named, player.names().labels().count());
             assert_eq!(drawing.matches("<g").count(), drawing.matches("</g>").count());
@@ -372,6 +381,23 @@ mod tests {
                 assert!(drawing.contains(&step.sentence()));
             }
         }
+    }
+
+    #[test]
+    fn a_caption_has_the_line_of_a_step_or_the_lines() {
+        let mut player = player();
+        let mut seen = [0, 0];
+        for position in 1..=player.len() {
+            player.go_to(position);
+            let lines = player.step().unwrap().lines().1;
+            let text = match lines.len() {
+                1 => format!(", line {}", lines.start),
+                _ => format!(", lines {} to {}", lines.start, lines.end - 1),
+            };
+            assert!(caption(&player)[1].ends_with(&text), "{text}: {:?}", caption(&player));
+            seen[usize::from(lines.len() > 1)] += 1;
+        }
+        assert!(seen.iter().all(|&count| count > 0), "{seen:?}");
     }
 
     fn area_of(points: &str) -> f64 {
@@ -406,6 +432,15 @@ mod tests {
         let drawing = drawn(&player);
         assert!(drawing.contains("S_b: ") && drawing.contains("stroke=\"#ffffff\""));
         assert!(drawing.contains("stroke=\"#030303\""), "the bisection neighbour");
+    }
+
+    #[test]
+    fn the_shortest_edge_is_found_from_any_corner() {
+        let corners = [[1.0, 1.0], [5.0, 1.0], [5.0, 4.0]];
+        for first in 0..3 {
+            let turned = [0, 1, 2].map(|n| corners[(first + n) % 3]);
+            assert_eq!(shortest_edge(&turned), 3.0);
+        }
     }
 
     #[test]

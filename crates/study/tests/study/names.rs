@@ -115,6 +115,11 @@ fn letters_stand_at_the_triangles_and_nodes_that_the_lines_mean() {
             (StepAction::Divisible, None) => assert!(matches!(at("i_b"), Some(NamedPlace::Boundary(_)))),
             _ => {}
         }
+        if step.triangle > 0 && !matches!(step.action, StepAction::Bisect | StepAction::UpdateNeighbours(_)) {
+            let row = player.rows()[step.triangle as usize - 1];
+            let nodes = [row[0], row[1], row[2]].map(|node| Some(NamedPlace::Node(node as u32)));
+            assert_eq!(["v₁", "v₂", "v₃"].map(at), nodes, "{step:?}");
+        }
     }
     assert!(pairs > 20);
 }

@@ -167,6 +167,7 @@ fn changed_rows_are_those_that_differ() {
         changes.sort_by_key(|change| change.number);
         expected.sort_by_key(|change| change.number);
         assert_eq!(changes, expected, "step {position}");
+        assert_eq!(player.step().unwrap().changes_mesh(), rows.len() > before.len(), "step {position}");
         seen += changes.len();
     }
     assert!(seen > 100);

@@ -46,6 +46,23 @@ fn steepness(formula: &Formula, rect: &Rect) -> f64 {
     formula.slopes(rect).map_or(f64::INFINITY, |(_, length)| length)
 }
 
+/// Without a known slope, gradation searches far more of the lattice.
+#[test]
+fn smooth_formulas_have_a_known_slope_that_is_not_far_from_theirs() {
+    let rect = Rect::new(dvec2(0.2, 0.3), dvec2(0.21, 0.31));
+    for (source, steepest) in [
+        ("x*y", 0.38),
+        ("smoothstep(0, 1, x)", 1.0),
+        ("mix(x, y, 0.5)", 0.71),
+        ("clamp(x, 0, 1)", 1.0),
+        ("gauss(hypot(x, y), 0.3)", 2.1),
+        ("sqrt(x + y)", 1.0),
+    ] {
+        let most = steepness(&source.parse().unwrap(), &rect);
+        assert!(most < 1.3 * steepest, "{source}: {most}");
+    }
+}
+
 #[test]
 fn no_formula_rises_faster_than_its_steepness() {
     let mut random = fastrand::Rng::with_seed(71);

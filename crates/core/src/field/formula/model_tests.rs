@@ -43,6 +43,18 @@ fn place(random: &mut fastrand::Rng) -> (DVec2, f64) {
     (middle, scale * [1e-9, 1e-4, 0.01, 0.1, 0.5][random.usize(..5)] * random.f64())
 }
 
+/// A model that knows nothing is never wrong, but leaves the search to divide rectangles.
+#[test]
+fn the_angle_of_a_direction_has_a_close_model_away_from_its_jump() {
+    let formula: Formula = "atan2(y, x)".parse().unwrap();
+    for middle in [dvec2(1.0, 0.0), dvec2(0.0, 1.0), dvec2(0.0, -1.0), dvec2(-1.0, 1.0), dvec2(-1.0, -1.0)] {
+        let bounds = model(&formula, middle, 0.1).bounds();
+        let width = bounds.greatest - bounds.least;
+        assert!(bounds.valid && width < 0.25, "{middle}: {bounds:?}");
+        assert!(bounds.contains(formula.eval(middle.x, middle.y)));
+    }
+}
+
 #[test]
 fn values_lie_within_the_models_of_every_function() {
     let mut random = fastrand::Rng::with_seed(31);

@@ -343,6 +343,21 @@ mod tests {
         cells.map(of_cell).collect()
     }
 
+    /// Also where origins are so far away that the quotients of their distances are rounded to the next line.
+    #[test]
+    fn a_cell_is_between_the_line_at_or_before_it_and_the_next_one() {
+        let mut random = fastrand::Rng::with_seed(2);
+        for _ in 0..200_000 {
+            let spacing = libm::exp2(40.0 * random.f64()) * [1.0, 1.0 + 1e-9][random.usize(..2)];
+            let origin = random.f64() - libm::exp2(58.0 * random.f64());
+            let lines = Lines { origin, spacing, per_step: 1.0 / spacing };
+            let cell = random.i64(-4..4) + if random.bool() { 0 } else { random.i64(..1 << 30) };
+            let (gap, end) = lines.gap_and_end(cell);
+            assert!(lines.line(gap) <= cell && cell < end, "{origin} {spacing} {cell}: {gap} {end}");
+            assert_eq!(end, lines.line(gap + 1), "{origin} {spacing} {cell}");
+        }
+    }
+
     #[test]
     fn common_cells_are_common_along_both_axes() {
         let cells = |x: [i64; 2], y: [i64; 2]| Cells { min: [x[0], y[0]], max: [x[1], y[1]] };

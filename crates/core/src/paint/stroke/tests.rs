@@ -435,3 +435,15 @@ fn full_strength_gives_exactly_the_target() {
         }
     }
 }
+
+/// Errors are asked for or not: nothing between them counts half.
+#[test]
+fn errors_are_painted_and_erased_where_the_brush_covers_half_or_more() {
+    let brush = |medium| Brush { medium, radius: 1.0, hardness: 0.5, strength: 0.8 };
+    for (coverage, is_painted) in [(1.0, true), (0.7, true), (0.6, false), (0.0, false)] {
+        let painted = brush(Medium::Error(0.25)).painted_value(coverage, f32::MAX, f32::MAX, 1.0);
+        assert_eq!(painted, if is_painted { 0.25 } else { f32::MAX }, "{coverage}");
+        let erased = brush(Medium::Eraser).painted_value(coverage, 0.25, f32::MAX, 1.0);
+        assert_eq!(erased, if is_painted { f32::MAX } else { 0.25 }, "{coverage}");
+    }
+}

@@ -200,6 +200,32 @@ fn merging_a_redundant_tile_changes_no_value() {
 }
 
 #[test]
+fn the_areas_that_differ_hold_every_pixel_that_does_and_none_of_shared_tiles() {
+    let place = |x| TilePlace { depth: 0, x, y: 1 };
+    let mut before = TiledRaster::new(grid(), 0.0);
+    (0..4).for_each(|x| _ = before.exchange(place(x), Some(Arc::new(Tile::filled(1.0)))));
+    let mut after = before.clone();
+    let mut values = vec![1.0; 1024];
+    values[32 * 5 + 7] = 2.0;
+    after.exchange(place(1), Some(Arc::new(Tile::from_values(&values).unwrap())));
+    after.exchange(place(2), None);
+    after.exchange(place(9), Some(Arc::new(Tile::filled(3.0))));
+    for (one, other) in [(&after, &before), (&before, &after)] {
+        let areas = one.areas_that_differ(other).unwrap();
+        let changed = grid().origin + grid().pixel * (dvec2(32.0 + 7.0, 32.0 + 5.0) + 0.5);
+        let middle = |x: f64| grid().origin + grid().pixel * 32.0 * dvec2(x + 0.5, 1.5);
+        for at in [changed, middle(2.0), middle(9.0)] {
+            assert!(areas.iter().any(|area| area.contains(at)), "{at} {areas:?}");
+        }
+        for at in [middle(0.0), middle(1.0), middle(3.0)] {
+            assert!(!areas.iter().any(|area| area.contains(at)), "{at} {areas:?}");
+        }
+    }
+    assert_eq!(after.areas_that_differ(&after.clone()), Some(Vec::new()));
+    assert_eq!(after.areas_that_differ(&TiledRaster::new(grid(), 1.0)), None);
+}
+
+#[test]
 fn tiles_without_a_parent_or_beyond_the_limits_are_refused() {
     let tile = || Arc::new(Tile::filled(1.0));
     let read = |places: &[TilePlace]| {
@@ -211,6 +237,22 @@ fn tiles_without_a_parent_or_beyond_the_limits_are_refused() {
     assert_eq!(read(&[child, parent]), Err(child));
     let far = TilePlace { x: TilePlace::FARTHEST + 1, ..parent };
     assert_eq!(read(&[parent, far]), Err(far));
+}
+
+/// Squares that no number of 32 bits counts lie beyond all tiles.
+#[test]
+fn squares_however_far_away_are_blank() {
+    let mut raster = TiledRaster::new(grid(), 0.5);
+    raster.exchange(TilePlace { depth: 0, x: 0, y: 0 }, Some(Arc::new(Tile::filled(2.0))));
+    for far in [1_i64 << 31, 1 << 40, -(1 << 33), i64::MAX / 2] {
+        for scale in [-8, -1, 0, 3] {
+            for at in [[far, 0], [0, far], [far, -far]] {
+                let range = raster.range_anywhere(scale, at);
+                assert_eq!((range.least, range.greatest), (0.5, 0.5), "{scale} {at:?}");
+            }
+        }
+    }
+    assert_eq!(raster.range_anywhere(0, [3, 4]).least, 2.0);
 }
 
 /// Run by hand, in release: `cargo test --release … nanoseconds_per_range -- --ignored --nocapture`.

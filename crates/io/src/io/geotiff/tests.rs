@@ -171,6 +171,9 @@ fn the_place_is_that_of_tie_point_or_matrix() {
     let in_order: Vec<f32> = plain.samples.iter().map(|&sample| sample as f32).collect();
     assert_eq!(read_back(&matrix(0.25, 0.0)).raster.values(), in_order);
     assert!(refusal(&matrix(-0.25, 0.1)).contains("turned or warped"));
+    // A turn of less than a pixel in a row of a thousand million is rounding.
+    assert_eq!(bounds_of(&matrix(-0.25, 1e-10)), [100.0, 48.75, 103.5, 50.0]);
+    assert!(refusal(&matrix(-0.25, 1e-9)).contains("turned or warped"));
     let warped = plain.clone().with(33922, Value::Doubles(vec![0.0; 12]));
     assert!(refusal(&warped).contains("turned or warped"));
     let mirrored = plain.clone().with(34264, Value::Doubles([&[-0.5], &[0.0; 15][..]].concat()));

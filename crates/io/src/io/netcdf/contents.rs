@@ -110,3 +110,26 @@ pub(super) trait Source {
     /// Fails when the file cannot be read there, or ends before.
     fn block(&mut self, variable: usize, corner: &[u64], extent: &[u64]) -> Result<Vec<f64>, Flaw>;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The numbers of netcdf.h: NC_FILL_SHORT and so on.
+    #[test]
+    fn nothing_written_is_beside_the_end_of_the_numbers() {
+        for (sample, fill) in [
+            (Sample::I16, f64::from(i16::MIN + 1)),
+            (Sample::U16, f64::from(u16::MAX)),
+            (Sample::I32, f64::from(i32::MIN + 1)),
+            (Sample::U32, f64::from(u32::MAX)),
+            (Sample::I64, (i64::MIN + 2) as f64),
+            (Sample::U64, (u64::MAX - 1) as f64),
+            (Sample::F32, f64::from_bits(0x479e_0000_0000_0000)),
+            (Sample::F64, f64::from_bits(0x479e_0000_0000_0000)),
+        ] {
+            assert_eq!(sample.default_fill(), Some(fill));
+        }
+        assert_eq!([Sample::I8, Sample::U8].map(Sample::default_fill), [None, None]);
+    }
+}

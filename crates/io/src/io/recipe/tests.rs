@@ -1,8 +1,10 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::io::Place;
+use crate::io::layers::SavedLayer;
 use crate::io::settings::SavedParts;
+use crate::io::{Given, Place, TextValue};
+use meshbrush_mesh::text::LengthUnit;
 
 /// A recipe with every table and every kind of layer.
 const FULL: &str = r#"
@@ -428,4 +430,22 @@ fn a_written_recipe_is_readable() {
     let threats = "threats = [\n  { x = 24, y = 37, range = 0.5, peak = 0.9, law = \"gaussian\" },\n";
     assert!(written.contains(threats), "{written}");
     assert!(written.contains("\nparts = 0.01\n") && written.contains("file = \"sea.png\"\n"), "{written}");
+}
+
+/// A layer alone is read as the only one of a recipe: its mistakes are not said to be in a list of layers.
+#[test]
+fn a_mistake_in_a_layer_alone_is_at_its_key() {
+    let text = |text: &str| TextValue::Text(text.into());
+    let others = BesideLayer { smallest: false, depths: false, unit: LengthUnit::None };
+    for (formula, is_good) in [("0.1 + x", true), ("0.1 +", false), ("sin(x, y)", false)] {
+        let entries = [("kind", text("formula")), ("quantity", text("diameter")), ("formula", text(formula))];
+        let table = TextValue::Table(entries.map(|(key, value)| (key.to_owned(), value)).to_vec());
+        match SavedLayer::of_value(&table, &others, &Given::default()) {
+            Ok(_) => assert!(is_good, "{formula}"),
+            Err(fault) => {
+                assert!(!is_good && fault.path.len() == 1, "{fault:?}");
+                assert!(fault.to_string().starts_with("formula"), "{fault}");
+            }
+        }
+    }
 }

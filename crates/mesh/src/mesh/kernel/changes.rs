@@ -65,10 +65,6 @@ impl ChangeLog {
         self.steps += 1;
     }
 
-    pub(super) fn steps(&self) -> u64 {
-        self.steps
-    }
-
     /// Returns the changes since the last call, or `None` if there are none.
     pub(super) fn take(&mut self) -> Option<Changes> {
         let (nodes, triangles) = (self.nodes.take_ranges(), self.triangles.take_ranges());

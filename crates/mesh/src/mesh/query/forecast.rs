@@ -254,15 +254,11 @@ impl Forecast {
     /// The triangle is an entry of the mesh, or part of one: no node of the mesh lies in the middle of its
     /// edges.
     fn bisect(&mut self, mesh: &Mesh, triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
-        let is_first = |chain: &[TreeTriangle]| chain.len() == 1;
         self.chain.push(triangle);
         while let Some(&triangle) = self.chain.last() {
             let midpoint = triangle.midpoint();
-            let is_node = match self.fate(midpoint) {
-                Some(is_node) => is_node,
-                None => !is_first(&self.chain) && self.was_node(mesh, midpoint, &triangle),
-            };
-            if is_node {
+            // Those that are pushed below had no node there, either.
+            if self.fate(midpoint) == Some(true) {
                 self.chain.pop();
                 continue;
             }

@@ -145,7 +145,7 @@ impl Mesh {
     /// the domain, over about `count` points that are spread evenly. Zero where none is in the domain.
     pub fn mean_walk_steps(&self, count: usize) -> f64 {
         let bounds = self.lattice.bounds();
-        let mut shares = DVec2::splat(0.5);
+        let mut shares = DVec2::ZERO;
         let (mut steps, mut found) = (0, 0);
         for _ in 0..count {
             // The R2 sequence: powers of the root of x³ = x + 1.

@@ -104,3 +104,48 @@ impl Falloff {
         (least + slope * distance) * ROUNDED_DOWN
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Lattice, Rect};
+    use crate::mesh::Limits;
+
+    /// The least diameter in a triangle is that at its nearest point to the core, and no less than by the
+    /// rectangle around the triangle.
+    #[test]
+    fn the_least_diameter_grows_with_the_distance_from_the_core() {
+        let lattice = Lattice::covering(Rect::UNIT, 0.25, 100).unwrap();
+        let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        let (extent, step) = (lattice.extent(), lattice.step());
+        let mut random = fastrand::Rng::with_seed(3);
+        for _ in 0..2_000 {
+            let mut point = || LatticePoint::new(random.u32(..=extent.x), random.u32(..=extent.y));
+            let (first, last) = (point(), point());
+            let core = LatticeRect {
+                min: LatticePoint::new(first.x.min(last.x), first.y.min(last.y)),
+                max: LatticePoint::new(first.x.max(last.x), first.y.max(last.y)),
+            };
+            let corners = [point(), point(), point()];
+            let falloff = Falloff { core, least: 0.1, slope: 0.5 };
+            let least = falloff.least_at(&mesh, corners);
+            let world = |point: LatticePoint| point.as_dvec2() * step;
+            let beyond = |at: DVec2| at - at.clamp(world(core.min), world(core.max));
+            let at_corners = corners.map(|corner| beyond(world(corner)));
+            for (at, share) in at_corners.iter().zip([0.2, 0.5, 0.9]) {
+                let between = beyond(world(corners[0]).lerp(world(corners[1]), share));
+                for gap in [at, &between] {
+                    assert!(least <= 0.1 + 0.5 * gap.length(), "{corners:?} {core:?}");
+                }
+            }
+            // The rectangle around the triangle is that far away along each axis.
+            let [low, high] = [DVec2::min, DVec2::max].map(|end| at_corners.into_iter().reduce(end).unwrap());
+            let gap = low.max(DVec2::ZERO).max(-high.min(DVec2::ZERO));
+            let expected = 0.1 + 0.5 * gap.length();
+            assert!((least / expected - 1.0).abs() < 1e-8, "{least} {expected}");
+        }
+        let core = LatticeRect { min: LatticePoint::new(0, 0), max: extent };
+        let uniform = Falloff { core, least: 0.1, slope: 0.0 };
+        assert_eq!(uniform.least_at(&mesh, [core.min; 3]), 0.1 * ROUNDED_DOWN);
+    }
+}

@@ -302,11 +302,6 @@ impl Updater {
         self.log.take()
     }
 
-    /// Returns how often the mesh was changed so far. When this grows, the picture is out of date.
-    pub fn steps(&self) -> u64 {
-        self.log.steps()
-    }
-
     /// Returns the memory taken, in bytes: a fraction of a byte for each triangle.
     pub fn bytes(&self) -> usize {
         let marks = [&self.reached, &self.exceeding, &self.loose, &self.log.triangles, &self.log.nodes];
