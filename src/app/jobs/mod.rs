@@ -9,8 +9,8 @@
 //!
 //! Where the system starts no threads, as in a browser, each frame does some of the work before it begins: at
 //! least one slice, and for 8 ms at most where slices are short. While a button is held it pauses four times
-//! as long as it worked, so that painting stays fluent. A slice that took longer than 30 ms the last time is
-//! left until there was no input for 400 ms, for 10 s at most. Nothing waits then.
+//! as long as it worked, so that painting stays fluent. Work that had a slice of more than 30 ms is left
+//! until there was no input for 400 ms, each slice for 10 s at most. Nothing waits then.
 //!
 //! A [`Job`] belongs to the document that was open when it began, and to whoever holds it: dropped, it ends
 //! the work. So a window that is closed ends all work but the files that are being written.

@@ -18,8 +18,9 @@ pub struct Queue(Arc<Threads>);
 
 /// A slice that takes longer is felt by a hand that moves.
 const LONG: Duration = Duration::from_millis(30);
-/// Of work with more slices, all further ones count as one.
-const MOST_SLICES: u32 = 256;
+/// Each time work from a source ends, what was known of its longest slice counts for so much less: a run that
+/// ended early says little.
+const FORGOTTEN: u32 = 4;
 /// The longest that work waits for the hand to rest.
 const LONGEST_WAIT: Duration = Duration::from_secs(10);
 
@@ -30,8 +31,10 @@ pub type Source = &'static Location<'static>;
 struct Work {
     /// One slice after the other, until it says that it is done.
     run: Box<dyn FnMut() -> Progress + Send>,
-    /// Where it was started, and how many slices were run.
-    place: (Source, u32),
+    /// Where it was started.
+    source: Source,
+    /// The longest slice so far.
+    longest: Duration,
     since: Instant,
 }
 
@@ -60,25 +63,35 @@ struct State {
     running: [usize; Kind::ALL.len()],
     /// No thread could be started.
     is_without_threads: bool,
-    /// How long each slice of work from each source took the last time, where frames do the work.
-    took: HashMap<(Source, u32), Duration>,
+    /// How long the longest slice of work from each source takes, where frames do the work.
+    longest: HashMap<Source, Duration>,
 }
 
 impl State {
     /// Takes the oldest work of a kind; while the hand is `busy`, the oldest that is short.
     fn take(&mut self, kind: Kind, busy: bool) -> Option<Work> {
         let can_wait = busy && matches!(kind, Kind::Compute | Kind::Write);
-        let is_short = |work: &Work| self.took.get(&work.place).is_none_or(|took| *took < LONG);
+        let is_short = |work: &Work| self.longest.get(work.source).is_none_or(|longest| *longest < LONG);
         let may_run = |work: &Work| !can_wait || is_short(work) || work.since.elapsed() > LONGEST_WAIT;
         let at = self.waiting[kind as usize].iter().position(may_run)?;
         self.waiting[kind as usize].remove(at)
+    }
+
+    /// Notes how long a slice took.
+    fn note(&mut self, work: &mut Work, took: Duration, progress: Progress) {
+        work.longest = work.longest.max(took);
+        let known = self.longest.entry(work.source).or_default();
+        *known = match progress {
+            Progress::More => work.longest.max(*known),
+            Progress::Done => work.longest.max(*known / FORGOTTEN),
+        };
     }
 }
 
 impl Queue {
     /// Runs work, which does not panic, as soon as a thread is free.
     pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Progress + Send + 'static) {
-        let work = Work { run: Box::new(work), place: (source, 0), since: Instant::now() };
+        let work = Work { run: Box::new(work), source, longest: Duration::ZERO, since: Instant::now() };
         let mut state = self.0.lock();
         state.waiting[kind as usize].push_back(work);
         if state.running[kind as usize] == kind.most() || state.is_without_threads {
@@ -109,8 +122,8 @@ impl Queue {
     /// Runs a slice of the oldest work of the first of these kinds that has some, on the calling thread. Work
     /// that is not done goes to the end of its row, so that others get their turn.
     ///
-    /// While the hand is `busy`, what computes and writes is left where this slice of work from the same
-    /// source took long the last time.
+    /// While the hand is `busy`, what computes and writes is left where some slice of work from the same
+    /// source took long: which one will depends on how much there is to do before it.
     pub fn run_slice(&self, kinds: &[Kind], busy: bool) -> Ran {
         let next = |kind: &Kind| Some((*kind, self.0.lock().take(*kind, busy)?));
         let Some((kind, mut work)) = kinds.iter().find_map(next) else {
@@ -121,10 +134,9 @@ impl Queue {
         let began = Instant::now();
         let progress = (work.run)();
         let mut state = self.0.lock();
-        state.took.insert(work.place, began.elapsed());
+        state.note(&mut work, began.elapsed(), progress);
         if progress == Progress::More {
-            let place = (work.place.0, (work.place.1 + 1).min(MOST_SLICES));
-            state.waiting[kind as usize].push_back(Work { place, since: Instant::now(), ..work });
+            state.waiting[kind as usize].push_back(Work { since: Instant::now(), ..work });
         }
         Ran::Slice
     }

@@ -262,6 +262,37 @@ fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not(
     assert_eq!(done.load(Ordering::Relaxed), 2);
 }
 
+/// A job whose long slice comes sooner or later, as the solver does after a path with more or fewer steps.
+#[test]
+fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
+    let queue = Queue::default();
+    queue.do_without_threads();
+    let here = Location::caller();
+    let work = |short: usize, long: Option<u64>| {
+        let mut slice = 0;
+        queue.push(Kind::Compute, here, move || {
+            slice += 1;
+            if slice <= short {
+                return Progress::More;
+            }
+            std::thread::sleep(Duration::from_millis(long.unwrap_or(0)));
+            Progress::Done
+        });
+    };
+    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
+    work(0, Some(200));
+    assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
+    work(3, Some(200));
+    assert_eq!(run(true), Ran::Later, "after three short slices, a long one");
+    while run(false) == Ran::Slice {}
+    // One run that is given up early does not change that; two do.
+    for waits in [true, true, false] {
+        work(0, None);
+        assert_eq!(run(true), if waits { Ran::Later } else { Ran::Slice });
+        while run(false) == Ran::Slice {}
+    }
+}
+
 #[test]
 fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_at_all() {
     let jobs = Jobs::new(&Context::default());
