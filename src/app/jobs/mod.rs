@@ -48,7 +48,7 @@ use eframe::egui::Context;
 
 use inbox::Inbox;
 pub use job::{Job, Output, Taken, Wanted};
-use queue::{Queue, Ran};
+use queue::{Queue, Ran, Turn};
 pub use slot::{Slice, Slot};
 pub use succession::Succession;
 use waker::Waker;
@@ -270,16 +270,17 @@ impl Jobs {
         let (job, output) = self.expect();
         let mut output = Some(output);
         self.0.queue.push(kind, Location::caller(), move || {
-            let Some(running) = &output else { return Progress::Done };
+            let Some(running) = &output else { return Turn::Done };
             let done =
                 if running.is_wanted() { failure::caught(|| slice(running)) } else { Ok(Progress::Done) };
             if matches!(done, Ok(Progress::More)) {
-                return Progress::More;
+                return Turn::More;
             }
+            let is_wanted = running.is_wanted();
             if let Some(output) = output.take() {
                 output.end(done.err().filter(|_| kind.reports_panic()));
             }
-            Progress::Done
+            if is_wanted { Turn::Done } else { Turn::GivenUp }
         });
         if self.0.queue.is_without_threads() {
             self.wake(); // the next frame does it

@@ -7,7 +7,6 @@ use std::thread;
 
 use super::Kind;
 use crate::app::clock::{Duration, Instant};
-use meshbrush_mesh::mesh::Progress;
 
 /// Runs work on threads: so many of each kind at once, the others in their order. A thread ends when no work
 /// of its kind waits. Clones have the same threads.
@@ -18,9 +17,6 @@ pub struct Queue(Arc<Threads>);
 
 /// A slice that takes longer is felt by a hand that moves.
 const LONG: Duration = Duration::from_millis(30);
-/// Each time work from a source ends, what was known of its longest slice counts for so much less: a run that
-/// ended early says little.
-const FORGOTTEN: u32 = 4;
 /// The longest that work waits for the hand to rest.
 const LONGEST_WAIT: Duration = Duration::from_secs(10);
 
@@ -30,12 +26,23 @@ pub type Source = &'static Location<'static>;
 /// Work that waits for its turn.
 struct Work {
     /// One slice after the other, until it says that it is done.
-    run: Box<dyn FnMut() -> Progress + Send>,
+    run: Box<dyn FnMut() -> Turn + Send>,
     /// Where it was started.
     source: Source,
     /// The longest slice so far.
     longest: Duration,
     since: Instant,
+}
+
+/// What became of work after a slice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// There are more slices.
+    More,
+    /// All slices are done.
+    Done,
+    /// Nobody wants the rest.
+    GivenUp,
 }
 
 /// What became of a question for a slice.
@@ -77,20 +84,18 @@ impl State {
         self.waiting[kind as usize].remove(at)
     }
 
-    /// Notes how long a slice took.
-    fn note(&mut self, work: &mut Work, took: Duration, progress: Progress) {
+    /// Notes how long a slice took. A whole run says how long the longest one takes, and one that was given
+    /// up says little.
+    fn note(&mut self, work: &mut Work, took: Duration, turn: Turn) {
         work.longest = work.longest.max(took);
         let known = self.longest.entry(work.source).or_default();
-        *known = match progress {
-            Progress::More => work.longest.max(*known),
-            Progress::Done => work.longest.max(*known / FORGOTTEN),
-        };
+        *known = if turn == Turn::Done { work.longest } else { work.longest.max(*known) };
     }
 }
 
 impl Queue {
     /// Runs work, which does not panic, as soon as a thread is free.
-    pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Progress + Send + 'static) {
+    pub fn push(&self, kind: Kind, source: Source, work: impl FnMut() -> Turn + Send + 'static) {
         let work = Work { run: Box::new(work), source, longest: Duration::ZERO, since: Instant::now() };
         let mut state = self.0.lock();
         state.waiting[kind as usize].push_back(work);
@@ -132,10 +137,10 @@ impl Queue {
             return if is_left { Ran::Later } else { Ran::Nothing };
         };
         let began = Instant::now();
-        let progress = (work.run)();
+        let turn = (work.run)();
         let mut state = self.0.lock();
-        state.note(&mut work, began.elapsed(), progress);
-        if progress == Progress::More {
+        state.note(&mut work, began.elapsed(), turn);
+        if turn == Turn::More {
             state.waiting[kind as usize].push_back(Work { since: Instant::now(), ..work });
         }
         Ran::Slice
@@ -184,7 +189,7 @@ impl Threads {
 
     fn run(&self, kind: Kind) {
         while let Some(mut work) = self.next_or_end(kind) {
-            while (work.run)() == Progress::More {}
+            while (work.run)() == Turn::More {}
         }
     }
 }

@@ -247,7 +247,7 @@ fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not(
             long_slice();
             std::thread::sleep(Duration::from_millis(40));
             done.fetch_add(1, Ordering::Relaxed);
-            Progress::Done
+            Turn::Done
         });
     };
     let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
@@ -255,7 +255,7 @@ fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not(
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
     long();
     assert_eq!(run(true), Ran::Later);
-    queue.push(Kind::Compute, Location::caller(), || Progress::Done);
+    queue.push(Kind::Compute, Location::caller(), || Turn::Done);
     assert_eq!((run(true), run(true)), (Ran::Slice, Ran::Later), "short work behind it goes on");
     assert_eq!(done.load(Ordering::Relaxed), 1);
     assert_eq!((run(false), run(false)), (Ran::Slice, Ran::Nothing));
@@ -268,27 +268,26 @@ fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
     let queue = Queue::default();
     queue.do_without_threads();
     let here = Location::caller();
-    let work = |short: usize, long: Option<u64>| {
+    let work = |short: usize, longest_ms: u64, end: Turn| {
         let mut slice = 0;
         queue.push(Kind::Compute, here, move || {
             slice += 1;
             if slice <= short {
-                return Progress::More;
+                return Turn::More;
             }
-            std::thread::sleep(Duration::from_millis(long.unwrap_or(0)));
-            Progress::Done
+            std::thread::sleep(Duration::from_millis(longest_ms));
+            end
         });
     };
     let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
-    work(0, Some(200));
+    work(0, 60, Turn::Done);
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
-    work(3, Some(200));
+    work(3, 60, Turn::Done);
     assert_eq!(run(true), Ran::Later, "after three short slices, a long one");
     while run(false) == Ran::Slice {}
-    // One run that is given up early does not change that; two do.
-    for waits in [true, true, false] {
-        work(0, None);
-        assert_eq!(run(true), if waits { Ran::Later } else { Ran::Slice });
+    for (end, expected) in [(Turn::GivenUp, Ran::Later), (Turn::Done, Ran::Later), (Turn::Done, Ran::Slice)] {
+        work(0, 0, end);
+        assert_eq!(run(true), expected, "only a whole run says that it became short");
         while run(false) == Ran::Slice {}
     }
 }
