@@ -17,6 +17,8 @@ pub struct Queue(Arc<Threads>);
 
 /// A slice that takes longer is felt by a hand that moves.
 const LONG: Duration = Duration::from_millis(30);
+/// What is known of the longest slice of work from a source counts for so much less after each whole run.
+const KEPT: f64 = 7.0 / 8.0;
 /// The longest that work waits for the hand to rest.
 const LONGEST_WAIT: Duration = Duration::from_secs(10);
 
@@ -84,12 +86,13 @@ impl State {
         self.waiting[kind as usize].remove(at)
     }
 
-    /// Notes how long a slice took. A whole run says how long the longest one takes, and one that was given
-    /// up says little.
+    /// Notes how long a slice took. A whole run can have been short by chance, as with nothing to prove; one
+    /// that was given up says nothing.
     fn note(&mut self, work: &mut Work, took: Duration, turn: Turn) {
         work.longest = work.longest.max(took);
         let known = self.longest.entry(work.source).or_default();
-        *known = if turn == Turn::Done { work.longest } else { work.longest.max(*known) };
+        let kept = if turn == Turn::Done { known.mul_f64(KEPT) } else { *known };
+        *known = work.longest.max(kept);
     }
 }
 

@@ -285,11 +285,15 @@ fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
     work(3, 60, Turn::Done);
     assert_eq!(run(true), Ran::Later, "after three short slices, a long one");
     while run(false) == Ran::Slice {}
-    for (end, expected) in [(Turn::GivenUp, Ran::Later), (Turn::Done, Ran::Later), (Turn::Done, Ran::Slice)] {
+    let waits = |end: Turn| {
         work(0, 0, end);
-        assert_eq!(run(true), expected, "only a whole run says that it became short");
+        let is_later = run(true) == Ran::Later;
         while run(false) == Ran::Slice {}
-    }
+        is_later
+    };
+    assert!((0..20).all(|_| waits(Turn::GivenUp)), "work that is given up says nothing");
+    assert!(waits(Turn::Done) && waits(Turn::Done), "one run can be short by chance");
+    assert!((0..20).any(|_| !waits(Turn::Done)), "work that stays short does not wait for ever");
 }
 
 #[test]

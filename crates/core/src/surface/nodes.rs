@@ -76,3 +76,22 @@ impl SurfaceTriangle {
         a.distance(b).max(b.distance(c)).max(c.distance(a))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    #[test]
+    fn a_triangle_has_its_area_and_diameter_in_any_order_of_corners() {
+        let corners = [dvec2(1.0, 1.0), dvec2(4.0, 1.0), dvec2(1.0, 5.0)];
+        for order in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1]] {
+            let triangle =
+                SurfaceTriangle::new(order.map(|n: usize| corners[n]), [Some(1.0), Some(2.0), Some(3.0)]);
+            assert_eq!((triangle.area(), triangle.diameter()), (6.0, 5.0), "{order:?}");
+            assert_eq!(triangle.heights, Some([1.0, 2.0, 3.0]));
+        }
+        assert_eq!(SurfaceTriangle::new(corners, [Some(1.0), None, Some(3.0)]).heights, None);
+    }
+}
