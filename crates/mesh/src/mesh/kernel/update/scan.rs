@@ -7,8 +7,8 @@ use crate::mesh::kernel::Mesh;
 
 /// A search of several areas at once, down the array from its end.
 ///
-/// Most entries of a fine mesh are left out by their level alone: from neighbour to neighbour, the same
-/// triangles take twenty times as long.
+/// Most entries of a fine mesh are left out by their level alone: from neighbour to neighbour, each of them
+/// would be looked up in memory with its neighbours.
 #[derive(Clone, Debug)]
 pub(super) struct Scan {
     areas: Vec<Area>,
