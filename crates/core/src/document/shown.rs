@@ -69,10 +69,7 @@ fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &Refine
     for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
         let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
-        let concerned = areas.iter().filter(|area| area.rect.touches(corners));
-        let [asks, loosens] = concerned
-            .map(|area| area.concerns(mesh, corners, level))
-            .fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]]);
+        let [asks, loosens] = ChangedArea::any_concerns(areas, mesh, corners, level);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
         asked += usize::from(asks);
         loose += usize::from(loosens);

@@ -65,25 +65,8 @@ struct Problem<'a> {
 }
 
 impl LowerBound {
-    /// Returns the bound, where `upper` is the cost of a path, and the marches went from the start and from
-    /// the goal through all triangles that are not closed.
-    pub fn compute(
-        &mut self,
-        mesh: &PathMesh,
-        costs: &[f64],
-        [start, goal]: [Place; 2],
-        [us, ug]: [&March; 2],
-        upper: f64,
-    ) -> f64 {
-        self.begin(mesh, costs, [start, goal], [us, ug], upper);
-        loop {
-            if let Some(bound) = self.raise(mesh, costs, [start, goal]) {
-                return bound;
-            }
-        }
-    }
-
-    /// Begins the work of [`Self::compute`], which [`Self::raise`] goes on with for the same places.
+    /// Begins a bound, where `upper` is the cost of a path, and the marches went from the start and from the
+    /// goal through all triangles that are not closed. [`Self::raise`] goes on for the same places.
     pub(super) fn begin(
         &mut self,
         mesh: &PathMesh,

@@ -211,11 +211,7 @@ impl Forecast {
     #[inline]
     fn concerns(&self, mesh: &Mesh, id: TriangleId) -> [bool; 2] {
         let (corners, level) = (mesh.corners(id), mesh.triangle(id).level());
-        let touched = self.areas.iter().filter(|area| area.rect.touches(corners));
-        touched.fold([false; 2], |[asks, loosens], area| {
-            let of_area = area.concerns(mesh, corners, level);
-            [asks || of_area[0], loosens || of_area[1]]
-        })
+        ChangedArea::any_concerns(&self.areas, mesh, corners, level)
     }
 
     /// Asks about up to `most` triangles, and notes that those are bisected that exceed their target.

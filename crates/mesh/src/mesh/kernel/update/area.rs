@@ -85,6 +85,13 @@ impl ChangedArea {
         let loosens = self.change != TargetChange::Finer && level > 0 && exceeds(level - 1);
         [asks, loosens]
     }
+
+    /// Returns the same for the changes of several areas together.
+    pub fn any_concerns(areas: &[Self], mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
+        let touched = areas.iter().filter(|area| area.rect.touches(corners));
+        let concerns = touched.map(|area| area.concerns(mesh, corners, level));
+        concerns.fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]])
+    }
 }
 
 impl Falloff {
