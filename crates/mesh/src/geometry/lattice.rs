@@ -319,8 +319,7 @@ fn lattice_coordinate(min: f64, max: f64, step: f64, extent: u32, world: f64) ->
 fn cells_per_side(size: DVec2, spacing: f64) -> [f64; 2] {
     let wide = size.x >= size.y;
     let (long, short) = if wide { (size.x, size.y) } else { (size.y, size.x) };
-    let fewest_long = (long / spacing).ceil().max(1.0);
-    let fewest_short = (short / spacing).ceil().max(1.0);
+    let [fewest_long, fewest_short] = [long, short].map(|side| fewest_cells(side, spacing));
     let mut best = (f64::INFINITY, fewest_long, fewest_short);
     // With n cells on the short side the best proportion is within about 1 / 2n of square: 24 more suffice.
     for extra in 0..24 {
@@ -337,6 +336,13 @@ fn cells_per_side(size: DVec2, spacing: f64) -> [f64; 2] {
     }
     let (_, long_cells, short_cells) = best;
     if wide { [long_cells, short_cells] } else { [short_cells, long_cells] }
+}
+
+/// Returns the least number of cells no wider than `spacing` along a side. The quotient of a side that is a
+/// whole number of spacings may be rounded up beyond that number: 1 / (1 / 49) is above 49.
+fn fewest_cells(side: f64, spacing: f64) -> f64 {
+    let cells = (side / spacing).ceil().max(1.0);
+    if cells > 1.0 && side / (cells - 1.0) <= spacing { cells - 1.0 } else { cells }
 }
 
 /// Returns how often a cell can be halved: the lattice must fit its bits, and its step must span several ulps
@@ -364,21 +370,40 @@ mod tests {
 
     #[test]
     fn a_square_gets_the_reports_cell_count() {
-        for (spacing, cells) in [(1.0, 1), (0.05, 20), (0.3, 4), (0.051, 20), (5.0, 1)] {
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let spacing = 0.02 + 1.5 * random.f64();
+            // Eq. (15), but for a side that is a whole number of spacings up to rounding.
+            let cells = ((1.0 / spacing) * (1.0 - 1e-12)).ceil() as u32;
+            assert_eq!(
+                Lattice::covering(Rect::UNIT, spacing, 10_000).unwrap().cells(),
+                [cells; 2],
+                "{spacing}"
+            );
+        }
+        for cells in 1..60u32 {
+            let spacing = 1.0 / f64::from(cells);
             assert_eq!(Lattice::covering(Rect::UNIT, spacing, 10_000).unwrap().cells(), [cells; 2]);
         }
     }
 
     #[test]
     fn a_rectangle_is_met_exactly_with_nearly_square_cells() {
-        for (w, h, spacing) in [(2.0, 1.0, 0.5), (1.01, 1.0, 1.0), (1.0, 0.3, 1.0), (0.07, 13.0, 0.9)] {
+        let mut random = fastrand::Rng::with_seed(36);
+        let mut refused = 0;
+        for _ in 0..2_000 {
+            let [w, h, spacing] = [(); 3].map(|()| libm::exp10(4.0 * random.f64() - 2.0));
             let bounds = Rect::new(dvec2(-3.0, 5.0), dvec2(-3.0 + w, 5.0 + h));
-            let lattice = Lattice::covering(bounds, spacing, 1_000_000).unwrap();
+            let Ok(lattice) = Lattice::covering(bounds, spacing, 1_000_000) else {
+                refused += 1;
+                continue;
+            };
             let cell = lattice.step() * f64::from(lattice.cell_steps());
             assert!(cell.max_element() <= spacing * (1.0 + 1e-12), "{w} x {h}: {cell}");
             assert!(cell.max_element() / cell.min_element() <= 1.0501, "{w} x {h}: {cell}");
             assert_eq!(lattice.world_from_lattice(lattice.extent()), bounds.max);
         }
+        assert!((10..1_000).contains(&refused), "{refused}");
     }
 
     #[test]
