@@ -95,7 +95,10 @@ pub fn time(seconds: f64) -> String {
         s if s < 9.995 => format!("{s:.2} s"),
         s if s < 59.95 => format!("{s:.1} s"),
         s if s < 3599.5 => format!("{:.0} min {:02.0} s", (s.round() / 60.0).floor(), s.round() % 60.0),
-        s => format!("{:.0} h {:02.0} min", (s / 3600.0).floor(), ((s % 3600.0) / 60.0).floor()),
+        s => {
+            let minutes = (s / 60.0).round();
+            format!("{:.0} h {:02.0} min", (minutes / 60.0).floor(), minutes % 60.0)
+        }
     }
 }
 
@@ -120,12 +123,36 @@ pub fn padded(text: &str, width: usize) -> String {
 mod tests {
     use super::*;
 
+    /// Returns the number that a text begins with, and what follows it.
+    fn read(text: &str) -> (f64, &str) {
+        let end = text.find(|c: char| !(c.is_ascii_digit() || ",.−+".contains(c))).unwrap_or(text.len());
+        let number = text[..end].replace(',', "").replace('−', "-");
+        (number.parse().unwrap_or_else(|_| panic!("{text} begins with a number")), text[end..].trim())
+    }
+
+    /// Returns whole numbers of all lengths.
+    fn random_counts() -> impl Iterator<Item = u64> {
+        let mut random = fastrand::Rng::with_seed(35);
+        (0..2_000).map(move |_| random.u64(..) >> random.u32(..64))
+    }
+
+    /// Fails unless a text says more for a larger number.
+    #[track_caller]
+    fn assert_in_order(mut numbers: Vec<f64>, said: impl Fn(f64) -> f64) {
+        numbers.sort_by(f64::total_cmp);
+        assert!(numbers.is_sorted_by_key(|&number| said(number)), "a larger number says less");
+    }
+
     #[test]
     fn counts_are_grouped_by_thousands() {
-        for (value, text) in [(0, "0"), (632, "632"), (1_000, "1,000"), (37_987, "37,987")] {
-            assert_eq!(count(value), text);
+        for value in random_counts().chain([0, 999, 1_000, u64::MAX]) {
+            let text = count(value);
+            assert_eq!(text.replace(',', ""), value.to_string());
+            let mut groups = text.split(',').map(str::len);
+            assert!(groups.next().is_some_and(|first| (1..=3).contains(&first)), "{text}");
+            assert!(groups.all(|digits| digits == 3), "{text}");
         }
-        assert_eq!(count(u64::MAX), "18,446,744,073,709,551,615");
+        assert_eq!(count(37_987), "37,987");
     }
 
     #[test]
@@ -147,27 +174,62 @@ mod tests {
     }
 
     #[test]
-    fn estimates_have_two_digits() {
-        for (value, text) in [
-            (0, "0"),
-            (617_034, "620,000"),
-            (1_234_567, "1.2 million"),
-            (19_999_999, "20 million"),
-            (996_000_000, "1 billion"),
-            (7_560_000_000, "7.6 billion"),
-        ] {
-            assert_eq!(about(value), text);
+    fn random_intervals_hold_theirs_with_at_most_a_digit_more() {
+        let mut random = fastrand::Rng::with_seed(36);
+        let mut narrow = 0;
+        for _ in 0..2_000 {
+            let upper = 10_f64.powf(12.0 * random.f64() - 6.0);
+            let lower = upper * (1.0 - 10_f64.powf(-7.0 * random.f64()));
+            let text = interval(lower, upper);
+            let Some((low, high)) = text.split_once(" … ") else {
+                assert!(text.contains("within") && upper - lower < 1e-4 * upper, "{lower} {upper}: {text}");
+                narrow += 1;
+                continue;
+            };
+            let (low, high) = (read(low).0, read(high).0);
+            let room = 1e-9 * upper;
+            assert!(low <= lower + room && upper <= high + room, "{lower} {upper}: {text}");
+            assert!(high - low < 2.0 * (upper - lower) + room, "{lower} {upper}: {text}");
         }
+        assert!((20..1_000).contains(&narrow), "{narrow}");
+    }
+
+    #[test]
+    fn estimates_have_two_digits() {
+        let said = |value: u64| {
+            let text = about(value);
+            let (number, unit) = read(&text);
+            number
+                * [("", 1.0), ("million", 1e6), ("billion", 1e9)]
+                    .iter()
+                    .find(|(name, _)| *name == unit)
+                    .unwrap()
+                    .1
+        };
+        for value in random_counts().chain([0, 999_999, 19_999_999, 996_000_000]) {
+            let off = (said(value) - value as f64).abs();
+            assert!(off <= 0.05 * value as f64, "{value}: {}", about(value));
+            let digits = about(value).chars().filter(char::is_ascii_digit).collect::<String>();
+            assert!(digits.trim_matches('0').len() <= 2, "{value}: {digits}");
+        }
+        assert_in_order(random_counts().map(|value| value as f64).collect(), |value| said(value as u64));
+        assert_eq!([about(617_034), about(996_000_000)], ["620,000", "1 billion"]);
         assert_eq!([about_change(20_312_345), about_change(-617_034)], ["+20 million", "−620,000"]);
     }
 
     #[test]
     fn fixed_decimals_keep_their_width() {
-        assert_eq!(fixed(1234.5, 2), "1,234.50");
-        assert_eq!(fixed(-0.25, 1), "−0.2");
-        assert_eq!(fixed(-0.0001, 2), "0.00");
-        assert_eq!(fixed(f64::NAN, 2), "–");
-        assert_eq!(fixed(f64::NEG_INFINITY, 2), "−∞");
+        let mut random = fastrand::Rng::with_seed(37);
+        for _ in 0..2_000 {
+            let (value, decimals) = (1e5 * (random.f64() - 0.5), random.usize(..6));
+            let text = fixed(value, decimals);
+            let (said, rest) = read(&text);
+            assert!((said - value).abs() <= 0.500_001 * 0.1_f64.powi(decimals as i32), "{value}: {text}");
+            let after = text.split_once('.').map_or(0, |(_, after)| after.len());
+            assert!(after == decimals && rest.is_empty(), "{value}: {text}");
+        }
+        assert_eq!([fixed(1234.5, 2), fixed(-0.25, 1), fixed(-0.0001, 2)], ["1,234.50", "−0.2", "0.00"]);
+        assert_eq!([fixed(f64::NAN, 2), fixed(f64::NEG_INFINITY, 2)], ["–", "−∞"]);
     }
 
     #[test]
@@ -189,45 +251,64 @@ mod tests {
 
     #[test]
     fn decimals_follow_the_step() {
-        for (step, decimals) in [(1.0, 0), (0.5, 1), (0.01, 2), (0.001, 3), (25.0, 0), (0.0, 0), (1e-30, 15)]
-        {
-            assert_eq!(decimals_for(step), decimals, "{step}");
+        let mut random = fastrand::Rng::with_seed(38);
+        for _ in 0..2_000 {
+            let step = 10_f64.powf(20.0 * random.f64() - 17.0);
+            let decimals = decimals_for(step) as i32;
+            let is_fine = |decimals: i32| 0.1_f64.powi(decimals) <= step * (1.0 + 1e-8);
+            assert!(is_fine(decimals) || decimals == 15, "{step}");
+            assert!(decimals == 0 || !is_fine(decimals - 1), "{step}");
         }
+        assert_eq!([1.0, 0.5, 0.001, 25.0, 0.0, f64::NAN].map(decimals_for), [0, 1, 3, 0, 0, 0]);
         assert_eq!(coordinate(0.58134, 0.0004, LengthUnit::None), "0.5813");
         assert_eq!(coordinate(23.58134, 0.01, LengthUnit::Degree), "23.58°");
     }
 
-    #[test]
-    fn times_have_a_suitable_unit() {
-        for (seconds, text) in [
-            (4e-4, "0.4 ms"),
-            (1e-6, "<0.1 ms"),
-            (0.037, "37 ms"),
-            (1.24, "1.24 s"),
-            (12.0, "12.0 s"),
-            (125.0, "2 min 05 s"),
-            (119.7, "2 min 00 s"),
-            (7260.0, "2 h 01 min"),
-            (-1.0, "–"),
-        ] {
-            assert_eq!(time(seconds), text);
+    /// Returns the seconds that a time says, and those that one more in its last digit would be.
+    fn read_time(text: &str) -> (f64, f64) {
+        let (first, rest) = read(text.trim_start_matches('<'));
+        let decimals = text.split_once('.').map_or(0, |(_, rest)| rest.find(' ').unwrap());
+        let digit = 0.1_f64.powi(decimals as i32);
+        match rest.split_once(' ') {
+            None if rest == "ms" => (1e-3 * first, 1e-3 * digit),
+            None => (first, digit),
+            Some(("min", seconds)) => (60.0 * first + read(seconds).0, 1.0),
+            Some((_, minutes)) => (3600.0 * first + 60.0 * read(minutes).0, 60.0),
         }
     }
 
     #[test]
-    fn file_sizes_have_a_suitable_unit() {
-        for (bytes, text) in [
-            (0, "0 B"),
-            (999, "999 B"),
-            (1_000, "1.0 kB"),
-            (14_400, "14 kB"),
-            (999_700, "1.0 MB"),
-            (1_250_000, "1.2 MB"),
-            (13_900_000, "14 MB"),
-            (2_300_000_000, "2.3 GB"),
-        ] {
-            assert_eq!(file_size(bytes), text);
+    fn times_have_a_suitable_unit() {
+        let mut random = fastrand::Rng::with_seed(39);
+        let edges = [0.0095, 0.9995, 9.995, 59.95, 3599.5, 7199.5].map(|edge: f64| edge * (1.0 + 1e-9));
+        let times: Vec<f64> =
+            (0..4_000).map(|_| 10_f64.powf(9.5 * random.f64() - 4.2)).chain(edges).collect();
+        for &seconds in &times {
+            let text = time(seconds);
+            let (said, digit) = read_time(&text);
+            assert!((said - seconds).abs() <= 0.500_001 * digit, "{seconds}: {text}");
+            // Two digits at least, from a millisecond on, and no more characters than fit a column.
+            assert!(seconds < 1e-3 || digit <= 0.101 * seconds, "{seconds}: {text}");
+            assert!(text.chars().count() <= 11, "{seconds}: {text}");
         }
+        assert_in_order(times, |seconds| read_time(&time(seconds)).0);
+        assert_eq!([4e-4, 1e-6, 125.0, -1.0].map(time), ["0.4 ms", "<0.1 ms", "2 min 05 s", "–"]);
+    }
+
+    #[test]
+    fn file_sizes_have_a_suitable_unit() {
+        let said = |bytes: u64| {
+            let text = file_size(bytes);
+            let (number, unit) = read(&text);
+            let power = ["B", "kB", "MB", "GB"].iter().position(|name| *name == unit).unwrap();
+            number * 1000_f64.powi(power as i32)
+        };
+        for bytes in random_counts().chain([0, 999, 1_000, 999_500, 999_700, 9_950_000]) {
+            let off = (said(bytes) - bytes as f64).abs();
+            assert!(off <= 0.05 * bytes as f64, "{bytes}: {}", file_size(bytes));
+        }
+        assert_in_order(random_counts().map(|bytes| bytes as f64).collect(), |bytes| said(bytes as u64));
+        assert_eq!([14_400, 1_250_000].map(file_size), ["14 kB", "1.2 MB"]);
     }
 
     #[test]
