@@ -160,6 +160,31 @@ mod tests {
     }
 
     #[test]
+    fn labels_say_the_degrees_of_their_line() {
+        let mut random = fastrand::Rng::with_seed(35);
+        let steps = [600.0, 300.0, 60.0, 30.0, 10.0, 5.0, 1.0, 0.5, 0.2, 0.05, 0.01];
+        for _ in 0..3_000 {
+            let (step, is_meridian) = (steps[random.usize(..steps.len())], random.bool());
+            let most = if is_meridian { 43_200.0 } else { 5_400.0 };
+            let minutes = step * (most / step * (2.0 * random.f64() - 1.0)).round();
+            let text = label(minutes, step, is_meridian);
+            let (number, letter) =
+                text.split_at(text.find(|c: char| c.is_ascii_uppercase()).unwrap_or(text.len()));
+            let mut parts = number.split(['°', '′']).map(|part| part.trim().parse::<f64>().unwrap_or(0.0));
+            let [degrees, rest] = [(); 2].map(|()| parts.next().unwrap_or(0.0));
+            assert!((0.0..60.0).contains(&rest), "{minutes}: {text}");
+            let said = (60.0 * degrees + rest) * if ["W", "S"].contains(&letter) { -1.0 } else { 1.0 };
+            // Meridians meet again after a turn.
+            let off = if is_meridian { (said - minutes) / 21_600.0 } else { (said - minutes) / 1e9 };
+            assert!((off - off.round()).abs() < 1e-9, "{minutes}: {text}");
+            assert!(
+                said.abs() <= 10_800.0 && ["", "E", "W"].contains(&letter) == (is_meridian || said == 0.0),
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
     fn lines_of_a_projection_are_meridians_and_parallels_through_the_area() {
         let corners = [dvec2(-7.0, 47.0), dvec2(0.0, 47.0), dvec2(0.0, 52.0), dvec2(-7.0, 52.0)];
         let extent = GeographicExtent::of_rings(std::iter::once(&corners[..])).unwrap();

@@ -213,35 +213,70 @@ impl ValueCurve {
 mod tests {
     use super::*;
 
+    /// Returns a curve of one to seven knots, with values from -1 to about 8.
+    fn random_curve(random: &mut fastrand::Rng) -> ValueCurve {
+        let mut value = -1.0;
+        let mut knot = |_| {
+            value += 1e-3 + 2.0 * random.f64();
+            [value, 1e-3 + random.f64()]
+        };
+        let knots = (0..7).map(&mut knot).collect::<Vec<_>>();
+        ValueCurve::new(knots[..random.usize(1..8)].to_vec()).unwrap()
+    }
+
+    /// The definition: on the segment of the knots around a value, or as at the nearest end.
+    fn by_segments(curve: &ValueCurve, value: f64) -> f64 {
+        let knots = curve.knots();
+        let around = knots.windows(2).find(|pair| pair[0][0] <= value && value <= pair[1][0]);
+        match around {
+            Some(&[[a, at_a], [b, at_b]]) => at_a + (at_b - at_a) * (value - a) / (b - a),
+            _ if value < knots[0][0] => knots[0][1],
+            _ => knots[knots.len() - 1][1],
+        }
+    }
+
     #[test]
     fn diameters_are_linear_between_knots_and_constant_beyond() {
-        let curve = ValueCurve::new(vec![[-10.0, 0.5], [0.0, 0.1], [100.0, 2.1]]).unwrap();
-        for (value, diameter) in [
-            (-1e9, 0.5),
-            (-10.0, 0.5),
-            (-5.0, 0.3),
-            (0.0, 0.1),
-            (25.0, 0.6),
-            (100.0, 2.1),
-            (f64::INFINITY, 2.1),
-        ] {
-            assert!((curve.diameter(value) - diameter).abs() < 1e-15, "{value}: {}", curve.diameter(value));
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let curve = random_curve(&mut random);
+            let value = 20.0 * random.f64() - 5.0;
+            let (found, expected) = (curve.diameter(value), by_segments(&curve, value));
+            assert!((found - expected).abs() < 1e-12, "{curve:?} at {value}: {found}, {expected}");
+            for &[value, diameter] in curve.knots() {
+                assert_eq!(curve.diameter(value), diameter, "{curve:?} at {value}");
+            }
         }
+        let curve = random_curve(&mut random);
+        assert_eq!(curve.diameter(f64::NEG_INFINITY), curve.knots()[0][1]);
+        assert_eq!(Some(curve.diameter(f64::INFINITY)), curve.knots().last().map(|knot| knot[1]));
         assert!(curve.diameter(f64::NAN).is_nan());
-        let one = ValueCurve::new(vec![[3.0, 0.7]]).unwrap();
-        assert_eq!([one.diameter(-1.0), one.diameter(3.0), one.diameter(8.0)], [0.7; 3]);
     }
 
     #[test]
     fn another_knot_lies_in_the_widest_gap_and_changes_no_diameter() {
-        let curve = ValueCurve::new(vec![[-10.0, 0.5], [0.0, 0.1], [100.0, 2.1]]).unwrap();
-        let finer = curve.with_another_knot().unwrap();
-        assert_eq!(finer.knots().len(), 4);
-        assert_eq!(finer.knots()[2][0], 50.0);
-        for value in [-20.0, -5.0, 20.0, 50.0, 70.0, 200.0] {
-            assert!((finer.diameter(value) - curve.diameter(value)).abs() < 1e-15, "{value}");
+        let mut random = fastrand::Rng::with_seed(36);
+        for _ in 0..500 {
+            let curve = random_curve(&mut random);
+            let Some(finer) = curve.with_another_knot() else { continue };
+            let is_new = |knot: &[f64; 2]| !curve.knots().contains(knot);
+            let place = finer.knots().iter().position(is_new).expect("there is another knot");
+            let gap =
+                |knots: &[[f64; 2]]| knots.windows(2).map(|pair| pair[1][0] - pair[0][0]).fold(0.0, f64::max);
+            if curve.knots().len() > 1 {
+                let around = &finer.knots()[place - 1..=place + 1];
+                assert!((around[2][0] - around[0][0] - gap(curve.knots())).abs() < 1e-12, "{finer:?}");
+                assert!((2.0 * gap(around) - gap(curve.knots())).abs() < 1e-12, "{finer:?}");
+            }
+            for _ in 0..10 {
+                let value = 20.0 * random.f64() - 5.0;
+                assert!(
+                    (finer.diameter(value) - curve.diameter(value)).abs() < 1e-12,
+                    "{curve:?} at {value}"
+                );
+            }
+            assert_eq!(finer.without_knot(place), Ok(curve));
         }
-        assert_eq!(finer.without_knot(2), Ok(curve));
         let full = ValueCurve::new(vec![[1.0, 0.5], [1.0f64.next_up(), 0.1]]).unwrap();
         assert_eq!(full.with_another_knot(), None);
         let widest = ValueCurve::new(vec![[f64::MIN, 0.5], [f64::MAX, 0.1]]).unwrap();

@@ -70,4 +70,39 @@ mod tests {
             assert_eq!(raster.linear_at(dvec2(x, y)), value, "{x}, {y}");
         }
     }
+
+    /// The sum over all pixels with a value, each with the weight of a tent around its centre.
+    fn by_tents(raster: &Raster, at: DVec2) -> Option<f64> {
+        let pixels = || raster.all().pixels().filter(|&(x, y)| !raster.get(x, y).is_nan());
+        let [x, y] = at.to_array().map(|v| v as u32);
+        pixels().find(|&pixel| pixel == (x, y))?;
+        let tent = |v: f64, n: u32| (1.0 - (v - 0.5 - f64::from(n)).abs()).max(0.0);
+        let terms = pixels().map(|(x, y)| {
+            let weight = tent(at.x, x) * tent(at.y, y);
+            [weight, weight * f64::from(raster.get(x, y))]
+        });
+        let [weights, sum] = terms.fold([0.0; 2], |sums, term| [sums[0] + term[0], sums[1] + term[1]]);
+        Some(sum / weights)
+    }
+
+    #[test]
+    fn random_rasters_have_the_values_of_tents_around_their_pixels() {
+        let mut random = fastrand::Rng::with_seed(35);
+        let mut gaps = 0;
+        for _ in 0..3_000 {
+            let size = [random.u32(1..6), random.u32(1..6)];
+            let value = |_| if random.u8(..4) == 0 { f32::NAN } else { random.f32() };
+            let values: Vec<f32> = (0..size[0] * size[1]).map(value).collect();
+            let last = DVec2::from(size.map(f64::from));
+            let raster = Raster::from_values(Rect::new(DVec2::ZERO, last), size, values);
+            let at = dvec2(random.f64(), random.f64()) * last;
+            let (found, expected) = (raster.linear_at(at), by_tents(&raster, at));
+            gaps += usize::from(found.is_none());
+            assert_eq!(found.is_some(), expected.is_some(), "{raster:?} at {at}");
+            assert!(found.zip(expected).is_none_or(|(a, b)| (a - b).abs() < 1e-6), "{raster:?} at {at}");
+            assert_eq!(raster.linear_at(at + last), None);
+            assert_eq!(raster.linear_at(at - last), None);
+        }
+        assert!((300..1_500).contains(&gaps), "{gaps}");
+    }
 }

@@ -116,6 +116,36 @@ mod tests {
     }
 
     #[test]
+    fn random_lengths_are_read_in_every_unit() {
+        use LengthUnit::{Degree, Metre, None};
+        let units: [(&str, f64, LengthUnit); 7] = [
+            ("", 1.0, None),
+            ("m", 1.0, Metre),
+            ("km", 1e3, Metre),
+            ("nmi", 1852.0, Metre),
+            ("cm", 0.01, Metre),
+            ("°", 1.0, Degree),
+            ("deg", 1.0, Degree),
+        ];
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let value = 2e4 * random.f64() - 1e4;
+            let number = match random.u8(..3) {
+                0 => format!("{value}"),
+                1 => format!("{value:e}"),
+                _ => format!("{value:.2}"),
+            };
+            let (symbol, in_unit, unit) = units[random.usize(..units.len())];
+            let space = if random.bool() { " " } else { "" };
+            let text = format!("{number}{space}{symbol}").trim_end().to_owned();
+            let length: Length = text.parse().unwrap_or_else(|message| panic!("{text}: {message}"));
+            let expected = number.parse::<f64>().unwrap() * in_unit;
+            assert!((length.value - expected).abs() <= 1e-12 * expected.abs(), "{text}: {length:?}");
+            assert_eq!((length.unit, length.to_string()), (unit, text));
+        }
+    }
+
+    #[test]
     fn a_unit_has_a_meaning_only_where_lengths_are_in_it() {
         let length = |text: &str| text.parse::<Length>().unwrap();
         for (text, of_document, sentence) in [

@@ -13,10 +13,19 @@ mod tests {
 
     #[test]
     fn round_numbers_are_one_two_or_five() {
-        for (limit, length) in
-            [(1.0, 1.0), (1.9, 1.0), (2.0, 2.0), (4.99, 2.0), (731.0, 500.0), (0.099, 0.05)]
-        {
-            assert!((round_below(limit) / length - 1.0).abs() < 1e-12, "{limit}");
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let limit = libm::exp10(30.0 * random.f64() - 15.0);
+            let round = round_below(limit);
+            assert!(
+                round <= limit * (1.0 + 1e-12) && limit < 2.5 * round * (1.0 + 1e-12),
+                "{limit}: {round}"
+            );
+            // Written in the powers of ten, it has the one digit.
+            let text = format!("{round:.11e}");
+            assert!(["1.0", "2.0", "5.0"].contains(&&text[..3]), "{limit}: {text}");
+            assert!((round_below(round) / round - 1.0).abs() < 1e-12, "{round} stays as it is");
         }
+        assert_eq!([1.0, 2.0, 731.0].map(round_below), [1.0, 2.0, 500.0]);
     }
 }

@@ -106,7 +106,7 @@ fn unknown_unit(suffix: &str, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{rounded, significant};
+    use super::super::{group_digits, rounded, significant};
     use super::*;
 
     #[test]
@@ -150,8 +150,32 @@ mod tests {
 
     #[test]
     fn the_shown_number_is_the_rounded_value() {
-        for value in [0.0637219, 12345.678, 9.9999, 1e-9, -3.24159] {
-            assert_eq!(number(&significant(value, 3), ""), Ok(rounded(value, 3)));
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let value = (2.0 * random.f64() - 1.0) * libm::exp10(24.0 * random.f64() - 12.0);
+            let digits = random.usize(1..9);
+            let text = significant(value, digits);
+            assert_eq!(number(&text, ""), Ok(rounded(value, digits)), "{value} to {digits} digits: {text}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_read_with_spaces_commas_signs_and_units_around_them() {
+        let mut random = fastrand::Rng::with_seed(36);
+        for _ in 0..2_000 {
+            let value = f64::from(random.i32(-9_999_999..9_999_999)) / [1.0, 10.0, 1000.0][random.usize(..3)];
+            let plain = value.abs().to_string();
+            let (whole, decimals) = plain.split_at(plain.find('.').unwrap_or(plain.len()));
+            let digits = if random.bool() { format!("{}{decimals}", group_digits(whole)) } else { plain };
+            let text = format!("{}{digits}", if value < 0.0 { "-" } else { "" });
+            let text = if random.bool() { text.replace('-', "−") } else { text };
+            let (unit, factor) =
+                [("", 1.0), (" m", 1.0), ("m", 1.0), (" km", 1e3), (" nmi", 1852.0), ("k", 1e3)]
+                    [random.usize(..6)];
+            let text =
+                format!("{}{text}{unit}{}", " ".repeat(random.usize(..2)), " ".repeat(random.usize(..2)));
+            let read = number(&text, "m").unwrap_or_else(|message| panic!("{text}: {message}"));
+            assert!((read - factor * value).abs() <= 1e-12 * (factor * value).abs(), "{text}: {read}");
         }
     }
 }

@@ -383,12 +383,23 @@ mod tests {
 
     #[test]
     fn a_scale_and_back_is_the_identity() {
-        for (range, logarithmic) in [(0.0..=1.0, false), (-5.0..=20.0, false), (1e-4..=10.0, true)] {
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..2_000 {
+            let logarithmic = random.bool();
+            let low = if logarithmic { 1e-6 + random.f64() } else { 40.0 * random.f64() - 20.0 };
+            let range = low..=low + 1e-3 + 1e3 * random.f64().powi(4);
             let scale = Scale::new(&range, logarithmic);
-            for i in 0..=20 {
-                let share = f64::from(i) / 20.0;
-                assert!((scale.share(scale.value(share)) - share).abs() < 1e-12);
-            }
+            let [share, other] = [(); 2].map(|()| random.f64());
+            assert!((scale.share(scale.value(share)) - share).abs() < 1e-9, "{range:?} {share}");
+            assert!(
+                (share < other) == (scale.value(share) < scale.value(other)),
+                "{range:?} {share} {other}"
+            );
+            assert!((scale.value(0.0) - low).abs() < 1e-9 && scale.share(low - 1.0) == 0.0, "{range:?}");
+            assert!(
+                (scale.value(1.0) / range.end() - 1.0).abs() < 1e-9 || range.end().abs() < 1e-3,
+                "{range:?}"
+            );
         }
     }
 

@@ -430,12 +430,17 @@ mod tests {
 
     #[test]
     fn the_shape_is_found_for_a_point_of_the_curve() {
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..200 {
+            let h_max = 1e-3 + random.f64();
+            let mut value = CurveValues { h_max, h_risk: h_max * (0.001 + 0.9 * random.f64()), shape: 1.0 };
+            let curve = TransferCurve::new(&mut value, &power, 1e-9..=2.0, 0.1..=10.0);
+            let shape = 0.1 * 100_f64.powf(random.f64());
+            let through = curve.middle(shape);
+            assert!((curve.shape_through(through) - shape).abs() < 1e-6, "{through} {shape}");
+        }
         let mut value = CurveValues { h_max: 0.2, h_risk: 0.002, shape: 1.0 };
         let curve = TransferCurve::new(&mut value, &power, 1e-4..=1.0, 0.1..=10.0);
-        for shape in [0.2, 1.0, 3.7] {
-            let through = curve.middle(shape);
-            assert!((curve.shape_through(through) - shape).abs() < 1e-6);
-        }
         assert!(curve.shape_through(10.0) > 9.99, "beyond the range its end is nearest");
     }
 
