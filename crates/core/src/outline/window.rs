@@ -26,6 +26,8 @@ pub(super) const SLACK: u32 = 2;
 /// Nodes with the number of rings of triangles between them and some of them.
 pub(super) struct Rings {
     pub(super) nodes: Vec<NodeId>,
+    /// Where the nodes of the last ring begin.
+    last_ring: usize,
     rings: Pages,
 }
 
@@ -47,20 +49,20 @@ impl Rings {
         rings: u32,
         pass: impl Fn(TriangleId) -> bool,
     ) -> (Self, Triangles) {
-        let mut found = Self { nodes: Vec::new(), rings: Pages::for_entries(mesh.raw_nodes().len()) };
+        let mut found =
+            Self { nodes: Vec::new(), last_ring: 0, rings: Pages::for_entries(mesh.raw_nodes().len()) };
         let mut triangles = Triangles::new(mesh);
         first.into_iter().for_each(|node| found.add(node, 0));
-        let mut start = 0;
         for ring in 1..=rings {
             let end = found.nodes.len();
-            for n in start..end {
+            for n in found.last_ring..end {
                 for id in mesh.all_triangles_around(found.nodes[n]) {
                     if triangles.add(id) && pass(id) {
                         mesh.triangle(id).vertices.into_iter().for_each(|node| found.add(node, ring));
                     }
                 }
             }
-            start = end;
+            found.last_ring = end;
         }
         (found, triangles)
     }
@@ -151,7 +153,7 @@ impl Window {
     ) -> Self {
         let reach = SURE_RINGS + slack;
         let (rings, mut all) = Rings::with_triangles(mesh, sure, reach, pass);
-        for &node in &rings.nodes {
+        for &node in &rings.nodes[rings.last_ring..] {
             mesh.all_triangles_around(node).for_each(|id| _ = all.add(id));
         }
         let around = all.ids;
