@@ -520,6 +520,33 @@ const tests = {
     await until("the work is restored", async () => (await fingerprint(next)) === painted);
   },
 
+  // BACKGROUND_MINUTES=60 leaves it there for an hour.
+  async "a tab that was frozen in the background goes on where it was"({ page }) {
+    await page.goto(url);
+    const fresh = await settled(page);
+    await paint(page);
+    const painted = await settled(page);
+    await paint(page, [300, 500]);
+    const client = await page.context().newCDPSession(page);
+    const front = await page.context().newPage();
+    await front.bringToFront();
+    // The browser stops it in the middle of its work.
+    await client.send("Page.setWebLifecycleState", { state: "frozen" });
+    await sleep(60_000 * Number(process.env.BACKGROUND_MINUTES ?? 0.1));
+    await client.send("Page.setWebLifecycleState", { state: "active" });
+    await page.bringToFront();
+    const twice = await settled(page);
+    assert.ok(twice !== painted && twice === onDesktop(await projectOf(page)));
+    await page.keyboard.press("Control+z");
+    await until("undo", async () => (await fingerprint(page)) === painted);
+    await page.keyboard.press("Control+z");
+    await until("undo", async () => (await fingerprint(page)) === fresh);
+    await paint(page);
+    assert.equal(await settled(page), painted, "the same stroke");
+    const frames = await page.evaluate(() => window.frameTimes.slice(-60));
+    assert.ok(frames.length > 30, "it draws");
+  },
+
   async "an example that the server does not send is a sentence, and can be opened later"({ page }) {
     await page.route("**/assets/**", (route) => route.fulfill({ status: 404, body: "" }));
     await page.goto(url);
