@@ -3,7 +3,7 @@
 use meshbrush_core::document::NoPaintLayer::Missing;
 use meshbrush_core::document::Setting;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Quantity};
-use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
+use meshbrush_core::paint::{Brush, Medium, Mirror};
 use wasm_bindgen::prelude::*;
 
 use crate::document::Core;
@@ -49,7 +49,8 @@ impl Core {
             }
         }
         let radius = settings.domain.in_plane(radius, first);
-        let brush = Brush { medium: medium(quantity, value, change)?, radius, hardness, strength };
+        let medium = Medium::named(quantity, value, change).map_err(error)?;
+        let brush = Brush { medium, radius, hardness, strength };
         if matches!(brush.medium, Medium::Risk(_)) && !self.has_smallest {
             return Err(error("Risk needs hMin: the smallest target diameter, where the risk is 1."));
         }
@@ -83,27 +84,5 @@ impl Core {
         }
         self.document.begin_mirrored_stroke(brush, mirror);
         Ok(())
-    }
-}
-
-fn medium(quantity: &str, value: f64, change: &str) -> Result<Medium, JsError> {
-    let change = match change {
-        "finer" => DiameterChange::Finer,
-        "coarser" => DiameterChange::Coarser,
-        "any" => DiameterChange::Any,
-        word => {
-            let advice = "write one of finer, coarser, any.";
-            return Err(error(format_args!("change: \"{word}\" is not possible here; {advice}")));
-        }
-    };
-    let refused = |rule: &str| Err(refused(quantity, value, rule));
-    match quantity {
-        "diameter" if value > 0.0 && value.is_finite() => Ok(Medium::Diameter(value, change)),
-        "diameter" => refused("a length must be positive and finite"),
-        "error" if value > 0.0 && value < f64::from(f32::MAX) => Ok(Medium::Error(value)),
-        "error" => refused("an error must be positive and finite"),
-        "risk" if (0.0..=1.0).contains(&value) => Ok(Medium::Risk(value)),
-        "risk" => refused("a risk lies from 0 to 1"),
-        _ => Ok(Medium::Eraser),
     }
 }

@@ -2,7 +2,7 @@
 
 use meshbrush_core::document::Setting;
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, Quantity};
-use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
+use meshbrush_core::paint::{Brush, Medium, Mirror};
 use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
 use meshbrush_io::io::recipe::{BesideLayer, LoadedLayer, Loading};
 use numpy::PyReadonlyArray2;
@@ -117,7 +117,8 @@ impl Document {
             return Err(mesh_error(format!("radius: {radius} cannot be used: {rule}.")));
         }
         let radius = points.first().map_or(radius, |&first| domain.in_plane(radius, first));
-        let brush = Brush { medium: medium(quantity, value, change)?, radius, hardness, strength };
+        let medium = Medium::named(quantity, value, change).map_err(mesh_error)?;
+        let brush = Brush { medium, radius, hardness, strength };
         let state = self.state.clone();
         let painted = run(py, &Watching::QUIET, move |watch| {
             let mut state = lock(&state);
@@ -225,31 +226,6 @@ impl LayerChange {
         layer.visible = self.visible.unwrap_or(layer.visible);
         layer.locked = self.locked.unwrap_or(layer.locked);
         layer.combine = self.combine.map_or(layer.combine, Into::into);
-    }
-}
-
-fn medium(quantity: &str, value: f64, change: &str) -> PyResult<Medium> {
-    let change = match change {
-        "finer" => DiameterChange::Finer,
-        "coarser" => DiameterChange::Coarser,
-        "any" => DiameterChange::Any,
-        word => {
-            let advice = "write one of finer, coarser, any.";
-            return Err(mesh_error(format!("change: \"{word}\" is not possible here; {advice}")));
-        }
-    };
-    match quantity {
-        "diameter" if value > 0.0 && value.is_finite() => Ok(Medium::Diameter(value, change)),
-        "diameter" => Err(mesh_error(format!(
-            "diameter: {value} cannot be used: a length must be positive and finite."
-        ))),
-        "error" if value > 0.0 && value < f64::from(f32::MAX) => Ok(Medium::Error(value)),
-        "error" => {
-            Err(mesh_error(format!("error: {value} cannot be used: an error must be positive and finite.")))
-        }
-        "risk" if (0.0..=1.0).contains(&value) => Ok(Medium::Risk(value)),
-        "risk" => Err(mesh_error(format!("risk: {value} cannot be used: a risk lies from 0 to 1."))),
-        _ => Ok(Medium::Eraser),
     }
 }
 

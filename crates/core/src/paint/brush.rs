@@ -4,6 +4,7 @@ use crate::field::f32_not_below;
 use crate::geometry::nearest_share;
 use crate::layers::Quantity;
 use crate::mesh::TargetChange;
+use crate::text::Number;
 
 /// The effect of a brush on the pixels under it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +21,34 @@ pub enum Medium {
 }
 
 impl Medium {
+    /// Returns the medium that a program names: `quantity` is `risk`, `diameter` or `error` with its value,
+    /// and anything else the eraser. `change`, which is `finer`, `coarser` or `any`, counts for diameters
+    /// alone.
+    ///
+    /// # Errors
+    /// Fails with a sentence for another change, and for a value that the quantity cannot have.
+    pub fn named(quantity: &str, value: f64, change: &str) -> Result<Self, String> {
+        let change = match change {
+            "finer" => DiameterChange::Finer,
+            "coarser" => DiameterChange::Coarser,
+            "any" => DiameterChange::Any,
+            word => {
+                let advice = "write one of finer, coarser, any.";
+                return Err(format!("change: \"{word}\" is not possible here; {advice}"));
+            }
+        };
+        let refused = |rule: &str| Err(format!("{quantity}: {} cannot be used: {rule}.", Number(value)));
+        match quantity {
+            "diameter" if value > 0.0 && value.is_finite() => Ok(Self::Diameter(value, change)),
+            "diameter" => refused("a length must be positive and finite"),
+            "error" if value > 0.0 && value < f64::from(f32::MAX) => Ok(Self::Error(value)),
+            "error" => refused("an error must be positive and finite"),
+            "risk" if (0.0..=1.0).contains(&value) => Ok(Self::Risk(value)),
+            "risk" => refused("a risk lies from 0 to 1"),
+            _ => Ok(Self::Eraser),
+        }
+    }
+
     /// Returns the effect on the target diameters of pixels. `h_max` is the largest diameter, in world units.
     pub fn change(&self, h_max: f64) -> TargetChange {
         match *self {
@@ -211,4 +240,35 @@ impl Mirror {
 pub(super) fn nearest_on_path(point: DVec2, [a, b]: [DVec2; 2]) -> (f64, f64) {
     let share = nearest_share(point, [a, b]);
     (share, (point - a - (b - a) * share).length())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_medium_is_named_by_words_and_values_that_its_quantity_can_have() {
+        let values = [-1.0, -0.0, 0.0, 1e-300, 0.5, 1.0, 1.0f64.next_up(), 1e39, f64::INFINITY, f64::NAN];
+        for value in values {
+            let named = |quantity| Medium::named(quantity, value, "coarser");
+            let is_length = value > 0.0 && value < f64::INFINITY;
+            assert_eq!(named("diameter").is_ok(), is_length, "{value}");
+            assert_eq!(named("risk").is_ok(), (0.0..=1.0).contains(&value), "{value}");
+            assert_eq!(named("error").is_ok(), is_length && value < 1e39, "{value}");
+            assert_eq!(named("eraser"), Ok(Medium::Eraser));
+            for quantity in ["diameter", "risk", "error"] {
+                let sentence = named(quantity).err().unwrap_or_default();
+                assert!(
+                    sentence.is_empty() || sentence.starts_with(&format!("{quantity}: {}", Number(value)))
+                );
+            }
+        }
+        assert_eq!(Medium::named("risk", 0.25, "finer"), Ok(Medium::Risk(0.25)));
+        assert_eq!(Medium::named("error", 2.0, "finer"), Ok(Medium::Error(2.0)));
+        let diameter = |word| Medium::named("diameter", 2.0, word);
+        assert_eq!(diameter("finer"), Ok(Medium::Diameter(2.0, DiameterChange::Finer)));
+        assert_eq!(diameter("coarser"), Ok(Medium::Diameter(2.0, DiameterChange::Coarser)));
+        assert_eq!(diameter("any"), Ok(Medium::Diameter(2.0, DiameterChange::Any)));
+        assert!(diameter("smaller").unwrap_err().starts_with("change: \"smaller\" is not possible here"));
+    }
 }
