@@ -40,14 +40,17 @@ fn budget_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
         set_once(Setting::MaxTriangles(triangles as usize), commands);
     }
     let mut gigabytes = settings.max_memory as f64 / GIGABYTE;
-    let help = "Most memory, in gigabytes, for the mesh and for the next one while that is built: 98 bytes a triangle. \
-                The smaller of the two budgets counts.";
+    let help = format!(
+        "Most memory, in gigabytes, for the mesh and for the next one while that is built: {} bytes a triangle. The \
+         smaller of the two budgets counts.",
+        MemoryLimit::TWO_MESHES
+    );
     let range = LEAST_MEMORY as f64 / GIGABYTE..=MOST_MEMORY;
     let row = NumberRow::new("Memory budget", &mut gigabytes)
         .aligned_with(TRIANGLE_BUDGET)
         .range(range)
         .unit("GB")
-        .help(help);
+        .help(&help);
     if row.default(usual.max_memory as f64 / GIGABYTE).show(ui).changed() {
         let max_memory = (gigabytes * GIGABYTE).round() as usize;
         set_once(Setting::MaxMemory(max_memory), commands);
