@@ -70,8 +70,8 @@ impl Scene {
         }
     }
 
-    /// Returns the work of one frame: an edit, and slices until the mesh is up to date or the budget is spent;
-    /// and whether it is up to date.
+    /// Returns the work of one frame: an edit, and slices until the mesh is up to date or the budget is
+    /// spent; and whether it is up to date.
     pub fn frame(&mut self, edit: impl FnOnce(&mut Document)) -> (Duration, bool) {
         let began = Instant::now();
         edit(&mut self.document);
@@ -117,8 +117,15 @@ impl Scene {
 
     /// Paints a dab, and returns the time of following it. Drawing the pixels is not counted.
     pub fn dab(&mut self, brush: Brush, at: DVec2) -> Duration {
+        self.dab_and_pixels(brush, at)[0]
+    }
+
+    /// Paints a dab, and returns the time of following it and that of drawing its pixels.
+    pub fn dab_and_pixels(&mut self, brush: Brush, at: DVec2) -> [Duration; 2] {
+        let began = Instant::now();
         paint_dab(&mut self.document, brush, at);
-        self.slices.follow(&mut self.document, &mut self.follower)
+        let pixels = began.elapsed();
+        [self.slices.follow(&mut self.document, &mut self.follower), pixels]
     }
 
     /// Returns the time in which the price of a dab is known, and the price. The first slices draw the dab on

@@ -1,8 +1,8 @@
-//! The speed of the program on one machine, as a page: `cargo bench -p meshbrush-benches --bench speed` writes
-//! `docs/speed.md`.
+//! The speed of the program on one machine, as a page: `cargo bench -p meshbrush-benches --bench speed`
+//! writes `docs/speed.md`.
 //!
-//! Everything goes through the types of the window: document, follower and pricer, in slices of its pace. With
-//! the words `--bench speed -- short` only small meshes are measured, and nothing is written.
+//! Everything goes through the types of the window: document, follower and pricer, in slices of its pace.
+//! With the words `--bench speed -- short` only small meshes are measured, and nothing is written.
 //!
 //! Where a C compiler and the library ALBERTA are installed, it refines the same mesh (`alberta.c`).
 
@@ -15,12 +15,15 @@ use glam::{DVec2, dvec2};
 use meshbrush_benches::documents::{SIDE, diameter, layered, painted};
 use meshbrush_benches::scene::{Scene, Times, figure_eight, move_threat, show_threats};
 use meshbrush_benches::window::{BRUSH, Pool, median_ms, pools};
-use meshbrush_benches::{diamond, field, memory};
+use meshbrush_benches::{diamond, field, memory, resident};
 use meshbrush_core::document::Document;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
-use meshbrush_mesh::mesh::{Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
+use meshbrush_mesh::mesh::{BlockRefiner, Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
 
 fn main() {
+    if resident::answer() {
+        return;
+    }
     let is_short = std::env::args().any(|argument| argument == "short");
     let pools = pools();
     let mut page = String::new();
@@ -28,6 +31,10 @@ fn main() {
     generation(&mut page, &pools, if is_short { &[5, 9] } else { &[5, 13, 17] });
     dabs(&mut page, &pools, is_short);
     large_edits(&mut page, &pools, is_short);
+    more_cores(&mut page, &pools, is_short);
+    if !is_short {
+        memory_of_cases(&mut page);
+    }
     print!("{page}");
     if !is_short {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/speed.md");
@@ -185,9 +192,10 @@ fn alberta_rate(program: &Path, level: u32) -> Option<f64> {
 /// The dab of the bench *update*, and one of as many triangles on layers.
 fn dabs(page: &mut String, pools: &[Pool], is_short: bool) {
     *page += "## A dab\n\nMilliseconds until the mesh is up to date after a dab is painted and erased at the same place, \
-        and until its price is known (the pixels of the dab included). *Scratch* is the whole mesh made again.\n\n";
-    *page += "| document | triangles | threads | changes | paint | erase | price of painting | price of erasing | scratch |\n";
-    *page += "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+        and until its price is known. *Pixels* is the time of drawing the dab alone, which each price contains and the \
+        update does not. *Scratch* is the whole mesh made again.\n\n";
+    *page += "| document | triangles | threads | changes | paint | erase | pixels | price of painting | price of erasing | scratch |\n";
+    *page += "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     let plain = |fine: f64| Brush {
         medium: Medium::Diameter(fine * (1.0 + 1e-6), DiameterChange::Finer),
         radius: 78.0 / f64::from(SIDE),
@@ -216,22 +224,24 @@ fn dab_rows(page: &mut String, pools: &[Pool], name: &str, mut scene: Scene, bru
     let rounds = if scene.triangles() > 4_000_000 { 7 } else { 25 };
     for pool in pools {
         let count = scene.triangles();
-        let mut times: [Vec<Duration>; 4] = Default::default();
+        let mut times: [Vec<Duration>; 5] = Default::default();
         let mut changes = 0;
         pool.run(|| {
             for _ in 0..rounds {
                 times[2].push(scene.price(brush, at).0);
-                times[0].push(scene.dab(brush, at));
+                let [follow, pixels] = scene.dab_and_pixels(brush, at);
+                times[0].push(follow);
+                times[4].push(pixels);
                 changes = scene.triangles().abs_diff(count);
                 times[3].push(scene.price(eraser, at).0);
                 times[1].push(scene.dab(eraser, at));
             }
         });
-        let [paint, erase, price, price_of_erasing] = times.map(median_ms);
+        let [paint, erase, price, price_of_erasing, pixels] = times.map(median_ms);
         write_line(
             page,
             format_args!(
-                "| {name} | {count} | {} | {changes} | {paint:.2} | {erase:.2} | {price:.2} | {price_of_erasing:.2} | {:.1} |",
+                "| {name} | {count} | {} | {changes} | {paint:.2} | {erase:.2} | {pixels:.2} | {price:.2} | {price_of_erasing:.2} | {:.1} |",
                 pool.threads,
                 1e3 * scene.scratch.as_secs_f64()
             ),
@@ -247,7 +257,7 @@ fn large_edits(page: &mut String, pools: &[Pool], is_short: bool) {
     *page += "| gradation | triangles | threads | threat moved | layer hidden | layer shown | stroke, frame | behind | scratch |\n";
     *page += "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for gradation in [None, Some(0.5)] {
-        let mut scene = Scene::new(layered(if is_short { 0.016 } else { 0.0011 }, gradation));
+        let mut scene = Scene::new(layered(if is_short { 0.004 } else { 0.0011 }, gradation));
         for pool in pools {
             pool.run(|| large_edits_row(page, &mut scene, pool.threads, gradation));
         }
@@ -287,4 +297,97 @@ fn large_edits_row(page: &mut String, scene: &mut Scene, threads: usize, gradati
             1e3 * scene.scratch.as_secs_f64()
         ),
     );
+}
+
+/// The time of the steps of generation and of two large edits on one thread and on all, and what follows for
+/// more cores by Amdahl's law.
+fn more_cores(page: &mut String, pools: &[Pool], is_short: bool) {
+    let [one, all] = pools else { return };
+    *page += "## More cores\n\nMilliseconds on one thread and on all of this machine, the share of the work on one thread \
+        that follows by Amdahl's law, and what it lets expect of 8 and of 64 cores: a model, for memory that serves all \
+        of them. *Survey*, *skeleton* and *write* are the steps of the diamond in blocks.\n\n";
+    write_line(
+        page,
+        format_args!(
+            "| work | triangles | 1 thread | {} threads | serial | 8 cores | 64 cores |",
+            all.threads
+        ),
+    );
+    *page += "|---|---:|---:|---:|---:|---:|---:|\n";
+    let mut row = |name: &str, triangles: usize, [one, many]: [f64; 2]| {
+        let serial = serial_share(one, many, all.threads);
+        let on = |cores: f64| one * (serial + (1.0 - serial) / cores);
+        write_line(
+            page,
+            format_args!(
+                "| {name} | {triangles} | {one:.1} | {many:.1} | {:.0} % | {:.1} | {:.1} |",
+                100.0 * serial,
+                on(8.0),
+                on(64.0)
+            ),
+        );
+    };
+    let level = if is_short { 9 } else { 17 };
+    let [(triangles, on_one), (_, on_all)] = [one, all].map(|pool| pool.run(|| steps_in_blocks(level)));
+    for (n, name) in ["survey", "skeleton", "write"].into_iter().enumerate() {
+        row(name, triangles, [on_one[n], on_all[n]]);
+    }
+    let fine = if is_short { 0.004 } else { 0.0011 };
+    for (name, gradation) in [("eight layers", None), ("eight layers, gradation 0.5", Some(0.5))] {
+        let [on_one, on_all] =
+            [one, all].map(|pool| pool.run(|| scratch_and_shown(layered(fine, gradation))));
+        row(&format!("{name}, from scratch"), on_one.0, [on_one.1, on_all.1]);
+        row(&format!("{name}, layer shown"), on_one.0, [on_one.2, on_all.2]);
+    }
+    page.push('\n');
+}
+
+/// Returns the share of work that takes the same time on any number of threads.
+fn serial_share(one: f64, many: f64, threads: usize) -> f64 {
+    let threads = threads as f64;
+    ((threads * many / one - 1.0) / (threads - 1.0)).clamp(0.0, 1.0)
+}
+
+/// Returns the triangles of the diamond of a level, and the milliseconds of the three steps of its blocks.
+fn steps_in_blocks(level: u32) -> (usize, [f64; 3]) {
+    let coarse = diamond::coarse();
+    let within = diamond::rule_within(&coarse, level);
+    let mut mesh = coarse.clone();
+    in_blocks(&mut mesh, &within);
+    let mut times: [Vec<Duration>; 3] = Default::default();
+    for _ in 0..5 {
+        mesh.clone_from(&coarse);
+        let mut refiner = BlockRefiner::new(&mesh, Limits::default());
+        for step in &mut times {
+            let began = Instant::now();
+            refiner.advance(&mut mesh, &within, usize::MAX).expect("within the default limits");
+            step.push(began.elapsed());
+        }
+    }
+    (mesh.raw_triangle_count(), times.map(median_ms))
+}
+
+/// Returns the triangles of a document, and the milliseconds until it has a mesh and until it follows a layer
+/// that is shown.
+fn scratch_and_shown(document: Document) -> (usize, f64, f64) {
+    let mut scene = Scene::new(document);
+    let shown = (0..5).map(|_| {
+        scene.edit(|document| show_threats(document, false));
+        scene.edit(|document| show_threats(document, true)).rest
+    });
+    let shown = median_ms(shown.collect());
+    (scene.triangles(), 1e3 * scene.scratch.as_secs_f64(), shown)
+}
+
+/// What meshes take of the memory of a process.
+fn memory_of_cases(page: &mut String) {
+    *page += "## Memory\n\nBytes for each triangle of what belongs to the mesh, in a process of its own: once everything is \
+        done, and the most while it is made. The pixels of documents are counted before, and not here.\n\n";
+    *page += "| document | triangles | at rest | most |\n|---|---:|---:|---:|\n";
+    for case in resident::Case::ALL {
+        let Some(memory) = resident::measure(case) else { continue };
+        let resident::Memory { triangles, at_rest, most } = memory;
+        write_line(page, format_args!("| {} | {triangles} | {at_rest:.0} | {most:.0} |", case.name()));
+    }
+    page.push('\n');
 }
