@@ -13,8 +13,8 @@ use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
 use crate::layers::{PaintChange, PaintLayers, SizeField};
 use crate::mesh::{
-    ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
-    TriangleId, Updater,
+    ChangedArea, ChangedAreas, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule,
+    TreeTriangle, TriangleId, Updater,
 };
 use crate::surface::{SurfaceRule, SurfaceSamples};
 
@@ -63,13 +63,14 @@ const DEARER: usize = 8;
 fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
     let rule = criterion.shared();
     let mut answers = rule.answers();
+    let mut areas = ChangedAreas::new(areas.to_vec());
     let mut exceeds = |corners, level| answers.exceeds(corners, level).unwrap_or(false);
     let count = mesh.raw_triangle_count();
     let (mut asked, mut loose, mut changed) = (0, 0, 0);
     for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
         let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
-        let [asks, loosens] = ChangedArea::any_concerns(areas, mesh, corners, level);
+        let [asks, loosens] = areas.concerns(mesh, corners, level);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
         asked += usize::from(asks);
         loose += usize::from(loosens);

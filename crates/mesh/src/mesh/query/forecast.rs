@@ -18,8 +18,8 @@
 use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::kernel::{
-    Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
-    TargetChange, TreeTriangle, TriangleId, WalkEnd, ask_all,
+    Bitset, ChangedArea, ChangedAreas, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError,
+    SharedRule, TargetChange, TreeTriangle, TriangleId, WalkEnd, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -52,12 +52,13 @@ const BATCH: usize = 4096;
 pub struct Forecast {
     level_cap: u32,
     /// Where the rule has changed, and how.
-    areas: Vec<ChangedArea>,
+    areas: ChangedAreas,
     search: RectSearch,
     is_searching: bool,
     /// Triangles found by the search.
     reached: Bitset,
-    /// Nodes that are the newest vertex of all triangles around them, as far as found by the search.
+    /// Newest vertices of triangles found by the search: all triangles around one give the same star, or
+    /// none.
     centres: Bitset,
     /// Triangles that may exceed their target: entries of the mesh, or parts of such.
     open: Vec<Asked>,
@@ -105,7 +106,7 @@ impl Forecast {
         let hull = areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))?;
         Some(Self {
             level_cap: limits.level_cap(),
-            areas,
+            areas: ChangedAreas::new(areas),
             search: RectSearch::new(mesh, hull),
             is_searching: true,
             reached: Bitset::default(),
@@ -184,15 +185,17 @@ impl Forecast {
                 continue;
             };
             self.search.spread_from(mesh, id, &mut self.reached);
-            let [asks, loosens] = self.concerns(mesh, id);
+            let (corners, level) = (mesh.corners(id), mesh.triangle(id).level());
+            let [asks, loosens] = self.areas.concerns(mesh, corners, level);
             if asks {
                 found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
             }
             // Where a triangle around it was bisected, the newest vertex is looked at once that one is
             // restored.
             if loosens
-                && let Some(star) = mesh.star_of(id)
-                && self.centres.insert(star.centre().index())
+                && let Some(centre) = mesh.triangle(id).newest_vertex()
+                && self.centres.insert(centre.index())
+                && mesh.star_of(id).is_some()
             {
                 self.loose.push(id);
             }
@@ -204,14 +207,6 @@ impl Forecast {
         found.clear();
         self.batch = found;
         asked.map(|()| looked)
-    }
-
-    /// Returns whether an entry can have begun to exceed its target, and whether its parent can have ceased
-    /// to.
-    #[inline]
-    fn concerns(&self, mesh: &Mesh, id: TriangleId) -> [bool; 2] {
-        let (corners, level) = (mesh.corners(id), mesh.triangle(id).level());
-        ChangedArea::any_concerns(&self.areas, mesh, corners, level)
     }
 
     /// Asks about up to `most` triangles, and notes that those are bisected that exceed their target.

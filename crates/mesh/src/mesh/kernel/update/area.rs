@@ -85,12 +85,44 @@ impl ChangedArea {
         let loosens = self.change != TargetChange::Finer && level > 0 && exceeds(level - 1);
         [asks, loosens]
     }
+}
 
-    /// Returns the same for the changes of several areas together.
-    pub fn any_concerns(areas: &[Self], mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
-        let touched = areas.iter().filter(|area| area.rect.touches(corners));
-        let concerns = touched.map(|area| area.concerns(mesh, corners, level));
-        concerns.fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]])
+/// Several changed areas, which are asked about triangles that follow one another from neighbour to
+/// neighbour.
+#[derive(Clone, Debug)]
+pub struct ChangedAreas {
+    areas: Vec<ChangedArea>,
+    /// What any of them can answer.
+    possible: [bool; 2],
+    /// The area that touched the last triangle: mostly it touches the next one, too.
+    last: usize,
+}
+
+impl ChangedAreas {
+    /// Gathers areas.
+    pub fn new(areas: Vec<ChangedArea>) -> Self {
+        let has = |other: TargetChange| areas.iter().any(|area| area.change != other);
+        let possible = [has(TargetChange::Coarser), has(TargetChange::Finer)];
+        Self { areas, possible, last: 0 }
+    }
+
+    /// Returns what [`ChangedArea::concerns`] does, for the changes of all areas together.
+    #[inline]
+    pub fn concerns(&mut self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
+        let mut found = [false; 2];
+        for number in std::iter::once(self.last).chain(0..self.areas.len()) {
+            if let Some(area) = self.areas.get(number)
+                && area.rect.touches(corners)
+            {
+                let [asks, loosens] = area.concerns(mesh, corners, level);
+                found = [found[0] || asks, found[1] || loosens];
+                self.last = number;
+                if found == self.possible {
+                    break;
+                }
+            }
+        }
+        found
     }
 }
 

@@ -93,7 +93,7 @@ use super::changes::ChangeLog;
 use super::{Bitset, Changes, Limits, Mesh, Progress, RefineError, SharedRule, TriangleId};
 use crate::geometry::LatticeRect;
 use area::Area;
-pub use area::{ChangedArea, Falloff, TargetChange};
+pub use area::{ChangedArea, ChangedAreas, Falloff, TargetChange};
 use coarsen::Freed;
 use known::KnownLevels;
 use questions::{Found, Loose, Open};
