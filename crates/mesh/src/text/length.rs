@@ -93,18 +93,25 @@ mod tests {
     #[test]
     fn lengths_are_written_as_people_like() {
         use LengthUnit::{Degree, Metre, None};
-        for (text, value, unit) in [
-            ("2000", 2000.0, None),
-            ("-1e3", -1000.0, None),
-            ("2k", 2000.0, None),
-            ("2 km", 2000.0, Metre),
-            ("0.5nmi", 926.0, Metre),
-            ("300 m", 300.0, Metre),
-            ("0.1°", 0.1, Degree),
-            ("0.1 deg", 0.1, Degree),
+        let mut random = fastrand::Rng::with_seed(34);
+        for (suffix, factor, unit) in [
+            ("", 1.0, None),
+            ("k", 1000.0, None),
+            (" km", 1000.0, Metre),
+            ("nmi", 1852.0, Metre),
+            (" m", 1.0, Metre),
+            ("°", 1.0, Degree),
+            (" deg", 1.0, Degree),
         ] {
-            let length: Length = text.parse().unwrap();
-            assert_eq!((length.value, length.unit, length.to_string()), (value, unit, text.to_owned()));
+            for _ in 0..100 {
+                let number = f64::from(random.i32(-100_000..100_000)) / 10_f64.powi(random.i32(0..6));
+                let text =
+                    if random.bool() { format!("{number}{suffix}") } else { format!("{number:e}{suffix}") };
+                let length: Length = text.parse().unwrap_or_else(|problem| panic!("{text}: {problem}"));
+                let error = (length.value - factor * number).abs();
+                assert!(error <= 1e-12 * (factor * number).abs(), "{text}: {}", length.value);
+                assert_eq!((length.unit, length.to_string()), (unit, text));
+            }
         }
         assert!("x".parse::<Length>().unwrap_err().contains("is not a number"));
         assert!("2 apples".parse::<Length>().unwrap_err().contains("cannot be converted to m"));
