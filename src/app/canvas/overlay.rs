@@ -295,11 +295,54 @@ fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -
 mod tests {
     use eframe::egui::Context;
     use meshbrush_core::document::Example;
+    use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth, RasterSource};
+    use meshbrush_core::raster::RasterPyramid;
 
     use super::*;
     use crate::app::files::example;
     use crate::app::jobs::Kind;
     use crate::app::view::View;
+
+    #[test]
+    fn a_level_sea_has_the_colours_of_its_depths() {
+        let mut raster = Raster::filled(Rect::UNIT, [20, 20], 0.0_f32);
+        for (x, y) in raster.all().pixels() {
+            raster.set(x, y, if x < 10 { 50.0 } else { 100.0 });
+        }
+        let source = RasterSource { name: "depth".into(), raster: Arc::new(RasterPyramid::new(raster)) };
+        let sizes = DepthSizes {
+            positive: PositiveDepth::Down,
+            offset: 0.0,
+            rule: DepthRule::Nothing,
+            between: DepthSizes::ALL_WATER,
+        };
+        let layers = Layer::stack([LayerKind::Depth(Depths::new(source, sizes))]);
+        let view = View::default();
+        let session = Session::new(example(Example::ALL[0])).expect("the example has a mesh");
+        let palette = OverlayPalette::new(view.ground, view.level_colors(session.document().settings()));
+        let state = OverlayState {
+            kind: FieldOverlay::Depth,
+            document: 0,
+            mesh: 0,
+            is_derived: false,
+            domain: Rect::UNIT,
+            bounds: Rect::UNIT,
+            size: [40, 40],
+            palette,
+        };
+        let colors = depth_colors(&layers, &state, &|| true).expect("not cancelled");
+        for (x, share) in [(5, 0.5), (35, 1.0)] {
+            assert_eq!(colors[40 * 20 + x], state.palette.water(share), "column {x}");
+        }
+        // The slope between them is no brighter than a limit.
+        let most = |channel: usize| {
+            let brightest = [0.5, 1.0].map(|share| state.palette.water(share)[channel]);
+            (MOST_LIGHT * f32::from(brightest[0].max(brightest[1]))).ceil()
+        };
+        for color in &colors {
+            assert!((0..3).all(|channel| f32::from(color[channel]) <= most(channel)), "{color:?}");
+        }
+    }
 
     #[test]
     fn an_overlay_that_is_shown_and_hidden_many_times_is_computed_once_at_a_time() {

@@ -161,7 +161,7 @@ impl Canvas {
             }
         };
         ring(tools.radius, [3.5, 1.5]);
-        if tools.paints() && tools.hardness > 0.0 {
+        if tools.hardness > 0.0 {
             ring(tools.radius * tools.hardness, [2.0, 1.0]);
         }
     }

@@ -135,7 +135,15 @@ impl Dialogs {
         document: DocumentId,
         jobs: &Jobs,
     ) -> Result<Option<Command>, &'static str> {
-        let Some((question, answer)) = self.system.take() else { return Ok(None) };
+        self.system.take().map_or(Ok(None), |answered| self.command_after(answered, document, jobs))
+    }
+
+    fn command_after(
+        &mut self,
+        (question, answer): (Question, Answer),
+        document: DocumentId,
+        jobs: &Jobs,
+    ) -> Result<Option<Command>, &'static str> {
         let request = question.request;
         match answer {
             Answer::Chosen(path) => {
@@ -246,5 +254,29 @@ fn about(ctx: &Context, commands: &mut Vec<Command>) {
     });
     if shown.inner || shown.should_close() {
         commands.push(Command::Shell(ShellCommand::CloseDialog));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::super::file_kinds::{EXPORT_MESH, OPEN_ANY};
+    use super::*;
+
+    #[test]
+    fn an_answer_about_another_document_opens_one_and_does_nothing_else() {
+        let jobs = Jobs::new(&Context::default());
+        let mut dialogs = Dialogs::default();
+        let [asked, other] = [DocumentId::default(), DocumentId::default().next()];
+        let mut answered = |request: FileRequest, answer: Answer, open: DocumentId| {
+            let question = Question { request, document: asked, folder: PathBuf::new(), name: "a".into() };
+            dialogs.command_after((question, answer), open, &jobs).map(|command| command.is_some())
+        };
+        let chosen = || Answer::Chosen(PathBuf::from("a.vtu"));
+        assert_eq!(answered(&EXPORT_MESH, chosen(), asked), Ok(true));
+        assert_eq!(answered(&EXPORT_MESH, chosen(), other), Err(EXPORT_MESH.title));
+        assert_eq!(answered(&OPEN_ANY, chosen(), other), Ok(true));
+        assert_eq!(answered(&EXPORT_MESH, Answer::Cancelled, other), Ok(false));
     }
 }

@@ -324,3 +324,17 @@ fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_
     jobs.wait_for_writing(Duration::ZERO);
     assert_eq!(done.lock().unwrap().len(), 4);
 }
+
+#[test]
+fn without_threads_a_window_that_is_closed_does_the_work_it_waits_for() {
+    let jobs = Jobs::new(&Context::default());
+    jobs.do_without_threads();
+    let slice = |left: &mut u32, _: &Output<()>| {
+        *left -= 1;
+        if *left == 0 { Progress::Done } else { Progress::More }
+    };
+    let job = jobs.start_in_slices(Kind::Write, || Some(5), slice);
+    assert!(matches!(job.take_ready(), Taken::Working));
+    jobs.wait_for_end(&job);
+    assert!(matches!(job.take_ready(), Taken::Ended));
+}

@@ -264,3 +264,25 @@ fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     assert_eq!(text(&window), "north.meshbrush");
     wait_until(&mut window, |window| window.query_by_role_and_label(Role::Button, "coasts").is_some());
 }
+
+#[test]
+fn without_a_name_nothing_can_be_written_and_tab_leaves_a_name_that_was_proposed() {
+    let mut window = window();
+    key(&mut window, Modifiers::COMMAND, Key::E);
+    assert!(!text(&window).is_empty(), "a name is proposed");
+    let has_focus =
+        |window: &Window| window.get_by_role_and_label(Role::TextInput, "Path").accesskit_node().is_focused();
+    assert!(has_focus(&window) && is_enabled(&window, "Export"));
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert!(!has_focus(&window), "there is nothing to complete");
+    key(&mut window, Modifiers::SHIFT, Key::Tab);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(text(&window).is_empty() && !is_enabled(&window, "Export"));
+    type_text(&mut window, " ");
+    assert!(!is_enabled(&window, "Export"), "no name either");
+}
+
+fn is_enabled(window: &Window, button: &str) -> bool {
+    !window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
+}

@@ -6,6 +6,7 @@ use egui::{Align2, Color32, Event, Modifiers, PointerButton, Theme, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
+use super::{painted_shapes, painted_texts};
 use crate::app::theme;
 use crate::app::widgets::*;
 
@@ -16,6 +17,8 @@ struct State {
     levels: f64,
     mode: u8,
     transfer: CurveValues,
+    /// How many edits of it have ended.
+    curve_done: usize,
     formula: String,
     broken: String,
     name: String,
@@ -41,6 +44,7 @@ impl Default for State {
             levels: 10.0,
             mode: 0,
             transfer: CurveValues { h_max: 0.2, h_risk: 0.0024, shape: 1.6 },
+            curve_done: 0,
             formula: "if(abs(x)+abs(y)<0.4, 0.0125, 1)".into(),
             broken: "0.1 + sqr(x) * 3".into(),
             name: "radar threats".into(),
@@ -109,9 +113,10 @@ fn brush(ui: &mut Ui, state: &mut State) {
 }
 
 fn field(ui: &mut Ui, state: &mut State) {
-    Section::new("Risk to diameter")
-        .note("16 decades")
-        .show(ui, |ui| TransferCurve::new(&mut state.transfer, &power, 1e-4..=1.0, 0.1..=10.0).show(ui));
+    Section::new("Risk to diameter").note("16 decades").show(ui, |ui| {
+        let curve = TransferCurve::new(&mut state.transfer, &power, 1e-4..=1.0, 0.1..=10.0).show(ui);
+        state.curve_done += usize::from(edit_done(&curve));
+    });
     Section::new("Field").show(ui, |ui| {
         TextRow::formula("Target h̄(x, y)", &mut state.formula).show(ui);
         let error = TextError { message: "sqr is not a function; did you mean sqrt?", at: Some(6) };
@@ -543,6 +548,10 @@ fn bytes_are_told_as_a_share_where_it_is_known_how_many_there_are() {
     };
     assert_eq!(share("Reading coast.geojson"), Some(0.5));
     assert_eq!(share("Writing mesh.obj"), None, "there is no bar then");
+    let texts: Vec<String> = painted_texts(harness.output()).into_iter().map(|(text, _)| text).collect();
+    for text in ["Reading coast.geojson", " 50 %", "Writing mesh.obj", "1.2 MB"] {
+        assert!(texts.iter().any(|painted| painted.ends_with(text)), "{text} of {texts:?}");
+    }
     for name in ["Cancel: Reading coast.geojson", "Cancel: Writing mesh.obj"] {
         harness.get_by_role_and_label(Role::Button, name);
     }
@@ -589,6 +598,19 @@ fn the_transfer_curve_is_edited_by_its_handles() {
         harness.run();
     };
     let before = harness.state().transfer;
+    let thumbs = |harness: &Harness<'_, State>| {
+        let thumb = theme::tokens_of(&harness.ctx).thumb;
+        let radii = painted_shapes(harness.output()).into_iter().filter_map(|shape| match shape {
+            egui::Shape::Circle(circle) if circle.fill == thumb => Some(circle.radius),
+            _ => None,
+        });
+        radii.sum::<f32>()
+    };
+    let at_rest = thumbs(&harness);
+    let h_max = harness.get_by_role_and_label(Role::Slider, "h_max").rect().center();
+    harness.hover_at(h_max);
+    harness.run();
+    assert_eq!(thumbs(&harness), at_rest + 1.0, "a handle grows under the pointer");
     drag(&mut harness, "h_max", -10.0);
     assert!(harness.state().transfer.h_max > before.h_max);
     drag(&mut harness, "Curve shape", -10.0);
@@ -596,6 +618,13 @@ fn the_transfer_curve_is_edited_by_its_handles() {
     drag(&mut harness, "h_risk", -900.0);
     let after = harness.state().transfer;
     assert_eq!(after.h_risk, after.h_max, "h_risk stops at h_max");
+    let done = harness.state().curve_done;
+    harness.get_by_role_and_label(Role::Slider, "h_max").focus();
+    harness.run();
+    harness.key_press(egui::Key::ArrowUp);
+    harness.run();
+    assert!(harness.state().transfer.h_max > after.h_max);
+    assert_eq!(harness.state().curve_done, done + 1, "a key is an edit of its own");
 }
 
 /// A slow frame brings several events at once.

@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::OnceLock;
 
+use eframe::App as _;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, KeyboardShortcut, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
-use super::{FREE, Window, choose, folder, key, notice, send, wait_until, window};
+use super::{FREE, Kept, Window, choose, folder, key, notice, send, wait_until, window};
 use crate::app::catalog::catalog;
 use crate::app::command::{
     Command, DomainCommand, InspectCommand, LayerCommand, PinsCommand, ShellCommand, StepCommand,
@@ -308,6 +309,15 @@ fn changed_keys_are_exported_and_imported_as_differences() {
     let mut window = window();
     open_keys_of(&mut window, "Eraser E");
     press(&mut window, "Remove E");
+    for button in ["Import keys…", "Export keys…"] {
+        press(&mut window, button);
+        let asks = |window: &Window| window.query_by_role_and_label(Role::TextInput, "Path").is_some();
+        assert!(asks(&window), "{button} asks for a file");
+        key(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(!asks(&window));
+    }
+    let mut kept = Kept::default();
+    window.state_mut().save(&mut kept);
     send(&mut window, Command::Shell(ShellCommand::ExportKeysAs(file.clone())));
     wait_until(&mut window, |window| notice(window).contains("written"));
     let text = std::fs::read_to_string(&file).unwrap();
@@ -319,6 +329,9 @@ fn changed_keys_are_exported_and_imported_as_differences() {
     send(&mut window, Command::Shell(ShellCommand::ImportKeys(file)));
     wait_until(&mut window, |window| notice(window).contains("Hyper+Q"));
     assert!(window.state().keymap.changes("eraser"), "a file with a mistake changes nothing");
+    let mut next = super::window();
+    next.state_mut().load_keys(&kept);
+    assert!(next.state().keymap.changes("eraser"), "they are those of the next run, too");
 }
 
 #[test]

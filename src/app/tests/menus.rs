@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, Shape, pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{FREE, Window, choose, click, key, open_menu, selected, value_of, wheel, window, window_of};
+use super::{
+    FREE, Window, choose, click, key, open_menu, painted_texts, selected, value_of, wheel, window, window_of,
+};
 use crate::app::catalog::PLACES;
 use crate::app::features::inspection::QUERY;
 
@@ -125,13 +127,5 @@ fn pressed(key: Key, modifiers: Modifiers) -> Event {
 
 /// Returns whether this text was painted in the last frame.
 fn is_painted(window: &Window, text: &str) -> bool {
-    window.output().shapes.iter().any(|clipped| holds(&clipped.shape, text))
-}
-
-fn holds(shape: &Shape, text: &str) -> bool {
-    match shape {
-        Shape::Text(painted) => painted.galley.text() == text && painted.opacity_factor > 0.0,
-        Shape::Vec(shapes) => shapes.iter().any(|shape| holds(shape, text)),
-        _ => false,
-    }
+    painted_texts(window.output()).iter().any(|(painted, _)| painted == text)
 }

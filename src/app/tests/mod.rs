@@ -27,6 +27,7 @@ mod numbers;
 mod orientation;
 mod other_window;
 mod overlays;
+mod painted;
 mod palette;
 pub mod pictures;
 mod places;
@@ -34,6 +35,7 @@ mod presentation;
 mod project;
 mod recipes;
 mod settings;
+mod shapes;
 mod six_jobs;
 mod size_prices;
 mod software_window;
@@ -45,6 +47,7 @@ mod view;
 mod without_threads;
 
 pub use places::*;
+pub use shapes::*;
 
 use std::collections::BTreeMap;
 use std::fs;

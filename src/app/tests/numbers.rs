@@ -237,6 +237,10 @@ fn the_menu_of_a_number_copies_and_pastes() {
         window.run();
         assert_eq!(settings(&window).spacing, spacing);
         assert!(alerts(&window).contains(alert), "{}", alerts(&window));
+        // What is pasted afterwards is for somebody else.
+        window.event(Event::Paste("0.125".into()));
+        window.run();
+        assert_eq!(settings(&window).spacing, spacing);
     }
 }
 
@@ -446,4 +450,16 @@ fn the_radius_of_the_brush_is_a_length_on_the_earth_at_the_place() {
     let shown = typed::number(&value_of(&window, Role::TextInput, "Radius value"), "m").unwrap();
     assert!((30e3..46e3).contains(&shown), "{shown}");
     assert_eq!(window.state().tools().radius, radius);
+}
+
+#[test]
+fn a_metric_length_in_a_document_in_degrees_is_answered_with_degrees() {
+    let mut window = quick_window();
+    open_section(&mut window, "Mesh");
+    for (unit, says) in [(LengthUnit::Degree, true), (LengthUnit::None, false)] {
+        set(&mut window, Setting::LengthUnit(unit));
+        type_into(&mut window, "Spacing δ value", "2 km");
+        assert_eq!(alerts(&window).contains("type one of these"), says, "{unit:?}: {}", alerts(&window));
+        key(&mut window, Modifiers::NONE, Key::Escape);
+    }
 }

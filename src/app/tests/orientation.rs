@@ -172,6 +172,20 @@ fn an_arrow_leads_back_to_the_mesh_when_none_of_it_is_in_view() {
 }
 
 #[test]
+fn no_arrow_leads_back_where_a_part_of_the_mesh_is_in_view() {
+    let mut window = window();
+    let back = |window: &Window| window.query_by_role_and_label(Role::Button, "Back to the mesh").is_some();
+    // The middle of the domain is not in view, and nothing but the mesh is.
+    for (inside, zoom) in [(dvec2(0.2, 0.2), 4.0), (dvec2(0.8, 0.3), 6.0), (dvec2(0.1, 0.9), 50.0)] {
+        send(&mut window, Command::View(ViewCommand::Fit));
+        send(&mut window, Command::View(ViewCommand::LookAt(inside)));
+        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        let seen = window.state().view().camera.unwrap().visible_world();
+        assert!(!seen.contains(dvec2(0.5, 0.5)) && !back(&window), "{inside}: {seen:?}");
+    }
+}
+
+#[test]
 fn the_view_is_fitted_to_the_window_until_it_is_moved() {
     let mut window = window();
     let scale = |window: &Window| window.state().view().camera.unwrap().px_per_world();

@@ -1,13 +1,14 @@
 //! The view in space: turning it, and acting on the surface in it.
 
+use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use super::links::{copied, open};
 use super::{
-    Window, canvas, entries, key, notice, press_at, release_at, scratch, send, settings, wait_for_jobs,
-    wheel, window,
+    Window, canvas, entries, key, notice, open_popup, press_at, release_at, scratch, send, settings,
+    type_into, wait_for_jobs, wheel, window,
 };
 use crate::app::canvas::space_sight;
 use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
@@ -223,6 +224,20 @@ fn heights_and_light_are_numbers() {
     assert!((sight(&window).camera.exaggeration() / usual - 3.0).abs() < 1e-9);
     send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Exaggerate(None))));
     assert_eq!(sight(&window).camera.exaggeration(), usual);
+    open_popup(&mut window, "View options");
+    let fields = ["Heights ×", "Look to", "From above", "Light from", "Light above"];
+    for (name, typed) in fields.into_iter().zip(["12", "40", "35", "100", "20"]) {
+        type_into(&mut window, name, typed);
+    }
+    let space = &window.state().view().space;
+    let (seen, light) = (space.direction, space.light);
+    assert_eq!(space.exaggeration, Some(12.0));
+    assert_eq!([seen.azimuth, seen.altitude, light.azimuth, light.altitude], [40.0, 35.0, 100.0, 20.0]);
+    send(&mut window, Command::View(ViewCommand::Space(SpaceCommand::Toggle)));
+    assert!(
+        window.query_by_role_and_label(Role::TextInput, "Look to").is_none(),
+        "the plan has no direction"
+    );
 }
 
 #[test]

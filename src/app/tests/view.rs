@@ -189,3 +189,23 @@ fn the_bars_have_room_for_what_they_show_at_any_width() {
         }
     }
 }
+
+#[test]
+fn a_fitted_view_is_fitted_to_another_size_at_once() {
+    use crate::app::view::View;
+    let window = window();
+    let lattice = window.state().session().mesh().lattice();
+    let mut view = View::default();
+    let mut fitted = |size: [u32; 2]| {
+        view.fit_camera(lattice, size, 20.0, 0.0);
+        view.camera.unwrap()
+    };
+    for size in [[800, 600], [400, 300], [1600, 300]] {
+        let seen = fitted(size).visible_world();
+        let bounds = lattice.bounds();
+        assert_eq!(fitted(size), fitted(size));
+        assert!(seen.contains(bounds.min) && seen.contains(bounds.max), "{size:?}: {seen:?}");
+        let px = fitted(size).px_per_world() * bounds.size().max_element();
+        assert!((px - f64::from(size[0].min(size[1])) + 40.0).abs() < 1.0, "as large as there is room: {px}");
+    }
+}

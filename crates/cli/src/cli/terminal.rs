@@ -21,13 +21,32 @@ const LONGEST_LINE: usize = 78;
 /// Messages and progress on standard error. Nothing that goes wrong here stops the work.
 pub struct Terminal {
     show_progress: bool,
-    last_shown: Option<Instant>,
+    turns: Turns,
+}
+
+/// When lines of progress were shown.
+#[derive(Default)]
+struct Turns {
+    /// Of the line that is there.
+    last: Option<Instant>,
+}
+
+impl Turns {
+    /// Returns whether a line of progress of work that began at `start` is to be shown now, and counts it as
+    /// shown.
+    fn take(&mut self, start: Instant, now: Instant) -> bool {
+        let is_due = now - start > PATIENCE && self.last.is_none_or(|last| now - last > PACE);
+        if is_due {
+            self.last = Some(now);
+        }
+        is_due
+    }
 }
 
 impl Terminal {
     /// Standard error; progress is shown if a person is watching.
     pub fn new() -> Self {
-        Self { show_progress: io::stderr().is_terminal(), last_shown: None }
+        Self { show_progress: io::stderr().is_terminal(), turns: Turns::default() }
     }
 
     /// One line.
@@ -43,10 +62,8 @@ impl Terminal {
 
     /// Shows the progress of work that began at `start` on one line, a few times a second.
     pub fn progress(&mut self, start: Instant, done: impl FnOnce() -> String) {
-        let due = start.elapsed() > PATIENCE && self.last_shown.is_none_or(|last| last.elapsed() > PACE);
-        if self.show_progress && due {
+        if self.show_progress && self.turns.take(start, Instant::now()) {
             let _ = write!(io::stderr(), "{ERASE}{}", progress_line(&done()));
-            self.last_shown = Some(Instant::now());
         }
     }
 
@@ -87,7 +104,7 @@ impl Terminal {
 
     /// Takes the line of progress away.
     pub fn clear(&mut self) {
-        if self.last_shown.take().is_some() {
+        if self.turns.last.take().is_some() {
             let _ = write!(io::stderr(), "{ERASE}");
         }
     }
@@ -135,9 +152,19 @@ mod tests {
 
     #[test]
     fn a_panic_in_shown_work_does_not_wait_for_ever() {
-        let mut terminal = Terminal { show_progress: false, last_shown: None };
+        let mut terminal = Terminal { show_progress: false, turns: Turns::default() };
         let work = AssertUnwindSafe(|| terminal.while_working("failing", || panic!("on purpose")));
         assert!(catch_unwind(work).is_err());
+    }
+
+    #[test]
+    fn progress_is_shown_after_a_second_and_then_ten_times_a_second_at_most() {
+        let (mut turns, start) = (Turns::default(), Instant::now());
+        let times: Vec<u64> =
+            (0..2000).filter(|&ms| turns.take(start, start + Duration::from_millis(ms))).collect();
+        let expected: Vec<u64> = (0..10).map(|turn| 1001 + 101 * turn).collect();
+        assert_eq!(times, expected, "milliseconds after the start");
+        assert!(turns.last.is_some(), "there is a line to be erased");
     }
 
     #[test]
@@ -151,7 +178,7 @@ mod tests {
 
     #[test]
     fn work_gives_its_result_and_a_meter_its_share() {
-        let mut terminal = Terminal { show_progress: false, last_shown: None };
+        let mut terminal = Terminal { show_progress: false, turns: Turns::default() };
         let meter = Meter::default();
         assert_eq!(share(&meter), "0 MB");
         meter.expect(400);

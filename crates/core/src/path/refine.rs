@@ -309,3 +309,39 @@ impl Quadratic {
         moves
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::field::CostFormula;
+    use crate::layers::RiskField;
+    use crate::path::FormulaCost;
+    use crate::path::walls::tests::with_hole;
+
+    #[test]
+    fn a_vertex_moves_to_the_corner_of_a_wall_only_where_that_costs_less_and_is_admitted() {
+        let walls = Walls::new(&with_hole());
+        let corner = DVec2::splat(0.375);
+        let pulled = |path: [DVec2; 3], formula: &str| {
+            let formula = CostFormula::parse(formula).expect("a formula");
+            let density = FormulaCost { formula, risk: RiskField::default() };
+            let mut points = path.to_vec();
+            let has_moved =
+                Relaxation { points: &mut points, density: &density, walls: &walls, damping: 1.0 }
+                    .pull_to_corners();
+            assert_eq!(has_moved, points != path, "{path:?}");
+            points[1]
+        };
+        let [p, q, apart] = [dvec2(0.3, 0.55), dvec2(0.55, 0.3), DVec2::splat(0.25)];
+        assert!(!walls.admit(p, q) && walls.admit(p, corner) && walls.admit(corner, q));
+        assert_eq!(pulled([p, apart, q], "1"), corner, "the shorter way");
+        let dear_at_corner = "1 + 20 / (1 + 1000 * ((x - 0.375)^2 + (y - 0.375)^2))";
+        assert_eq!(pulled([p, apart, q], dear_at_corner), apart, "a way that costs more");
+        // Around two corners: the way to the farther one goes through the hole.
+        let [p, at, q] = [dvec2(0.45, 0.7), dvec2(0.1, 0.45), dvec2(0.7, 0.2)];
+        assert!(walls.admit_all(&[p, at, q]) && !walls.admit(p, corner) && walls.admit(corner, q));
+        assert_eq!(pulled([p, at, q], "1"), at, "a way through the hole");
+    }
+}

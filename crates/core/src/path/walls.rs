@@ -206,7 +206,7 @@ fn wall(mesh: &PathMesh, t: u32, edge: usize) -> Wall {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use glam::dvec2;
 
     use super::*;
@@ -214,8 +214,9 @@ mod tests {
     use crate::layers::Mask;
     use crate::mesh::{Limits, Mesh};
 
-    /// Returns the unit square in 8 × 8 cells without the cells that a square touches.
-    fn with_hole() -> PathMesh {
+    /// Returns the unit square in 8 × 8 cells without the cells that a square touches: those from 0.375 to
+    /// 0.625.
+    pub(in crate::path) fn with_hole() -> PathMesh {
         let lattice = Lattice::covering(Rect::UNIT, 0.125, 10_000).unwrap();
         let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
         let ring = [(0.4, 0.4), (0.6, 0.4), (0.6, 0.6), (0.4, 0.6)].map(|(x, y)| dvec2(x, y));

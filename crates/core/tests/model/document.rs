@@ -11,8 +11,8 @@ use meshbrush_core::document::{
     Setting, Settings, Stage,
 };
 use meshbrush_core::domain::{
-    BoundaryMarks, BoundaryPieces, BoundaryType, CutShape, Domain, DomainShape, NamedPolygon, Polygon,
-    Region, corners,
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape, Domain, DomainShape,
+    NamedPolygon, Polygon, Region, corners,
 };
 use meshbrush_core::field::{Formula, RefinementRule};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, RasterReading, RasterSource};
@@ -427,6 +427,35 @@ fn the_price_of_a_stroke_that_changes_nothing_says_why() {
     let fine = Brush { radius: 0.1, ..diameter(0.004, DiameterChange::Finer) };
     let dab = Brush { radius: 0.005, ..beside_fine };
     assert_eq!(reason(coarse(), &[fine], dab, dvec2(0.605, 0.5)), Some(NoChange::TrianglesFit));
+}
+
+#[test]
+fn a_stroke_that_bisects_but_adds_no_triangle_in_the_domain_has_a_price_of_zero() {
+    // Along the lower side a strip that is narrower than the cells: of a bisected triangle with its centroid in
+    // the strip, one half has its own there, and of the triangle across none of them do.
+    let rectangle = |low: DVec2, high: DVec2| vec![corners(&Rect::new(low, high))];
+    let polygons = [rectangle(DVec2::ZERO, dvec2(1.0, 0.04)), rectangle(dvec2(0.9, 0.9), DVec2::ONE)];
+    let domain = Domain::of_polygons(&polygons).unwrap();
+    let boundary = BoundaryTreatment::Fitted { diameter: 0.5 };
+    let settings = Settings { domain, boundary, spacing: 0.1, ..with_base(LayerKind::constant(0.5)) };
+    let mut document = Document::new(settings, None).unwrap();
+    let mut follower = Follower::new(&mut document).unwrap();
+    // Between the diameters of levels 0 and 1.
+    let medium = Medium::Diameter(0.12, DiameterChange::Finer);
+    let dab = Brush { medium, radius: 0.005, hardness: 1.0, strength: 1.0 };
+    let at = dvec2(0.05, 0.02);
+    let mut pricer = Pricer::default();
+    pricer.ask(Some(StrokePlan::click(dab, at)), &document, &follower);
+    while pricer.advance(&document, &follower, 1000) == Progress::More {}
+    assert_eq!(pricer.price(), Some(Price::Change(0)));
+
+    let before = (follower.mesh().triangle_count(), follower.mesh().raw_triangle_count());
+    document.begin_stroke(dab);
+    document.draw_to(at);
+    document.end_stroke();
+    settle(&mut follower, &mut document);
+    let after = (follower.mesh().triangle_count(), follower.mesh().raw_triangle_count());
+    assert_eq!(after, (before.0, before.1 + 2), "one triangle in the domain and one beyond it are bisected");
 }
 
 #[test]

@@ -217,6 +217,26 @@ fn another_document_is_not_kept_waiting_by_a_rebuild() {
 }
 
 #[test]
+fn a_mesh_that_cannot_be_made_is_an_error_only_while_the_document_asks_for_it() {
+    let (mut document, mut follower) = with_layers(Layer::stack([LayerKind::constant(0.1)]));
+    document.set(Setting::MaxTriangles(20_000)).unwrap();
+    settle(&mut follower, &mut document);
+    for (spacing, changes_again) in [(0.3, true), (0.2, false)] {
+        document.set(Setting::Spacing(spacing)).unwrap();
+        change_layers(&mut document, |layers| layers[0].kind = LayerKind::constant(0.002));
+        while !matches!(follower.advance(&mut document, 256).unwrap(), Stage::Refining { .. }) {}
+        if changes_again {
+            change_layers(&mut document, |layers| layers[0].kind = LayerKind::constant(0.05));
+            settle(&mut follower, &mut document);
+            assert_as_from_scratch(&follower, &document);
+        } else {
+            let error = (0..1000).find_map(|_| follower.advance(&mut document, SLICE).err()).unwrap();
+            assert!(error.to_string().contains("triangles"), "{error}");
+        }
+    }
+}
+
+#[test]
 fn a_cancelled_update_is_not_in_step_and_the_next_edit_catches_up() {
     let (mut document, mut follower) = large();
     follower.cancel(&document);

@@ -21,14 +21,20 @@ mod tests {
 
     #[test]
     fn the_nearest_point_is_an_end_or_between_them() {
-        let segment = [dvec2(1.0, 0.0), dvec2(3.0, 0.0)];
-        for (p, nearest) in [
-            (dvec2(0.0, 5.0), dvec2(1.0, 0.0)),
-            (dvec2(2.5, -1.0), dvec2(2.5, 0.0)),
-            (dvec2(9.0, 0.0), dvec2(3.0, 0.0)),
-        ] {
-            assert_eq!(nearest_on_segment(p, segment), nearest);
+        let mut random = fastrand::Rng::with_seed(35);
+        for _ in 0..500 {
+            let mut point = || dvec2(random.f64(), random.f64()) * 10.0 - 5.0;
+            let (p, [a, b]) = (point(), [point(), point()]);
+            let nearest = nearest_on_segment(p, [a, b]);
+            assert!(
+                (nearest.distance(a) + nearest.distance(b) - a.distance(b)).abs() < 1e-12,
+                "it is on {a} {b}"
+            );
+            for n in 0..=20 {
+                let other = a.lerp(b, f64::from(n) / 20.0);
+                assert!(p.distance(nearest) <= p.distance(other) + 1e-12, "{other} is nearer to {p}");
+            }
+            assert_eq!(nearest_on_segment(p, [a, a]), a, "a segment without length");
         }
-        assert_eq!(nearest_on_segment(dvec2(7.0, 7.0), [segment[0]; 2]), segment[0]);
     }
 }

@@ -6,7 +6,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use crate::app::tests::{
-    Window, click, entries, fingerprint, key, send, settings, show, type_into, wait_until, window_of,
+    Window, canvas, click, entries, fingerprint, key, on_screen, painted_texts, send, settings, show,
+    type_into, wait_until, window_of,
 };
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryPieces, BoundaryType, Domain};
@@ -23,6 +24,21 @@ fn window_on_a_sea() -> Window {
     key(&mut window, Modifiers::NONE, Key::N);
     wait_until(&mut window, |window| window.state().session().boundary_pieces().is_some());
     window
+}
+
+#[test]
+fn names_of_pieces_are_beside_their_middles() {
+    let window = window_on_a_sea();
+    let texts = painted_texts(window.output());
+    let pieces = window.state().session().boundary_pieces().unwrap();
+    let canvas = canvas(&window);
+    for piece in pieces.list() {
+        let at = on_screen(&window, piece.middle());
+        let mut named =
+            texts.iter().filter(|(text, rect)| *text == piece.name && canvas.contains_rect(*rect));
+        let near = named.any(|(_, rect)| rect.expand(60.0).contains(at));
+        assert!(near, "{} is not beside {at}: {texts:?}", piece.name);
+    }
 }
 
 fn names(window: &Window) -> Vec<String> {

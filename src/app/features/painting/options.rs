@@ -192,3 +192,16 @@ fn pen_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         send(BrushCommand::PenEffect(effect), commands);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_brush_goes_below_the_smallest_diameter_and_never_to_zero() {
+        let range = |h_min: f64| brush_diameters(&Transfer::between(h_min, 0.2));
+        assert_eq!(range(0.004), BELOW_SMALLEST * 0.004..=0.2);
+        assert!(*range(0.004).start() < 0.004);
+        assert_eq!(*range(f64::MIN_POSITIVE).start(), f64::MIN_POSITIVE);
+    }
+}

@@ -10,8 +10,8 @@ use glam::{DVec2, dvec2};
 use crate::app::command::{Command, EditCommand, PinsCommand, ShellCommand};
 use crate::app::features::inspection::QUERY;
 use crate::app::tests::{
-    FREE, TALL, Window, click, document, entries, folder, key, move_to, notice, press, release, send,
-    settings, step_until, stroke, value_of, wait_for_notice, wait_until, window_of,
+    FREE, TALL, Window, click, document, entries, folder, key, move_to, notice, on_screen, press, release,
+    send, settings, step_until, stroke, value_of, wait_for_notice, wait_until, window_of,
 };
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::located::write_of_document;
@@ -184,7 +184,8 @@ fn many_pins_are_read_over_several_frames_and_an_idle_window_reads_none() {
 fn the_values_of_a_pin_are_beside_it_under_the_pointer() {
     let mut window = window_with_pins();
     move_to(&mut window, FREE);
-    assert!(window.query_by_label_contains("Pin 2 · triangle").is_some());
+    let values = window.get_by_label_contains("Pin 2 · triangle").rect();
+    assert!((values.top() - on_screen(&window, FREE).y - 8.0).abs() < 1.0, "{values:?}");
     move_to(&mut window, dvec2(0.1, 0.1));
     assert!(window.query_by_label_contains("Pin 2 · triangle").is_none());
 }

@@ -54,9 +54,8 @@ impl Feature for Regions {
     }
 }
 
-/// Selects the tool. What was begun for another target or with another shape is dropped.
+/// Selects the tool. As with any selection, what was begun for another target or shape is dropped.
 fn use_tool(ctx: &mut Ctx<'_>) {
-    ctx.tools.region.corners.clear();
     ctx.tools.select(&REGION);
 }
 

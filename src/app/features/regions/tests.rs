@@ -5,7 +5,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, RegionCommand, RegionTarget};
+use crate::app::command::{
+    Command, EditCommand, FileCommand, InspectCommand, LayerCommand, RegionCommand, RegionTarget,
+};
 use crate::app::features::regions::{REGION, RegionShape};
 use crate::app::kit::Tab;
 use crate::app::tests::{
@@ -222,4 +224,34 @@ fn shapes_are_drawn_with_a_layer_of_their_own() {
     stroke(&mut window, SQUARE[0], SQUARE[2]);
     assert!(notice(&window).contains("Nothing can be cut"), "{}", notice(&window));
     assert_eq!(entries(&window), before + 4);
+}
+
+#[test]
+fn a_polygon_that_was_begun_is_dropped_with_another_target_or_shape() {
+    let mut window = with_fine_base();
+    for command in [
+        RegionCommand::Target(RegionTarget::KeepOut),
+        RegionCommand::Target(RegionTarget::Mask),
+        RegionCommand::Shape(RegionShape::Brush),
+        RegionCommand::Shape(RegionShape::Polygon),
+    ] {
+        send(&mut window, Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+        SQUARE[..2].iter().for_each(|&corner| click(&mut window, corner, Modifiers::NONE));
+        assert_eq!(window.state().tools().region.corners.len(), 2, "{command:?}");
+        send(&mut window, Command::Region(command));
+        assert!(window.state().tools().region.corners.is_empty());
+    }
+}
+
+#[test]
+fn escape_drops_a_polygon_before_the_query() {
+    let mut window = with_fine_base();
+    send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.7, 0.7))));
+    send(&mut window, Command::Region(RegionCommand::Shape(RegionShape::Polygon)));
+    click(&mut window, SQUARE[0], Modifiers::NONE);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().tools().region.corners.is_empty());
+    assert!(window.state().session().queried().is_some(), "one thing at a time");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.state().session().queried().is_none());
 }

@@ -79,3 +79,15 @@ impl PlacedLetters {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_letter_is_at_the_mean_of_its_corners() {
+        let corners = vec![pos2(1.0, 10.0), pos2(3.0, 20.0), pos2(8.0, 60.0)];
+        let letter = Letter { corners, text: "v₁ = 12".into(), color: Color32::WHITE };
+        assert_eq!(letter.at(), pos2(4.0, 30.0));
+    }
+}

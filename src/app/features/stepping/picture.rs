@@ -259,3 +259,16 @@ fn shortest_edge([a, b, c]: &[Pos2; 3]) -> f32 {
 fn middle([a, b, c]: &[Pos2; 3]) -> Pos2 {
     pos2((a.x + b.x + c.x) / 3.0, (a.y + b.y + c.y) / 3.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_edge_and_the_middle_do_not_depend_on_the_order_of_corners() {
+        let [a, b, c] = [pos2(0.0, 0.0), pos2(3.0, 0.0), pos2(0.0, 6.0)];
+        for corners in [[a, b, c], [b, c, a], [c, a, b], [c, b, a]] {
+            assert_eq!((shortest_edge(&corners), middle(&corners)), (3.0, pos2(1.0, 2.0)), "{corners:?}");
+        }
+    }
+}

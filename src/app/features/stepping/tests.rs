@@ -3,18 +3,19 @@
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use glam::dvec2;
+use glam::{DVec2, dvec2};
 
 use super::StepCommand;
 use super::export::MOST_FILES;
 use super::steps::MOST_TRIANGLES;
-use crate::app::command::{Command, FigureCommand, FileCommand, InspectCommand};
+use crate::app::command::{Command, FigureCommand, FileCommand, InspectCommand, ViewCommand};
 use crate::app::features::painting::BRUSH;
 use crate::app::tests::pictures::drawn_window;
 use crate::app::tests::{
-    CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, send, set,
-    settings, triangles, wait_until, window, window_of,
+    CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, painted_shapes,
+    painted_texts, send, set, settings, triangles, wait_until, window, window_of,
 };
+use crate::app::theme::tokens_of;
 use crate::app::tools::PAN;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::outline::DerivationAction;
@@ -50,6 +51,7 @@ fn the_last_step_has_the_mesh_of_the_document_and_escape_shows_it_again() {
     let (before, history) = (fingerprint(&window), entries(&window));
     begin(&mut window);
     assert!(window.query_by_label("The coarse grid, before the first step.").is_some());
+    assert!(window.query_by_label("Step through the refinement").is_some(), "the title of the panel");
     assert!(window.query_by_role_and_label(Role::Button, "Layers").is_none(), "the panel makes room");
     let coarse = player(&window).rows().to_vec();
     press_button(&mut window, "Last step");
@@ -117,6 +119,43 @@ fn it_goes_forwards_by_itself_and_stops_when_asked() {
     let position = player(&window).position();
     window.run_steps(20);
     assert_eq!(player(&window).position(), position);
+}
+
+#[test]
+fn the_view_comes_closer_only_where_the_queried_triangle_is_too_small_for_its_numbers() {
+    for (zoom, comes_closer) in [(0.3, true), (3.0, false)] {
+        let mut window = window();
+        coarse(&mut window);
+        send(&mut window, Command::Inspect(InspectCommand::Query(dvec2(0.31, 0.44))));
+        send(&mut window, Command::View(ViewCommand::LookAt(dvec2(0.31, 0.44))));
+        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        let id = window.state().session().queried_triangle().unwrap();
+        let corners = window.state().session().mesh().view().world_corners(id);
+        let middle = corners.iter().sum::<DVec2>() / 3.0;
+        let reach = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+        let reach_px = |window: &Window| reach * window.state().view().camera.unwrap().px_per_world();
+        let before = reach_px(&window);
+        assert_eq!(before < 40.0, comes_closer, "{before}");
+        begin(&mut window);
+        let after = reach_px(&window);
+        assert!(after > 40.0 && (after > before) == comes_closer, "{zoom}: {before} to {after}");
+    }
+}
+
+#[test]
+fn the_bar_of_the_steps_has_room_for_all_its_controls() {
+    let mut window = window_of(vec2(1000.0, 640.0));
+    coarse(&mut window);
+    begin(&mut window);
+    let slider = window.get_by_role_and_label(Role::Slider, "Step").rect();
+    let speeds: Vec<_> = window
+        .query_all_by_role(Role::RadioButton)
+        .map(|node| node.rect())
+        .filter(|rect| (rect.center().y - slider.center().y).abs() < 15.0)
+        .collect();
+    assert!(speeds.len() >= 3, "{speeds:?}");
+    assert!(slider.width() > 100.0 && speeds.iter().all(|speed| speed.left() > slider.right()), "{slider:?}");
+    assert!(speeds.iter().all(|speed| speed.right() < 1000.0), "{speeds:?}");
 }
 
 #[test]
@@ -384,6 +423,26 @@ fn the_step_is_seen_on_the_canvas() {
         |step: &meshbrush_study::steps::Step| matches!(step.action, StepAction::UpdateNeighbours(_));
     let deep = steps.iter().position(|step| updates(step) && step.level >= 3).unwrap();
     send(&mut window, Command::Steps(StepCommand::GoTo(deep + 1)));
+    let numbers = painted_texts(window.output());
+    let lattice = window.state().session().mesh().lattice();
+    let middle = |number: u32| {
+        let corners = player(&window).corners(number).map(|corner| lattice.world_from_lattice(corner));
+        on_screen(&window, corners.into_iter().sum::<DVec2>() / 3.0)
+    };
+    let is_numbered = |&number: &u32| {
+        numbers.iter().any(|(text, rect)| *text == number.to_string() && rect.contains(middle(number)))
+    };
+    let numbered = (1..=player(&window).rows().len() as u32).filter(is_numbered).count();
+    assert!(numbered > 10, "{numbered} triangles have their numbers in their middles");
+    let (_, lines) = player(&window).step().unwrap().lines();
+    let current = window.get_by_label_contains(&format!("Current line {}:", lines.start)).rect();
+    let is_mark = |shape: &&eframe::egui::Shape| match shape {
+        eframe::egui::Shape::Rect(mark) => {
+            mark.fill == tokens_of(&window.ctx).accent && current.expand(1.0).contains_rect(mark.rect)
+        }
+        _ => false,
+    };
+    assert!(painted_shapes(window.output()).iter().any(is_mark), "the line that runs is marked");
     let image = window.render().unwrap();
     if let Some(path) = std::env::var_os("MESHBRUSH_STEP_PICTURE") {
         image.save(path).unwrap();

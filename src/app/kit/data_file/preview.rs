@@ -185,6 +185,21 @@ mod tests {
     }
 
     #[test]
+    fn the_pixels_of_a_slanted_polygon_are_those_whose_centres_it_has() {
+        let corners = vec![dvec2(0.0, 0.0), dvec2(10.0, 0.0), dvec2(10.0, 4.0)];
+        let shapes = ShapeList { polygons: vec![vec![corners]], ..ShapeList::default() };
+        let preview = Preview::of_shapes(&shapes, Rect::new(DVec2::ZERO, DVec2::splat(10.0)));
+        for (x, y) in (1..20).flat_map(|x| (1..20).map(move |y| (0.5 * f64::from(x), 0.5 * f64::from(y)))) {
+            // Not on the slanted side itself, where its line is.
+            let above = y - 0.4 * x;
+            if above.abs() > 0.25 {
+                let expected = if above < 0.0 { INSIDE } else { 0 };
+                assert_eq!(ink(&preview, x / 10.0, 1.0 - y / 10.0), expected, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
     fn a_single_point_is_a_dot() {
         let shapes = ShapeList { points: vec![dvec2(1e9, -1e9)], ..ShapeList::default() };
         let at = shapes.points[0];

@@ -132,3 +132,25 @@ fn drawn(contents: DataContents, shapes: &ShapeList, unit: LengthUnit) -> Seen {
     let preview = Preview::of_shapes(shapes, extent.unwrap_or(Rect::UNIT));
     Seen { contents, extent, is_on_earth: false, unit, preview }
 }
+
+#[cfg(test)]
+mod tests {
+    use meshbrush_core::layers::ThreatLaw;
+
+    use super::*;
+
+    #[test]
+    fn the_range_of_a_threat_is_a_circle_around_it() {
+        let threat = Threat { at: DVec2::new(3.0, -2.0), range: 0.5, peak: 1.0, law: ThreatLaw::Radar };
+        let shapes = circles(&[threat]);
+        assert_eq!(shapes.points, [threat.at]);
+        let circle = &shapes.polygons[0][0];
+        assert_eq!(circle.len(), CIRCLE as usize);
+        let side = 2.0 * threat.range * (TAU / 2.0 / f64::from(CIRCLE)).sin();
+        for (n, corner) in circle.iter().enumerate() {
+            assert!((corner.distance(threat.at) - threat.range).abs() < 1e-12, "{corner}");
+            let next = circle[(n + 1) % circle.len()];
+            assert!((corner.distance(next) - side).abs() < 1e-12, "all sides are as long: {corner} {next}");
+        }
+    }
+}

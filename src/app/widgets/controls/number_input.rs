@@ -153,6 +153,11 @@ mod tests {
         let strength = NumberInput { step: Some(0.01), ..input(0.5, 0.0..=1.0) };
         assert_eq!(strength.moved(0.7, 20.0), 0.8);
         assert_eq!(strength.moved(0.7, -PX_PER_STEP), 0.65);
+        // A whole number moves by as many steps, however wide its range is.
+        let count = NumberInput { step: Some(1.0), ..input(500.0, 0.0..=1e6) };
+        assert_eq!(count.moved(500.0, 20.0), 510.0);
+        let few = NumberInput { step: Some(1.0), ..input(5.0, 0.0..=10.0) };
+        assert_eq!(few.moved(5.0, 60.0), 8.0);
         let left = input(0.0, f64::MIN..=f64::MAX);
         assert_eq!(left.moved(0.0, 10.0), 0.01);
         assert_eq!(left.moved(-500.0, 10.0), -490.0);

@@ -382,6 +382,17 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_number_of_a_narrow_slider_takes_half_of_it_at_most() {
+        for width in [60.0, 100.0, 400.0] {
+            let row = Rect::from_min_size(pos2(10.0, 5.0), vec2(width, 20.0));
+            let (track, number) = narrow_parts(row);
+            assert_eq!(track, row);
+            assert_eq!(number.right(), row.right() - 6.0);
+            assert_eq!(row.right() - number.left(), metrics::VALUE_WIDTH.min(width / 2.0), "{width}");
+        }
+    }
+
+    #[test]
     fn a_scale_and_back_is_the_identity() {
         let mut random = fastrand::Rng::with_seed(35);
         for _ in 0..2_000 {

@@ -24,7 +24,7 @@ impl Axis {
 
     /// Returns the number of decades from one number on the axis to the next.
     pub fn label_every(self) -> i32 {
-        ((self.high - self.low) / 5 + 1).max(1)
+        (self.high - self.low) / 5 + 1
     }
 
     pub fn decades(self) -> RangeInclusive<i32> {
@@ -105,5 +105,20 @@ mod tests {
         assert_eq!(Axis::around(0.1, 0.1), Axis { low: -1, high: 0 });
         assert_eq!(Axis::around(0.01, 1.0), Axis { low: -2, high: 0 });
         assert!((Axis { low: -3, high: 0 }.diameter(0.5) - 10_f64.powf(-1.5)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn an_axis_has_whole_decades_and_five_numbers_at_most() {
+        for (low, high, decades, every) in [
+            (0.002, 0.3, (-3, 0), 1),
+            (0.01, 0.01, (-2, -1), 1),
+            (1e-7, 1e5, (-7, 5), 3),
+            (1e-20, 2.0, (-20, 1), 5),
+        ] {
+            let axis = Axis::around(low, high);
+            assert_eq!((axis.low, axis.high), decades, "{low} to {high}");
+            assert_eq!(axis.label_every(), every, "{low} to {high}");
+            assert!((axis.high - axis.low) / axis.label_every() < 5);
+        }
     }
 }

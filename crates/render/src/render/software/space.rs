@@ -356,3 +356,34 @@ impl Band<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec3;
+
+    use super::*;
+
+    #[test]
+    fn a_huge_triangle_fills_the_pixels_whose_centres_it_has() {
+        const SIDE: i32 = 8;
+        let shade = Shade { fill: [1.0; 3], edge: [1.0; 3], alpha: 0.0, reach_px: 0.0, rims: [0.0; 3] };
+        let far = 1e6;
+        let filled = |corners: [DVec3; 3]| {
+            let mut pixels = vec![[0; 4]; (SIDE * SIDE) as usize];
+            let depths = vec![f32::NEG_INFINITY; pixels.len()];
+            let mut band = Band { width: SIDE, rows: 0..SIDE, pixels: &mut pixels, depths };
+            let plane = DepthPlane::through(corners).expect("it is seen from its face");
+            band.fill_huge(corners, &plane, &mut || shade);
+            let is_filled = |&place: &i32| pixels[place as usize] != [0; 4];
+            let places: Vec<i32> = (0..SIDE * SIDE).filter(is_filled).collect();
+            [places.iter().map(|place| place % SIDE).max(), places.iter().map(|place| place / SIDE).max()]
+        };
+        // The edge on the right, then that below, lies before, in or behind the centres of a column or row.
+        for (edge, last) in [(3.4, 2), (3.5, 3), (3.6, 3), (4.4, 3), (4.6, 4)] {
+            let left = [dvec3(edge, -far, 0.0), dvec3(edge, far, 0.0), dvec3(-far, 0.0, 0.0)];
+            assert_eq!(filled(left), [Some(last), Some(SIDE - 1)], "left of x = {edge}");
+            let above = left.map(|corner| dvec3(corner.y, corner.x, 0.0));
+            assert_eq!(filled(above), [Some(SIDE - 1), Some(last)], "above y = {edge}");
+        }
+    }
+}

@@ -6,6 +6,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, DomainCommand, EditCommand, FileCommand};
+use crate::app::features::domain::DomainToolMode;
 use crate::app::kit::Tab;
 use crate::app::tests::{
     FREE, TALL, Window, area, click, entries, fingerprint, key, level_at, move_to, open_section, open_tab,
@@ -14,6 +15,7 @@ use crate::app::tests::{
 };
 use meshbrush_core::document::{Example, Setting, Settings};
 use meshbrush_core::domain::{CutShape, Domain};
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Location;
 
 #[test]
@@ -256,4 +258,17 @@ fn a_file_of_polygons_opens_as_a_document() {
     let text = wait_for_notice(&mut window);
     assert!(text.contains("lake.geojson: a domain needs a Polygon"), "{text}");
     assert_eq!(settings(&window).name, "lake");
+}
+
+#[test]
+fn the_hint_of_the_tool_goes_once_it_was_used_a_few_times() {
+    let mut window = window();
+    send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Rectangle)));
+    let has_hint = |window: &Window| !window.state().tools().hint(&window.state().state(None)).is_empty();
+    for use_ in 0..6 {
+        assert!(has_hint(&window), "{use_} uses");
+        let bounds = Rect::new(DVec2::ZERO, dvec2(1.0, 0.5 + 0.05 * f64::from(use_)));
+        send(&mut window, Command::Domain(DomainCommand::Bounds(bounds)));
+    }
+    assert!(!has_hint(&window));
 }

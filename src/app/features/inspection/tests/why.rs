@@ -1,13 +1,13 @@
 //! Why the queried triangle is in the mesh, in the panel and by keys.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Color32, Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::inspection::QUERY;
-use crate::app::tests::{TALL, Window, click, key, send, stroke, window_of};
+use crate::app::tests::{TALL, Window, click, key, painted_shapes, send, stroke, window_of};
 use meshbrush_core::explain::Explanation;
 use meshbrush_mesh::mesh::{Cause, TriangleId};
 
@@ -104,8 +104,22 @@ fn the_tree_is_walked_up_and_down() {
     press_button(&mut window, "Queried triangle");
     choose_node(&mut window, "Apex");
     assert!(row(&window, "First parent node").is_some());
+    let dark = Color32::from_black_alpha(220);
+    assert!(rims_of_dots(&window, Color32::WHITE).contains(&dark), "the node itself");
+    let black = rims_of_dots(&window, Color32::BLACK);
+    assert!(black.iter().all(|rim| *rim == Color32::WHITE), "seen on any colour: {black:?}");
     choose_node(&mut window, "No node");
     assert!(row(&window, "First parent node").is_none());
+    assert!(!rims_of_dots(&window, Color32::WHITE).contains(&dark));
+}
+
+/// Returns the colours around the dots of a colour at nodes.
+fn rims_of_dots(window: &Window, fill: Color32) -> Vec<Color32> {
+    let dots = painted_shapes(window.output()).into_iter().filter_map(|shape| match shape {
+        Shape::Circle(dot) if dot.fill == fill && dot.radius == 3.5 => Some(dot.stroke.color),
+        _ => None,
+    });
+    dots.collect()
 }
 
 #[test]

@@ -297,6 +297,17 @@ fn distances_are_measured_to_chosen_pieces_of_the_boundary() {
     assert_eq!(level_at(&window, west), coarse, "a rectangle has no land");
     toggle(&mut window, "open west");
     assert!(level_at(&window, west) == fine && level_at(&window, south) < fine);
+    let chosen = |window: &Window| match &active(window).kind {
+        LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } => chosen.names.clone(),
+        other => panic!("a distance to pieces: {other:?}"),
+    };
+    toggle(&mut window, "open south");
+    assert_eq!(chosen(&window), ["open west", "open south"]);
+    toggle(&mut window, "open west");
+    assert_eq!(chosen(&window), ["open south"]);
+    toggle(&mut window, "open west");
+    toggle(&mut window, "open south");
+    assert_eq!(chosen(&window), ["open west"]);
     // A type that is set later counts.
     let pieces = window.state().session.boundary_pieces().unwrap();
     let marks = pieces.retyped(&BoundaryMarks::default(), 0, Some(BoundaryType::Land));

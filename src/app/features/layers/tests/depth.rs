@@ -126,8 +126,10 @@ fn straits_are_found_again_when_the_outline_changes() {
         other => panic!("straits: {other:?}"),
     };
     let first = found(&window);
-    type_into(&mut window, "Triangles across", "2");
+    type_into(&mut window, "Triangles across", "1");
     assert!(found(&window) == first, "another number needs no other straits");
+    let LayerKind::Straits(Straits { across, .. }) = &active(&window).kind else { panic!("straits") };
+    assert_eq!(*across, 1.0);
     let mut domain = settings(&window).domain.clone();
     let rings = domain.region().unwrap().polygons()[0][0].clone();
     domain = meshbrush_core::domain::Domain::of_polygons(&[vec![rings]]).unwrap();

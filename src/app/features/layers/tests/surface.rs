@@ -12,12 +12,16 @@ use crate::app::command::{
 };
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
-    RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into,
+    RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into, value_of,
     wait_for_jobs, wait_until, window_of,
 };
 use crate::app::tools::PaintKind;
 use crate::app::view::FieldOverlay;
-use meshbrush_core::layers::{LayerKind, Quantity, SurfaceGoal};
+use meshbrush_core::document::Setting;
+use meshbrush_core::field::Formula;
+use meshbrush_core::layers::{
+    Layer, LayerId, LayerKind, Quantity, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource,
+};
 
 fn goal(window: &Window) -> SurfaceGoal {
     let LayerKind::Surface(surface) = &active(window).kind else { panic!("a surface: {:?}", active(window)) };
@@ -64,6 +68,22 @@ fn the_mesh_follows_an_error_or_a_number_of_triangles() {
     // Fewer triangles than the coarse grid has.
     type_into(&mut window, "Most triangles", "9");
     wait_until(&mut window, |window| window.query_by_label_contains("more triangles already").is_some());
+}
+
+#[test]
+fn the_error_of_a_surface_is_said_to_be_measured_until_it_is() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::New));
+    wait_for_jobs(&mut window);
+    window.state().jobs.hold();
+    let source = SurfaceSource::Formula(Formula::parse("sin(9 * x)").unwrap());
+    let surface = Surface { source, goal: SurfaceGoal::Within(0.05), norm: SurfaceNorm::Largest };
+    let mut layers = settings(&window).layers.clone();
+    layers.push(Layer::new(LayerId(70), "Hills", LayerKind::Surface(surface)));
+    window.state_mut().send(Command::Edit(EditCommand::Set(Setting::Layers(layers))));
+    window.state_mut().send(Command::Layer(LayerCommand::Select(LayerId(70))));
+    window.run_steps(20);
+    assert_eq!(value_of(&window, Role::Definition, "Error"), "being measured");
 }
 
 #[test]
@@ -123,8 +143,8 @@ fn the_area_with_values_becomes_the_domain() {
 #[test]
 fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
     let file = folder("app-surface", "relief").join("slope.asc");
-    // From 0 in the west to 190 in the east, with a ridge across the middle row.
-    let rows = (0..20).map(|_| (0..20).map(|x| (10 * x).to_string()).collect::<Vec<_>>().join(" "));
+    // From 1000 in the west to 1190 in the east.
+    let rows = (0..20).map(|_| (0..20).map(|x| (1000 + 10 * x).to_string()).collect::<Vec<_>>().join(" "));
     let header = "ncols 20\nnrows 20\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
     fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
     let mut window = drawn_window();
@@ -136,7 +156,7 @@ fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
     window.hover_at(RESTING_PLACE);
     window.run();
     wait_for_jobs(&mut window);
-    assert!(window.query_by_label_contains("Legend: surface 0 to 190").is_some());
+    assert!(window.query_by_label_contains("Legend: surface 1,000 to 1,190").is_some());
     let image = picture(&mut window);
     let colors = |x: f64| pixel(&image, on_screen(&window, dvec2(x, 9.3)));
     let [low, middle, high] = [1.2, 9.7, 18.6].map(colors);

@@ -9,9 +9,11 @@ use crate::app::command::{BrushCommand, Command, EditCommand};
 use crate::app::features::painting::{BRUSH, BrushMode, PenEffect};
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen, open_popup,
-    painted, press, price_tag, release, send, stroke, triangles, window, with_base,
+    painted, press, price_tag, release, send, settings, stroke, triangles, value_of, window, with_base,
 };
 use crate::app::tools::PaintKind;
+use crate::app::widgets::format;
+use meshbrush_core::field::RiskToDiameter as _;
 use meshbrush_core::layers::LayerKind;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
@@ -49,6 +51,20 @@ fn a_risk_is_built_up_set_and_lowered() {
     assert_eq!(risk_at(&window, FREE), 0.45);
     key(&mut window, Modifiers::NONE, Key::U);
     assert_eq!(window.state().tools().mode, BrushMode::BuildUp);
+}
+
+#[test]
+fn the_panel_says_which_diameter_a_stroke_aims_at() {
+    let mut window = window();
+    let transfer = settings(&window).transfer;
+    brush(&mut window, BrushCommand::Strength(0.3));
+    brush(&mut window, BrushCommand::Risk(0.6));
+    for (mode, risk) in [(BrushMode::BuildUp, 0.3), (BrushMode::Set, 0.6), (BrushMode::Lower, 0.7)] {
+        brush(&mut window, BrushCommand::Mode(mode));
+        let said = value_of(&window, Role::Definition, "h̄ · level");
+        let aim = format::length(transfer.diameter(risk), settings(&window).unit);
+        assert!(said.starts_with(&format!("{aim} · ")), "{mode:?}: {said}, not {aim}");
+    }
 }
 
 #[test]

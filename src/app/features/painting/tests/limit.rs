@@ -7,8 +7,8 @@ use glam::dvec2;
 
 use crate::app::command::{BrushCommand, Command, EditCommand, ViewCommand};
 use crate::app::tests::{
-    FREE, PAINTED_DIAMETER, Window, click_button, entries, hover, key, move_to, painted, send, settings,
-    stroke, triangles, type_into, value_of, window,
+    FREE, PAINTED_DIAMETER, Window, click_button, entries, hover, key, move_to, on_screen, painted, send,
+    settings, stroke, triangles, type_into, value_of, window,
 };
 use crate::app::tools::PaintKind;
 use crate::app::widgets::format;
@@ -61,6 +61,18 @@ fn the_brush_paints_below_the_smallest_diameter_and_offers_to_lower_it() {
     assert_eq!(still, at_risk, "where risk decides, nothing changes");
     send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!((triangles(&window), settings(&window).transfer), before, "one gesture");
+}
+
+#[test]
+fn the_offer_is_beside_the_brush_however_large_that_is() {
+    for zoom in [1.0, 40.0] {
+        let (mut window, _) = window_painted_finer();
+        send(&mut window, Command::View(ViewCommand::LookAt(FREE)));
+        send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+        let offer = window.get_by_role_and_label(Role::Button, LOWER).rect();
+        let apart = offer.left() - on_screen(&window, FREE).x;
+        assert!((5.0..200.0).contains(&apart), "{apart} points from the middle of the brush");
+    }
 }
 
 #[test]

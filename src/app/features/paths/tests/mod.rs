@@ -182,3 +182,22 @@ fn the_example_opens_with_its_path() {
     open_tab(&mut window, Tab::Paths);
     assert!(window.query_by_label("Risk along the path").is_some());
 }
+
+#[test]
+fn a_place_in_between_comes_where_it_makes_the_way_longer_by_the_least() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Path(PathCommand::StartAt(dvec2(0.1, 0.5))));
+    send(&mut window, Command::Path(PathCommand::GoalAt(dvec2(0.9, 0.5))));
+    let xs = |window: &Window| -> Vec<f64> {
+        settings(window).paths.routes[0].iter().map(|place| place.x).collect()
+    };
+    for (x, expected) in [
+        (0.5, vec![0.1, 0.5, 0.9]),
+        (0.7, vec![0.1, 0.5, 0.7, 0.9]),
+        (0.3, vec![0.1, 0.3, 0.5, 0.7, 0.9]),
+        (0.2, vec![0.1, 0.2, 0.3, 0.5, 0.7, 0.9]),
+    ] {
+        send(&mut window, Command::Path(PathCommand::ViaAt(dvec2(x, 0.52))));
+        assert_eq!(xs(&window), expected);
+    }
+}

@@ -1,15 +1,17 @@
 //! Other paths: the corridor, alternatives, and the front.
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Key, Modifiers, PointerButton, vec2};
+use eframe::egui::{Key, Modifiers, PointerButton, Shape, vec2};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec2;
 
 use super::{Window, shown, wait_for_paths, window_with_path};
 use crate::app::command::{Command, EditCommand};
-use crate::app::features::paths::{AlternativesCommand, FrontCommand, PathCommand, PathFinder};
+use crate::app::features::paths::{
+    AlternativesCommand, CORRIDOR_COLOR, FrontCommand, PathCommand, PathFinder,
+};
 use crate::app::tests::{
-    RESTING_PLACE, key, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
+    RESTING_PLACE, key, painted_shapes, press_at, release_at, send, settings, tips, wait_for_jobs, wait_until,
 };
 use meshbrush_core::document::PathCost;
 
@@ -35,7 +37,12 @@ fn the_corridor_is_shown_as_wide_as_its_slider_says() {
     check(&mut window, "Corridor");
     wait_until(&mut window, |window| !paths(window).corridor.lines().is_empty());
     assert_eq!(shown(&window)[0].found.as_ref().unwrap().solution, solution, "the path stays as it is");
-    assert!(window.query_by_label("Legend: paths within 5 %").is_some());
+    let legend = window.get_by_label("Legend: paths within 5 %").rect();
+    let is_swatch = |shape: &&Shape| match shape {
+        Shape::Rect(swatch) => swatch.fill == CORRIDOR_COLOR && legend.contains_rect(swatch.rect),
+        _ => false,
+    };
+    assert_eq!(painted_shapes(window.output()).iter().filter(|shape| is_swatch(shape)).count(), 1);
     assert_eq!(tips::unexplained(&window), [""; 0]);
     let before = area(paths(&window).corridor.lines());
     assert!(before > 0.0 && before < 1.0, "{before}");
