@@ -11,13 +11,15 @@ use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, metres_along};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
-    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, PathSearch, Planner,
-    Planning, Solution,
+    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathMeshing, PathRequest, PathSample,
+    PathSearch, Planner, Planning, Solution,
 };
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Extract, Mesh};
 use meshbrush_mesh::text::LengthUnit;
 
+/// Triangles that are compared with the area of paths in a step, or bisected along its rim.
+const AT_ONCE: usize = 2048;
 /// Places on a path at which its profile is known.
 const PROFILE_SAMPLES: usize = 200;
 
@@ -203,11 +205,11 @@ pub(super) enum PlannedMesh {
 }
 
 impl PlannedMesh {
-    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMesh, PathError> {
+    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMeshing, PathError> {
         let area = plan.area(domain)?;
         Ok(match self {
-            Self::Mesh(mesh) => PathMesh::in_area(mesh.view(), &area),
-            Self::Extract(extract) => PathMesh::in_area(extract.view(), &area),
+            Self::Mesh(mesh) => PathMeshing::new(mesh.view(), &area),
+            Self::Extract(extract) => PathMeshing::new(extract.view(), &area),
         })
     }
 }
@@ -226,8 +228,10 @@ pub(super) struct PathWork {
 
 /// What is done next.
 enum Step {
-    /// Closes the triangles outside the area of paths.
-    Close(PlannerSource),
+    /// Begins with the triangles of a mesh, if there is another one.
+    Start(PlannerSource),
+    /// Finds those in the area of paths.
+    Close(Option<Box<KnownPlanner>>, Box<PathMeshing>),
     /// Makes smaller triangles for the places.
     Detail(Arc<PathMesh>),
     /// Makes a planner.
@@ -253,7 +257,7 @@ impl PathWork {
         is_live: bool,
     ) -> Option<Self> {
         let density = plan.cost.density(risk.clone(), &domain).ok()?;
-        let (step, found) = (Step::Close(source), Vec::new());
+        let (step, found) = (Step::Start(source), Vec::new());
         Some(Self { plan, risk, domain, unit, is_live, density, step, found })
     }
 
@@ -277,14 +281,16 @@ impl PathWork {
     fn step(&mut self) -> Result<ControlFlow<Option<Work>, Step>, PathError> {
         let Self { plan, risk, domain, density, is_live, .. } = self;
         Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Close(PlannerSource { known, mesh }) => {
-                let mesh = mesh.map(|mesh| mesh.in_area(plan, domain)).transpose()?;
-                match (known, mesh) {
-                    (Some(known), mesh) => Step::Follow(known, mesh.map(Box::new)),
-                    (None, Some(mesh)) => Step::Detail(Arc::new(mesh)),
-                    (None, None) => return Ok(ControlFlow::Break(None)),
-                }
+            Step::Start(PlannerSource { known, mesh: Some(mesh) }) => {
+                Step::Close(known, Box::new(mesh.in_area(plan, domain)?))
             }
+            Step::Start(PlannerSource { known: Some(known), mesh: None }) => Step::Follow(known, None),
+            Step::Start(PlannerSource { known: None, mesh: None }) => return Ok(ControlFlow::Break(None)),
+            Step::Close(known, mut meshing) => match (meshing.advance(AT_ONCE), known) {
+                (None, known) => Step::Close(known, meshing),
+                (Some(mesh), Some(known)) => Step::Follow(known, Some(Box::new(mesh))),
+                (Some(mesh), None) => Step::Detail(Arc::new(mesh)),
+            },
             Step::Detail(mesh) => {
                 let detailed = mesh.detailed(&plan.routes);
                 let planning = Planning::new(Arc::clone(&detailed));
