@@ -461,6 +461,9 @@ mod tests {
             assert!((1.8..=2.0).contains(&width), "{width} at {at}");
         }
         assert_eq!(straits.width_at(DVec2::ZERO), f64::INFINITY);
+        let mut search = StraitSearch::new(&water, [0.5, 5.0]);
+        while search.advance(3) == Progress::More {}
+        assert_eq!(search.finish(), straits, "found in slices");
         assert_eq!(StraitDiscs::of(&water, [0.5, 1.5]).discs().len(), 0, "wider than what is looked for");
         assert_eq!(
             StraitDiscs::of(&water, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),

@@ -93,3 +93,46 @@ fn close_outside_area(mesh: &mut PathMesh, passages: &[Passage]) {
     }
     mesh.has_obtuse = mesh.triangles.iter().any(|triangle| triangle.obtuse < 3 && triangle.is_passable());
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::domain::Domain;
+    use crate::geometry::{Lattice, Rect};
+    use crate::layers::Mask;
+    use crate::mesh::{Limits, Mesh};
+
+    #[test]
+    fn slices_of_any_size_find_the_same_triangles() {
+        let lattice = Lattice::covering(Rect::UNIT, 0.05, 100_000).unwrap();
+        let mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
+        let ring = vec![dvec2(0.3, 0.3), dvec2(0.7, 0.35), dvec2(0.6, 0.7)];
+        let keep_out = vec![Mask::new(&[vec![ring]]).unwrap()];
+        let domain = Domain::rectangle(Rect::UNIT);
+        for area in [
+            PathArea::default(),
+            PathArea::outside_of(&keep_out),
+            PathArea::new(&domain, keep_out.clone(), 0.06).unwrap(),
+        ] {
+            let whole = PathMesh::in_area(mesh.view(), &area);
+            for slice in [1, 7, 100] {
+                let mut meshing = PathMeshing::new(mesh.view(), &area);
+                let mut slices = 1;
+                let found = loop {
+                    match meshing.advance(slice) {
+                        Some(found) => break found,
+                        None => slices += 1,
+                    }
+                };
+                assert!(found.is_same_as(&whole));
+                let passages = |mesh: &PathMesh| -> Vec<Passage> {
+                    mesh.triangles.iter().map(|triangle| triangle.passage).collect()
+                };
+                assert_eq!(passages(&found), passages(&whole));
+                assert!(area.is_everything() || slices > mesh.raw_triangle_count() / slice, "{slices}");
+            }
+        }
+    }
+}

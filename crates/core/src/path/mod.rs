@@ -68,6 +68,7 @@ pub use certificate::{
 pub use corridor::Corridor;
 pub use cost::{CostDensity, CostModel, CostRange, FormulaCost, WeightedCost, Weights, checked_range};
 pub use error::{PathError, Waypoint};
+pub use follow::PlannerMove;
 pub use front::{Front, FrontPoint};
 pub use ground::{GroundCost, in_plane};
 pub use integral::PathFigures;
