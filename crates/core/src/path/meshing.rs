@@ -47,7 +47,8 @@ impl PathMeshing {
             Step::Compare(first, mut passages) => {
                 let end = first.saturating_add(triangles.max(1)).min(mesh.triangles.len());
                 let numbers = (first as u32..end as u32).into_par_iter().with_min_len(TOGETHER);
-                passages.par_extend(numbers.map(|number| passage_in_area(mesh, number)));
+                let more: Vec<Passage> = numbers.map(|number| passage_in_area(mesh, number)).collect();
+                passages.extend(more);
                 if end < mesh.triangles.len() {
                     Step::Compare(end, passages)
                 } else {

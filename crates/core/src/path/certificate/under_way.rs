@@ -74,7 +74,8 @@ impl Certificate {
         };
         let left = &work.space.elements[found.len()..];
         let some = &left[..left.len().min(IN_SLICE * TOGETHER * rayon::current_num_threads())];
-        found.par_extend(some.par_iter().with_min_len(TOGETHER).map(of_element));
+        let more: Vec<(u32, Minorant)> = some.par_iter().with_min_len(TOGETHER).map(of_element).collect();
+        found.extend(more);
         if some.len() == left.len() { Progress::Done } else { Progress::More }
     }
 
