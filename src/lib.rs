@@ -57,9 +57,9 @@ pub use meshbrush_mesh::mesh::{
 // Paint.
 #[doc(inline)]
 pub use meshbrush_core::document::{
-    Background, Document, Edit, EditError, Edits, Example, ExampleData, Follower, History, KeepOut,
-    MeshChange, NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit, RecordedStroke,
-    Recording, Repainted, SeaChart, Setting, SettingKind, Settings, SettingsError, Stage,
+    Background, Document, Edit, EditError, Edits, Example, ExampleData, ExampleMaking, Follower, History,
+    KeepOut, MeshChange, NoPaintLayer, OutlineError, PathCost, PathPlan, Picture, RecordedEdit,
+    RecordedStroke, Recording, Repainted, SeaChart, Setting, SettingKind, Settings, SettingsError, Stage,
 };
 #[doc(inline)]
 pub use meshbrush_core::layers::{

@@ -13,6 +13,7 @@ use super::home::Home;
 use super::jobs::{Job, Jobs, Kind, Taken};
 use super::threads::Threads;
 use meshbrush_io::io::{self, Meter};
+use meshbrush_mesh::mesh::Progress;
 
 /// How often an otherwise idle window shows the progress of work.
 const PACE: Duration = Duration::from_millis(150);
@@ -151,6 +152,27 @@ impl Background {
             output.send(Threads::new(threads).run(|| work(&watched)));
         });
         self.enter(aim, path, meter, job);
+    }
+
+    /// Starts work as [`Self::start`] does, in slices: the first one makes a state, and the others are called
+    /// until one returns the outcome.
+    #[track_caller]
+    pub fn start_in_slices<S: Send + 'static>(
+        &mut self,
+        aim: Aim,
+        path: &Path,
+        begin: impl FnOnce() -> Option<S> + Send + 'static,
+        mut slice: impl FnMut(&mut S) -> Option<Outcome> + Send + 'static,
+    ) {
+        let kind = if aim == Aim::Read { Kind::Read } else { Kind::Write };
+        let job = self.jobs.start_in_slices(kind, begin, move |state, output| match slice(state) {
+            Some(outcome) => {
+                output.send(outcome);
+                Progress::Done
+            }
+            None => Progress::More,
+        });
+        self.enter(aim, path, Meter::default(), job);
     }
 
     /// Enters the job of work on a file, and the meter that it checks.

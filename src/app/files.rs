@@ -14,7 +14,9 @@ use super::session::Session;
 use super::space::Space;
 use super::view::View;
 use super::widgets::format;
-use meshbrush_core::document::{Document, Example, ExampleData, Recording, SeaChart, Settings};
+use meshbrush_core::document::{
+    Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
+};
 use meshbrush_core::domain::{MeshBoundary, NamedPolygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::{Layer, NodeDepths};
@@ -44,16 +46,20 @@ const CELTIC_DEPTHS: &str = "celtic_sea_depths.tif";
 const SLOPE: &str = "jacksboro_slope.png";
 const HEIGHTS: &str = "jacksboro_heights.tif";
 
-/// Returns the files of an example that are not here yet: a page fetches them.
-pub fn missing_for(example: Example) -> Vec<&'static str> {
-    let files: &[&str] = match example {
+/// Returns the files of an example.
+pub fn data_of(example: Example) -> &'static [&'static str] {
+    match example {
         Example::Terrain | Example::Layers => &[SLOPE],
         Example::Heights => &[HEIGHTS],
         Example::Aegean => &[AEGEAN_SEA],
         Example::CelticSea => &[CELTIC_SEA, CELTIC_DEPTHS],
         _ => &[],
-    };
-    files.iter().copied().filter(|file| asset(file).is_none()).collect()
+    }
+}
+
+/// Returns the files of an example that are not here yet: a page fetches them.
+pub fn missing_for(example: Example) -> Vec<&'static str> {
+    data_of(example).iter().copied().filter(|file| asset(file).is_none()).collect()
 }
 
 /// Returns a file of an example that is here.
@@ -116,6 +122,17 @@ pub fn new_document() -> Document {
 /// Returns a document that comes with the program, of which nothing is [missing](missing_for).
 pub fn example(example: Example) -> Document {
     example.document(&Assets)
+}
+
+/// Makes the document of an example, of which nothing is [missing](missing_for), in slices, and then shows
+/// it.
+pub fn open_example_in_slices(background: &mut Background, example: Example) {
+    let begin = move || Some(example.making(&Assets));
+    let slice = move |making: &mut ExampleMaking| {
+        let opened = Opened { document: Arc::new(making.advance()?), home: None };
+        Some(Outcome::PartRead(vec![Command::File(FileCommand::ShowExample(example, opened))]))
+    };
+    background.start_in_slices(Aim::Read, Path::new(example.name()), begin, slice);
 }
 
 /// Reads a recipe, which is shown as a document without a file once it is read.

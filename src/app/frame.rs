@@ -45,6 +45,8 @@ const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40))
 const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
 /// The most time for work on the mesh in a page: a browser does nothing else meanwhile.
 const MOST_IN_PAGE: Duration = Duration::from_millis(20);
+/// Where frames do the work of jobs, one that has worked this long already leaves the mesh to the next one.
+const LONG_BEFORE_MESH: Duration = Duration::from_millis(12);
 
 /// Returns whether a command moves the focus between parts of the window.
 fn is_for_parts(command: &Command) -> bool {
@@ -54,6 +56,7 @@ fn is_for_parts(command: &Command) -> bool {
 impl App {
     /// The first half of a frame: everything that changes.
     pub(super) fn advance(&mut self, ctx: &Context) {
+        let began = Instant::now();
         self.jobs.begin_frame(ctx.input(|input| input.time));
         // Commands of the last frame come first: they may open another document. What a file becomes is done
         // before the next file is looked at, for the same reason.
@@ -72,7 +75,7 @@ impl App {
         self.run_commands(ctx);
         self.project.forget_saving(&self.background, self.dialogs.asks_for_file());
         self.project.set_window_title(&self.session, ctx);
-        self.follow(ctx);
+        self.follow(ctx, began);
         self.record_edits();
         self.background.keep_awake();
     }
@@ -159,8 +162,9 @@ impl App {
         }
     }
 
-    /// Brings the mesh and the price of a stroke closer to the document, until the frame's time is spent.
-    fn follow(&mut self, ctx: &Context) {
+    /// Brings the mesh and the price of a stroke closer to the document, until the time of the frame, which
+    /// began then, is spent.
+    fn follow(&mut self, ctx: &Context, began: Instant) {
         // With a time limit, what is shown on the way would depend on the machine's speed.
         let [budget, price_budget] =
             if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
@@ -168,7 +172,10 @@ impl App {
         let start = Instant::now();
         let deadline = start + budget;
         let cuts = self.session.advance_cuts(jobs);
-        let follows = self.session.follow(&self.threads, deadline);
+        let is_late =
+            self.jobs.is_without_threads() && !self.reproducible && began.elapsed() > LONG_BEFORE_MESH;
+        self.leaves_mesh = is_late && !self.leaves_mesh;
+        let follows = self.leaves_mesh || self.session.follow(&self.threads, deadline);
         let derives = self.session.advance_derivation(jobs);
         let derives = derives | self.session.find_heights(self.view.space.is_on, jobs);
         self.view.follow_heights(&self.session);

@@ -137,6 +137,8 @@ pub struct App {
     commands: Vec<Command>,
     /// Whether the file that the program was started with is being read.
     starts_with_file: bool,
+    /// Whether this frame left the mesh to the next one, because it had worked for long before.
+    leaves_mesh: bool,
     /// The time of the last input that was handled.
     input_time: Option<f64>,
     /// Whether to leave out what differs from run to run: pictures must be the same every time.
@@ -215,6 +217,7 @@ impl App {
             journal: None,
             commands: Vec::new(),
             starts_with_file: false,
+            leaves_mesh: false,
             input_time: None,
             reproducible: false,
             frame_log: FrameLog::from_environment(),

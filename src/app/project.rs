@@ -381,7 +381,7 @@ fn leaves(command: &Command) -> bool {
         command,
         Command::File(FileCommand::New)
             | Command::File(FileCommand::NewFromPage)
-            | Command::File(FileCommand::OpenExample(_))
+            | Command::File(FileCommand::OpenExample(_) | FileCommand::ShowExample(..))
             | Command::Figure(FigureCommand::Open(_))
             | Command::File(FileCommand::Show(_))
             | Command::File(FileCommand::Restore)

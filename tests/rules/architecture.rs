@@ -524,10 +524,15 @@ fn every_command_has_an_arm() {
     assert_none(with_word(window, "unreachable"), "the compiler knows what the window does with a value:");
 }
 
+/// Files with unsafe code: memory that grows in place, and values of a library whose types have no public
+/// name.
+const UNSAFE_FILES: [&str; 2] =
+    ["crates/mesh/src/mesh/kernel/memory.rs", "crates/core/src/path/certificate/solver.rs"];
+
 #[test]
-fn unsafe_code_is_in_one_file() {
-    let others = read_src().iter().filter(|file| file.path != "crates/mesh/src/mesh/kernel/memory.rs");
-    assert_none(with_word(others, "unsafe"), "unsafe code is in mesh/kernel/memory.rs only:");
+fn unsafe_code_is_in_two_files() {
+    let others = read_src().iter().filter(|file| !UNSAFE_FILES.contains(&file.path.as_str()));
+    assert_none(with_word(others, "unsafe"), "unsafe code is in UNSAFE_FILES only:");
 }
 
 #[test]

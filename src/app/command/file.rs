@@ -18,6 +18,8 @@ pub enum FileCommand {
     NewFromPage,
     /// Opens one of the documents that come with the program.
     OpenExample(Example),
+    /// Opens the document that was made of an example.
+    ShowExample(Example, Opened),
     /// Copy a link to the page of the program with the document in it.
     CopyLink,
     /// Asks for a file.

@@ -22,7 +22,7 @@ use coast::{Coast, RemovedTriangles};
 
 use super::jobs::{Job, Jobs, Kind, Output, Succession, Taken};
 use meshbrush_core::document::{Document, Follower, MeshChange};
-use meshbrush_core::domain::{Domain, FitQuality, Region};
+use meshbrush_core::domain::{Domain, FitComparison, FitQuality, Region};
 use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFit, OutlineFollower};
 use meshbrush_mesh::mesh::{
     Changes, Cleaning, Extract, Location, MeshView, PatchPieces, PatchedLocator, Progress, Removed, Topology,
@@ -350,7 +350,7 @@ enum Step {
     Extract(MeshDerivation, DerivedMesh),
     Send(MeshDerivation, DerivedMesh, Arc<Extract<'static>>),
     Follow(MeshDerivation, Arc<Extract<'static>>),
-    Compare(Arc<Extract<'static>>),
+    Compare(FitComparison),
     Done,
 }
 
@@ -380,13 +380,20 @@ impl Work {
                 }
                 match progress {
                     Progress::More => Step::Follow(derivation, extract),
-                    Progress::Done => Step::Compare(extract),
+                    Progress::Done => {
+                        let ground = self.in_world.ground();
+                        Step::Compare(FitComparison::new(&extract, &self.key.region, &ground))
+                    }
                 }
             }
-            Step::Compare(extract) => {
-                let quality = FitQuality::of(&extract, &self.key.region, &self.in_world.ground());
-                output.send(Outcome::Quality(quality));
-                Step::Done
+            Step::Compare(mut comparison) => {
+                match comparison.advance(&self.key.region, &self.in_world.ground()) {
+                    None => Step::Compare(comparison),
+                    Some(quality) => {
+                        output.send(Outcome::Quality(quality));
+                        Step::Done
+                    }
+                }
             }
             Step::Done => Step::Done,
         };

@@ -28,7 +28,15 @@ impl App {
             let open = Command::File(FileCommand::OpenExample(example));
             return self.fetch(missing, format!("The example “{}”", example.name()), vec![open]);
         }
-        self.open(files::example(example));
+        if self.jobs.is_without_threads() && !files::data_of(example).is_empty() {
+            return files::open_example_in_slices(&mut self.background, example);
+        }
+        self.show_example(example, Arc::new(files::example(example)));
+    }
+
+    /// Shows the document of an example.
+    fn show_example(&mut self, example: Example, document: Arc<Document>) {
+        self.open(Arc::unwrap_or_clone(document));
         let layers = &self.session.document().settings().layers;
         self.view.show_depths(DepthSurface::of(layers).is_some());
         if example == Example::Heights {
@@ -59,6 +67,7 @@ impl App {
                 self.dialogs.open(Dialog::Start);
             }
             FileCommand::OpenExample(example) => self.open_example(example),
+            FileCommand::ShowExample(example, opened) => self.show_example(example, opened.document),
             FileCommand::CopyLink => self.copy_link(ctx),
             FileCommand::Ask(request) => self.ask_for_file(request),
             FileCommand::Open(path) => match (link::part_of(&path), project::open_command(path)) {

@@ -160,11 +160,16 @@ impl Jobs {
         self.0.inbox.waits_for_all()
     }
 
+    /// Returns whether the system starts no threads, as in a browser: frames do the work of jobs.
+    pub fn is_without_threads(&self) -> bool {
+        self.0.queue.is_without_threads()
+    }
+
     /// Begins a frame at a time in seconds: what jobs have sent is delivered, and the frame may wait again.
     pub fn begin_frame(&self, time: f64) {
         self.0.time.set(time);
         self.0.frame.set(self.0.frame.get() + 1);
-        if self.0.queue.is_without_threads() {
+        if self.is_without_threads() {
             self.work_in_frame();
         }
         if self.0.inbox.begin_frame() {
@@ -282,7 +287,7 @@ impl Jobs {
             }
             if is_wanted { Turn::Done } else { Turn::GivenUp }
         });
-        if self.0.queue.is_without_threads() {
+        if self.is_without_threads() {
             self.wake(); // the next frame does it
         }
         job
@@ -309,7 +314,7 @@ impl Jobs {
     /// Waits until a job has ended, however long it takes: for a window that is being closed.
     pub fn wait_for_end<T: Send + 'static>(&self, job: &Job<T>) {
         while !matches!(job.take_ready(), Taken::Ended) {
-            if !self.0.queue.is_without_threads() {
+            if !self.is_without_threads() {
                 self.0.inbox.receive_within(Duration::MAX);
             } else if self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice {
                 self.0.inbox.drain();
@@ -321,7 +326,7 @@ impl Jobs {
 
     /// Waits for the next value of any job as long as the frame may still wait. Returns whether one came.
     fn receive(&self) -> bool {
-        if self.0.queue.is_without_threads() {
+        if self.is_without_threads() {
             // What was requested in this frame is done in the next one, except where frames wait.
             let worked =
                 self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice;

@@ -14,12 +14,13 @@ use wasm_bindgen_futures::spawn_local;
 
 use crate::app::clock::{Duration, Instant};
 use crate::app::command::Command;
-use crate::app::jobs::{Job, Jobs, Kind, Taken};
+use crate::app::jobs::{Job, Jobs, Kind, Output, Taken};
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
 use crate::app::widgets::Answer;
-use meshbrush_io::io::project::{self, Project};
+use meshbrush_io::io::project::{self, Project, ProjectPacking};
+use meshbrush_mesh::mesh::Progress;
 
 #[wasm_bindgen(module = "/web/storage.js")]
 extern "C" {
@@ -34,6 +35,8 @@ extern "C" {
 
 /// How long after an edit the document is kept, so that several edits are kept at once.
 const PAUSE: Duration = Duration::from_millis(500);
+/// So many bytes are packed between two frames: some milliseconds.
+const SLICE: usize = 100_000;
 
 /// The work that a tab left behind.
 #[derive(Clone)]
@@ -149,12 +152,15 @@ impl JournalKeeper {
         }
         self.edited = None;
         let packed = Project::of(session.document());
-        let job = self.jobs.start(Kind::Write, move |output| {
-            let mut bytes = Vec::new();
-            if project::write(&mut bytes, &packed).is_ok() {
+        let pack = |packing: &mut ProjectPacking, output: &Output<Vec<u8>>| match packing.advance(SLICE) {
+            Ok(None) => Progress::More,
+            Ok(Some(bytes)) => {
                 output.send(bytes);
+                Progress::Done
             }
-        });
+            Err(_) => Progress::Done,
+        };
+        let job = self.jobs.start_in_slices(Kind::Write, || Some(ProjectPacking::new(packed)), pack);
         self.packing = Some((job, project.path().map(|path| path.to_string_lossy().into_owned())));
     }
 

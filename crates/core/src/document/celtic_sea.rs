@@ -12,9 +12,10 @@ use crate::earth::{Coordinates, GeographicExtent, ProjectionChoice, Reprojection
 use crate::field::Transfer;
 use crate::geometry::Rect;
 use crate::layers::{
-    DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerKind, PositiveDepth, RasterSource, StraitDiscs,
+    DepthRule, DepthSizes, Depths, DistanceTo, Layer, LayerKind, PositiveDepth, RasterSource, StraitSearch,
     Straits,
 };
+use crate::mesh::Progress;
 use crate::raster::{Raster, RasterPyramid, projected_raster};
 use crate::text::LengthUnit;
 
@@ -52,9 +53,79 @@ const NAMES: [(DVec2, &str); 16] = [
 /// A ship from Saint-Malo to the Bristol Channel, and how far it stays from the shore.
 const ROUTE: [DVec2; 2] = [dvec2(103_000.0, 5_402_000.0), dvec2(21_000.0, 5_686_000.0)];
 const CLEARANCE: f64 = 5_000.0;
+/// The names of the layers, from the bottom to the top.
+const LAYERS: [&str; 4] = ["Long waves", "Slopes", "Along the coasts", "Straits"];
+/// The least and the greatest width of a strait, in metres.
+const STRAITS: [f64; 2] = [6000.0, 30_000.0];
+/// Edges of the coasts along which straits are searched in one step.
+const EDGES: usize = 256;
 
-/// Returns the sea in the plane that the program chooses for it.
-pub(super) fn celtic_sea(name: &str, chart: SeaChart) -> Settings {
+/// The work of making the document of the sea, in steps.
+pub(super) struct Making {
+    name: String,
+    step: Step,
+}
+
+/// What is done next, and what is there for it.
+enum Step {
+    /// The sea is placed in the plane that the program chooses for it.
+    Place(Box<SeaChart>),
+    /// The depths are projected.
+    Project(Box<(Domain, Raster, Reprojection)>),
+    /// Diameters are found that the slopes of the ground ask for.
+    Slopes(Box<(Domain, RasterSource)>),
+    /// Straits are searched.
+    Search(Box<(Domain, [LayerKind; 3], StraitSearch)>),
+    /// The document is made.
+    Complete(Box<(Domain, [LayerKind; 4])>),
+    Done,
+}
+
+impl Making {
+    pub(super) fn new(name: &str, chart: SeaChart) -> Self {
+        Self { name: name.into(), step: Step::Place(Box::new(chart)) }
+    }
+
+    /// Takes the next step. Returns the settings after the last one.
+    pub(super) fn advance(&mut self) -> Option<Settings> {
+        self.step = match std::mem::replace(&mut self.step, Step::Done) {
+            Step::Place(chart) => Step::Project(Box::new(placed(*chart))),
+            Step::Project(work) => {
+                let (domain, depths, reprojection) = *work;
+                let depths =
+                    projected_raster(&depths, &reprojection, domain.bounds).expect("depths of the domain");
+                let raster = Arc::new(RasterPyramid::new(depths));
+                Step::Slopes(Box::new((
+                    domain,
+                    RasterSource { name: "celtic_sea_depths.tif".into(), raster },
+                )))
+            }
+            Step::Slopes(work) => {
+                let (domain, depths) = *work;
+                let [waves, slopes] = depth_layers(&domain, &depths);
+                let search = StraitSearch::new(&domain, STRAITS);
+                Step::Search(Box::new((domain, [waves, slopes, along_coasts()], search)))
+            }
+            Step::Search(mut work) => match work.2.advance(EDGES) {
+                Progress::More => Step::Search(work),
+                Progress::Done => {
+                    let (domain, [waves, slopes, coasts], search) = *work;
+                    let straits = LayerKind::Straits(Straits { across: 3.0, found: search.finish() });
+                    Step::Complete(Box::new((domain, [waves, slopes, coasts, straits])))
+                }
+            },
+            Step::Complete(work) => {
+                let (domain, kinds) = *work;
+                return Some(settings(&self.name, domain, kinds));
+            }
+            Step::Done => return None,
+        };
+        None
+    }
+}
+
+/// Returns the sea in the plane that the program chooses for it, and its depths as they are.
+fn placed(chart: SeaChart) -> (Domain, Raster, Reprojection) {
     let SeaChart { sea, depths } = chart;
     let rings = sea.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
     let extent = GeographicExtent::of_rings(rings).expect("polygons");
@@ -64,12 +135,14 @@ pub(super) fn celtic_sea(name: &str, chart: SeaChart) -> Settings {
     let frame = Rect::new(FRAME[0], FRAME[1]);
     let domain = Domain::of_stored_polygons(projected_polygons(&polygons, &reprojection), frame)
         .expect("a valid outline");
-    let domain = Domain { projection: Some(projection), ..domain };
-    let depths = projected_raster(&depths, &reprojection, frame).expect("depths of the domain");
-    let raster = Arc::new(RasterPyramid::new(depths));
-    let layers = layers(&domain, &RasterSource { name: "celtic_sea_depths.tif".into(), raster });
+    (Domain { projection: Some(projection), ..domain }, depths, reprojection)
+}
+
+fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {
     let names = NAMES.map(|(at, name)| (at, name.to_owned())).to_vec();
     let route = PathPlan { routes: vec![ROUTE.to_vec()], clearance: CLEARANCE, ..PathPlan::default() };
+    let mut layers = Layer::stack(kinds);
+    layers.iter_mut().zip(LAYERS).for_each(|(layer, name)| layer.name = name.into());
     Settings {
         unit: LengthUnit::Metre,
         spacing: SPACING,
@@ -83,33 +156,18 @@ pub(super) fn celtic_sea(name: &str, chart: SeaChart) -> Settings {
     }
 }
 
-/// Returns the layers, from the bottom to the top.
-fn layers(domain: &Domain, depths: &RasterSource) -> Vec<Layer> {
+/// Returns the layers of long waves and of slopes.
+fn depth_layers(domain: &Domain, depths: &RasterSource) -> [LayerKind; 2] {
     let depth = |rule, [from, to]: [f64; 2]| {
         let sizes = DepthSizes { positive: PositiveDepth::Down, offset: 0.0, between: [from, to], rule };
-        LayerKind::Depth(Depths::new(depths.clone(), sizes))
+        LayerKind::Depth(Depths::new_in_plane(depths.clone(), sizes, domain.projection))
     };
     // A wave of half an hour, as from an earthquake.
     let waves = DepthRule::Wavelength { period: 1800.0, triangles: 5.0 };
     let slopes = DepthRule::Slope { triangles: 15.0, smoothing: 8000.0 };
-    let named = [
-        ("Long waves", depth(waves, DepthSizes::ALL_WATER)),
-        ("Slopes", depth(slopes, [50.0, f64::INFINITY])),
-        (
-            "Along the coasts",
-            LayerKind::Distance {
-                to: DistanceTo::Coasts,
-                at_zero: 2500.0,
-                slope: 0.15,
-                range: f64::INFINITY,
-            },
-        ),
-        (
-            "Straits",
-            LayerKind::Straits(Straits { across: 3.0, found: StraitDiscs::of(domain, [6000.0, 30_000.0]) }),
-        ),
-    ];
-    let mut layers = Layer::stack(named.clone().map(|(_, kind)| kind));
-    layers.iter_mut().zip(named).for_each(|(layer, (name, _))| layer.name = name.into());
-    layers
+    [depth(waves, DepthSizes::ALL_WATER), depth(slopes, [50.0, f64::INFINITY])]
+}
+
+fn along_coasts() -> LayerKind {
+    LayerKind::Distance { to: DistanceTo::Coasts, at_zero: 2500.0, slope: 0.15, range: f64::INFINITY }
 }

@@ -2,9 +2,9 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 
-use super::celtic_sea::{SeaChart, celtic_sea};
+use super::celtic_sea::{Making, SeaChart};
 use super::{Document, PathPlan, Settings};
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon, Polygon};
 use crate::field::{Formula, RefinementRule, Transfer};
 use crate::geometry::Rect;
 use crate::layers::{
@@ -98,16 +98,63 @@ impl Example {
 
     /// Returns the document. Only examples that need data ask for it.
     pub fn document(self, data: &impl ExampleData) -> Document {
-        match self {
-            Self::Threats => threats(),
-            Self::Diamond => document(diamond()),
-            Self::Terrain => document(terrain(data.slope())),
-            Self::Heights => document(heights(data.heights())),
-            Self::Aegean => document(aegean(&data.sea())),
-            Self::CelticSea => document(celtic_sea(self.name(), data.chart())),
-            Self::Layers => layers(data.slope()),
-            Self::Path => document(path()),
+        let mut making = self.making(data);
+        loop {
+            if let Some(document) = making.advance() {
+                return document;
+            }
         }
+    }
+
+    /// Begins to make the document, in steps. Only examples that need data ask for it.
+    pub fn making(self, data: &impl ExampleData) -> ExampleMaking {
+        ExampleMaking(match self {
+            Self::Threats => Step::Made(threats().into()),
+            Self::Diamond => Step::Settled(diamond().into()),
+            Self::Terrain => Step::Settled(terrain(data.slope()).into()),
+            Self::Heights => Step::Settled(heights(data.heights()).into()),
+            Self::Aegean => Step::Sea(data.sea()),
+            Self::CelticSea => Step::Chart(Making::new(self.name(), data.chart()).into()),
+            Self::Layers => Step::Slope(data.slope()),
+            Self::Path => Step::Settled(path().into()),
+        })
+    }
+}
+
+/// The work of making the document of an example, in steps that take some ten milliseconds each.
+pub struct ExampleMaking(Step);
+
+/// What is done next, and what is there for it.
+enum Step {
+    Sea(Vec<NamedPolygon>),
+    Coasts(Vec<NamedPolygon>, Box<Domain>),
+    Slope(Raster),
+    Chart(Box<Making>),
+    Settled(Box<Settings>),
+    Made(Box<Document>),
+    Done,
+}
+
+impl ExampleMaking {
+    /// Takes the next step. Returns the document after the last one.
+    pub fn advance(&mut self) -> Option<Document> {
+        self.0 = match std::mem::replace(&mut self.0, Step::Done) {
+            Step::Sea(sea) => {
+                let polygons: Vec<Polygon> = sea.iter().map(|named| named.polygon.clone()).collect();
+                let domain = Domain::of_polygons(&polygons).expect("a valid outline");
+                Step::Coasts(sea, domain.into())
+            }
+            Step::Coasts(sea, domain) => Step::Settled(aegean(&sea, *domain).into()),
+            Step::Slope(slope) => Step::Made(layers(slope).into()),
+            Step::Chart(mut making) => match making.advance() {
+                Some(settings) => Step::Settled(settings.into()),
+                None => Step::Chart(making),
+            },
+            Step::Settled(settings) => Step::Made(document(*settings).into()),
+            Step::Made(document) => return Some(*document),
+            Step::Done => return None,
+        };
+        None
     }
 }
 
@@ -305,8 +352,8 @@ const SITES: [(DVec2, f64, f64, f64); 4] = [
 ];
 
 /// Returns the sea at half a degree, the coast at a fiftieth.
-fn aegean(sea: &[NamedPolygon]) -> Settings {
-    let (domain, marks) = BoundaryMarks::domain_of(sea).expect("a valid outline");
+fn aegean(sea: &[NamedPolygon], domain: Domain) -> Settings {
+    let marks = BoundaryMarks::of_polygons(sea, &domain);
     let settings = Settings::for_domain(Example::Aegean.name().into(), domain);
     let boundary = BoundaryTreatment::OnOutline { diameter: 0.02 };
     let (unit, boundary_marks) = (LengthUnit::Degree, Arc::new(marks));

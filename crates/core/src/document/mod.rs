@@ -35,7 +35,7 @@ pub use background::{Background, Picture};
 pub use celtic_sea::SeaChart;
 pub use drawing::{Drawing, DrawingError, DrawnPart, DrawnShape};
 pub use edits::Edits;
-pub use examples::{Example, ExampleData};
+pub use examples::{Example, ExampleData, ExampleMaking};
 pub use field_price::CountEstimate;
 pub use follower::{Follower, MeshChange};
 pub use history::History;

@@ -48,34 +48,93 @@ impl FitQuality {
     /// Compares the extract that files get with the region of its domain. Takes time in proportion to the
     /// triangles, and to n log n of the edges of boundary and outline.
     pub fn of(extract: &Extract, region: &Region, ground: &Ground) -> Self {
+        let mut comparison = FitComparison::new(extract, region, ground);
+        loop {
+            if let Some(quality) = comparison.advance(region, ground) {
+                return quality;
+            }
+        }
+    }
+}
+
+/// The work of [`FitQuality::of`], in steps. Region and ground are the same in all of them.
+pub struct FitComparison {
+    step: Step,
+    /// The boundary of the mesh.
+    loops: Vec<Ring>,
+    /// Its edges, and those of the outline.
+    edges: [Vec<[DVec2; 2]>; 2],
+    quality: FitQuality,
+}
+
+/// What is done next.
+#[derive(Clone, Copy)]
+enum Step {
+    Holes,
+    Areas,
+    FromOutline,
+    FromMesh,
+    Done,
+}
+
+impl FitComparison {
+    /// Begins to compare the extract that files get with the region of its domain.
+    pub fn new(extract: &Extract, region: &Region, ground: &Ground) -> Self {
         let ring =
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
         let loops: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
-        let [boundary, outline] = [edges(loops.iter()), edges(region.rings())];
+        let edges = [edges(loops.iter()), edges(region.rings())];
         let [boundary_length, outline_length] =
-            [&boundary, &outline].map(|edges| edges.iter().map(|&edge| ground.length(edge)).sum());
-        let HoleComparison { lost, new } = compare_holes(region, &loops);
-        let on_ground =
-            |holes: Vec<HoleFigures>| holes.into_iter().map(|hole| hole.on_ground(ground)).collect();
+            [0, 1].map(|which: usize| edges[which].iter().map(|&edge| ground.length(edge)).sum());
         let area = |ring: &Ring| ground.signed_area(ring);
         let region_area = region.rings().map(area).sum::<f64>();
-        let only_one = region.overlaid(&loops, OverlayRule::Xor, FillRule::EvenOdd);
         let [smallest_angle, largest_angle] = extract.angle_range();
-        Self {
+        let quality = FitQuality {
             region_area,
             net_area: loops.iter().map(area).sum::<f64>() - region_area,
-            // The empty sum is -0.
-            misclassified_area: only_one.rings().map(area).sum::<f64>().max(0.0),
-            islands: region.hole_count(),
-            lost_islands: on_ground(lost),
-            new_holes: on_ground(new),
-            farthest_from_outline: farthest_from(&boundary, &outline, ground),
-            farthest_from_mesh: farthest_from(&outline, &boundary, ground),
+            misclassified_area: 0.0,
             boundary_length,
             outline_length,
+            farthest_from_outline: None,
+            farthest_from_mesh: None,
+            islands: region.hole_count(),
+            lost_islands: Vec::new(),
+            new_holes: Vec::new(),
             smallest_angle,
             largest_angle,
-        }
+        };
+        Self { step: Step::Holes, loops, edges, quality }
+    }
+
+    /// Takes the next step. Returns the comparison after the last one.
+    pub fn advance(&mut self, region: &Region, ground: &Ground) -> Option<FitQuality> {
+        let Self { step, loops, edges: [boundary, outline], quality } = self;
+        *step = match *step {
+            Step::Holes => {
+                let HoleComparison { lost, new } = compare_holes(region, loops);
+                let on_ground =
+                    |holes: Vec<HoleFigures>| holes.into_iter().map(|hole| hole.on_ground(ground)).collect();
+                (quality.lost_islands, quality.new_holes) = (on_ground(lost), on_ground(new));
+                Step::Areas
+            }
+            Step::Areas => {
+                let only_one = region.overlaid(loops, OverlayRule::Xor, FillRule::EvenOdd);
+                let area = only_one.rings().map(|ring| ground.signed_area(ring)).sum::<f64>();
+                // The empty sum is -0.
+                quality.misclassified_area = area.max(0.0);
+                Step::FromOutline
+            }
+            Step::FromOutline => {
+                quality.farthest_from_outline = farthest_from(boundary, outline, ground);
+                Step::FromMesh
+            }
+            Step::FromMesh => {
+                quality.farthest_from_mesh = farthest_from(outline, boundary, ground);
+                Step::Done
+            }
+            Step::Done => return Some(quality.clone()),
+        };
+        None
     }
 }
 

@@ -40,7 +40,7 @@ pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
 pub use cut_shape::CutShape;
 pub use depth_contour::{DepthContour, DepthContourError, PixelLengths};
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
-pub use fit_quality::FitQuality;
+pub use fit_quality::{FitComparison, FitQuality};
 pub use holes::HoleFigures;
 pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::Outline;

@@ -218,7 +218,16 @@ const SLACK: f64 = 1e-12;
 impl Depths {
     /// Returns what is asked of the depths in a raster.
     pub fn new(source: RasterSource, sizes: DepthSizes) -> Self {
-        Self { source, sizes, projection: None, lengths: None }.computed_again()
+        Self::new_in_plane(source, sizes, None)
+    }
+
+    /// Returns what is asked of the depths in a raster in the plane of a projection, or of none.
+    pub(crate) fn new_in_plane(
+        source: RasterSource,
+        sizes: DepthSizes,
+        projection: Option<Projection>,
+    ) -> Self {
+        Self { source, sizes, projection: projection.map(Box::new), lengths: None }.computed_again()
     }
 
     /// Returns the same for pixels in the plane of another projection, or of none.

@@ -55,6 +55,7 @@ pub use risk::RiskField;
 pub use settled::{SettledPool, SettledSquares};
 pub use size_field::{SizeField, SizeFieldSpec};
 pub use strait_count::StraitCount;
+pub(crate) use straits::StraitSearch;
 pub use straits::{StraitDisc, StraitDiscs, Straits};
 pub use surface::{Surface, SurfaceGoal, SurfaceGoalError, SurfaceNorm, SurfaceSource};
 pub use targets::{Decision, DiameterLimit};

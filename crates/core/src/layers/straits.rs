@@ -28,6 +28,7 @@ use rayon::prelude::*;
 use crate::domain::{CoastEdge, Coasts, Domain, Region};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, NumberMap, Rect, nearest_on_segment};
+use crate::mesh::Progress;
 
 /// The way along a ring from one side of a crossing to the other, at least, as a multiple of its length.
 /// Corners wider than 53°, and coves wider than deep, have none.
@@ -117,12 +118,9 @@ impl StraitDiscs {
     /// metres on the Earth. Those narrower than the first one count as that wide. None in a domain without
     /// coasts.
     pub fn of(domain: &Domain, between: [f64; 2]) -> Self {
-        let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
-        let coasts = Coasts::of(domain);
-        let finder = Finder::new(&coasts, domain.bounds, in_plane);
-        let found: Vec<Vec<StraitDisc>> =
-            (0..coasts.edges.len()).into_par_iter().map(|edge| finder.along(edge)).collect();
-        Self::new(domain.region().cloned(), thinned(found.concat()), between, in_plane)
+        let mut search = StraitSearch::new(domain, between);
+        search.advance(usize::MAX);
+        search.finish()
     }
 
     fn new(
@@ -226,14 +224,51 @@ impl StraitDiscs {
     }
 }
 
+/// The work of [`StraitDiscs::of`], in slices.
+#[derive(Debug)]
+pub(crate) struct StraitSearch {
+    region: Option<Arc<Region>>,
+    between: [f64; 2],
+    finder: Finder,
+    /// The first edge of the coasts that was not looked at.
+    next: usize,
+    found: Vec<StraitDisc>,
+}
+
+impl StraitSearch {
+    /// Begins to look for the straits of a domain.
+    pub(crate) fn new(domain: &Domain, between: [f64; 2]) -> Self {
+        let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
+        let finder = Finder::new(Coasts::of(domain), domain.bounds, in_plane);
+        Self { region: domain.region().cloned(), between, finder, next: 0, found: Vec::new() }
+    }
+
+    /// Looks along so many edges of the coasts.
+    pub(crate) fn advance(&mut self, edges: usize) -> Progress {
+        let all = self.finder.coasts.edges.len();
+        let end = self.next.saturating_add(edges).min(all);
+        let found: Vec<Vec<StraitDisc>> =
+            (self.next..end).into_par_iter().map(|edge| self.finder.along(edge)).collect();
+        self.found.extend(found.into_iter().flatten());
+        self.next = end;
+        if end == all { Progress::Done } else { Progress::More }
+    }
+
+    /// Returns the straits, once all edges were looked at.
+    pub(crate) fn finish(self) -> StraitDiscs {
+        StraitDiscs::new(self.region, thinned(self.found), self.between, self.finder.between)
+    }
+}
+
 /// Returns how far from its centre a disc counts.
 fn reach(disc: &StraitDisc, between: [f64; 2]) -> f64 {
     REACH * 0.5 * disc.width.max(POINTS * between[0])
 }
 
 /// Finds the discs that touch two coasts.
-struct Finder<'a> {
-    coasts: &'a Coasts,
+#[derive(Debug)]
+struct Finder {
+    coasts: Coasts,
     tree: BoxTree,
     frame: Rect,
     between: [f64; 2],
@@ -248,8 +283,8 @@ struct Shore {
     along: f64,
 }
 
-impl<'a> Finder<'a> {
-    fn new(coasts: &'a Coasts, frame: Rect, between: [f64; 2]) -> Self {
+impl Finder {
+    fn new(coasts: Coasts, frame: Rect, between: [f64; 2]) -> Self {
         let boxes: Vec<Rect> =
             coasts.edges.iter().map(|edge| Rect::spanning(edge.ends[0], edge.ends[1])).collect();
         Self { coasts, tree: BoxTree::new(&boxes), frame, between }
@@ -426,6 +461,9 @@ mod tests {
             assert!((1.8..=2.0).contains(&width), "{width} at {at}");
         }
         assert_eq!(straits.width_at(DVec2::ZERO), f64::INFINITY);
+        let mut search = StraitSearch::new(&water, [0.5, 5.0]);
+        while search.advance(3) == Progress::More {}
+        assert_eq!(search.finish(), straits, "found in slices");
         assert_eq!(StraitDiscs::of(&water, [0.5, 1.5]).discs().len(), 0, "wider than what is looked for");
         assert_eq!(
             StraitDiscs::of(&water, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),

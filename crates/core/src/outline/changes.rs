@@ -63,11 +63,7 @@ impl OutlineChanges {
 
     /// Returns the changes of a whole band that was put on an outline.
     pub(super) fn of_fitted(mesh: &Mesh, outline: &Outline, fitted: &FittedBand) -> Self {
-        Self {
-            patch: patch(mesh, &fitted.band, &fitted.patchwork, &outline.angles),
-            fit: fitted.fit(outline),
-            corner_limit: fitted.pins.iter().map(|pin| pin.limit).fold(0.0, f64::max),
-        }
+        fitted.with_patch(fitted.patch(mesh, outline), outline)
     }
 }
 
@@ -123,6 +119,17 @@ impl FittedBand {
                 ControlFlow::Break(fitted) => return fitted,
             }
         }
+    }
+
+    /// Returns the differences from the mesh.
+    pub(super) fn patch(&self, mesh: &Mesh, outline: &Outline) -> MeshPatch {
+        patch(mesh, &self.band, &self.patchwork, &outline.angles)
+    }
+
+    /// Returns the changes, given the differences from the mesh.
+    pub(super) fn with_patch(&self, patch: MeshPatch, outline: &Outline) -> OutlineChanges {
+        let corner_limit = self.pins.iter().map(|pin| pin.limit).fold(0.0, f64::max);
+        OutlineChanges { patch, fit: self.fit(outline), corner_limit }
     }
 
     /// Returns the fit of all nodes.

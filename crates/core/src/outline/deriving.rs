@@ -9,7 +9,7 @@ use super::corners::TurningCorners;
 use super::fitting::Fitting;
 use super::{DerivedMesh, OutlineFollower};
 use crate::domain::DomainOnLattice;
-use crate::mesh::{Cleaning, Mesh, Progress};
+use crate::mesh::{Cleaning, Mesh, MeshPatch, Progress};
 
 /// The work of [`DerivedMesh::new`], and of [`OutlineFollower::new`] where that is asked for: both from one
 /// derivation.
@@ -28,6 +28,7 @@ enum Step {
     Band(Arc<TurningCorners>),
     Fit(Arc<TurningCorners>, Box<Fitting>),
     Change(Arc<TurningCorners>, Box<FittedBand>),
+    Measure(Arc<TurningCorners>, Box<FittedBand>, MeshPatch),
     Clean(Option<OutlineChanges>, Option<(Arc<TurningCorners>, Box<FittedBand>)>),
     Follow(Arc<TurningCorners>, Box<FittedBand>),
     Done,
@@ -64,7 +65,12 @@ impl MeshDerivation {
             }
             (Step::Change(corners, fitted), Some(region)) => {
                 let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
-                let changes = OutlineChanges::of_fitted(&self.mesh, &outline, &fitted);
+                let patch = fitted.patch(&self.mesh, &outline);
+                Step::Measure(corners, fitted, patch)
+            }
+            (Step::Measure(corners, fitted, patch), Some(region)) => {
+                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+                let changes = fitted.with_patch(patch, &outline);
                 Step::Clean(Some(changes), self.follows.then_some((corners, fitted)))
             }
             (Step::Follow(corners, fitted), Some(region)) => {

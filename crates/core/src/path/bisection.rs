@@ -5,6 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::Passage;
 use super::path_mesh::{NONE, PathMesh, PathTriangle, obtuse_corner};
+use crate::mesh::Progress;
 
 /// A triangle that waits for bisection, the most important first.
 #[derive(Clone, Copy, PartialEq)]
@@ -24,6 +25,65 @@ impl Ord for Waiting {
 impl PartialOrd for Waiting {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
+    }
+}
+
+/// The work of [`PathMesh::bisect`], in slices. Its mesh must be [connected](PathMesh::connect) afterwards.
+pub(super) struct Bisection {
+    waiting: BinaryHeap<Waiting>,
+    /// How often each triangle was bisected.
+    versions: Vec<u32>,
+    /// The triangles that the mesh may have.
+    most: usize,
+}
+
+impl Bisection {
+    pub fn new(mesh: &PathMesh, wanted: Vec<(f64, u32)>, most: usize) -> Self {
+        let first = |(importance, triangle)| Waiting { importance, triangle, version: 0 };
+        let waiting = wanted.into_iter().map(first).collect();
+        let count = mesh.triangles.len();
+        Self { waiting, versions: vec![0; count], most: count.saturating_add(most) }
+    }
+
+    /// Bisects so many triangles, the most important first, with those that must be bisected before.
+    ///
+    /// # Errors
+    /// Fails as [`PathMesh::bisect`] does.
+    pub fn advance<E>(
+        &mut self,
+        mesh: &mut PathMesh,
+        triangles: usize,
+        importance: &mut impl FnMut(&PathMesh, u32) -> Result<f64, E>,
+    ) -> Result<Progress, E> {
+        let mut changed = Vec::new();
+        let mut left = triangles;
+        while let Some(Waiting { triangle, version, .. }) = self.waiting.pop() {
+            if self.versions[triangle as usize] != version {
+                continue;
+            }
+            if mesh.triangles.len() >= self.most {
+                break;
+            }
+            mesh.bisect_one(triangle, &mut changed);
+            self.versions.resize(mesh.triangles.len(), 0);
+            for &triangle in &changed {
+                self.versions[triangle as usize] += 1;
+            }
+            changed.sort_unstable();
+            changed.dedup();
+            for triangle in changed.drain(..) {
+                let importance = importance(mesh, triangle)?;
+                if importance > 0.0 {
+                    let version = self.versions[triangle as usize];
+                    self.waiting.push(Waiting { importance, triangle, version });
+                }
+            }
+            left -= 1;
+            if left == 0 {
+                return Ok(Progress::More);
+            }
+        }
+        Ok(Progress::Done)
     }
 }
 
@@ -47,33 +107,7 @@ impl PathMesh {
         if wanted.is_empty() {
             return Ok(());
         }
-        let first = |(importance, triangle)| Waiting { importance, triangle, version: 0 };
-        let mut waiting: BinaryHeap<Waiting> = wanted.into_iter().map(first).collect();
-        let mut versions = vec![0; self.triangles.len()];
-        let most = self.triangles.len().saturating_add(most);
-        let mut changed = Vec::new();
-        while let Some(Waiting { triangle, version, .. }) = waiting.pop() {
-            if versions[triangle as usize] != version {
-                continue;
-            }
-            if self.triangles.len() >= most {
-                break;
-            }
-            self.bisect_one(triangle, &mut changed);
-            versions.resize(self.triangles.len(), 0);
-            for &triangle in &changed {
-                versions[triangle as usize] += 1;
-            }
-            changed.sort_unstable();
-            changed.dedup();
-            for triangle in changed.drain(..) {
-                let importance = importance(self, triangle)?;
-                if importance > 0.0 {
-                    let version = versions[triangle as usize];
-                    waiting.push(Waiting { importance, triangle, version });
-                }
-            }
-        }
+        Bisection::new(self, wanted, most).advance(self, usize::MAX, &mut importance)?;
         self.connect();
         Ok(())
     }

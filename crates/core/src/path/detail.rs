@@ -7,9 +7,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::Passage;
+use super::bisection::Bisection;
 use super::obstacle::parts;
 use super::path_mesh::{NONE, PathMesh, contains};
 use crate::geometry::BestFirst;
+use crate::mesh::Progress;
 
 /// Triangles along the rim are bisected until their diameter is this part of the longer side of all of them,
 const COARSEST: f64 = 1.0 / 250.0;
@@ -27,24 +29,60 @@ const MOST_ROUNDS: usize = 5;
 /// Sought ways avoid triangles through which the rim passes by taking them to be so many times as long.
 const DETOUR: f64 = 3.0;
 
-impl PathMesh {
-    /// Bisects the triangles through which the rim of the area passes, the largest first. Returns whether
-    /// any was.
-    pub(super) fn divide_along_area(&mut self) -> bool {
-        if !self.area().divides_meshes() {
-            return false;
+/// Bisection of the triangles through which the rim of the area passes, the largest first, in slices.
+pub(super) struct RimDivision {
+    bisection: Bisection,
+    coarsest: f64,
+    /// The number of triangles before.
+    before: usize,
+}
+
+impl RimDivision {
+    /// Begins; `None` where no triangle is bisected.
+    pub fn new(mesh: &mut PathMesh) -> Option<Self> {
+        if !mesh.area().divides_meshes() {
+            return None;
         }
-        let before = self.triangle_count();
-        let coarsest = COARSEST * self.bounds().map_or(0.0, |bounds| bounds.size().max_element());
-        let partly = self.partly();
-        partly.iter().for_each(|&t| self.triangles[t as usize].divisions = DIVISIONS);
-        self.divide(&partly, MOST_ALONG, |mesh, t| {
-            let (diameter, divisions) = (mesh.diameter(t), mesh.triangles[t as usize].divisions);
-            if diameter > coarsest || divisions > 0 { diameter } else { 0.0 }
-        });
-        self.triangle_count() > before
+        let before = mesh.triangle_count();
+        let coarsest = COARSEST * mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element());
+        let partly = mesh.partly();
+        partly.iter().for_each(|&t| mesh.triangles[t as usize].divisions = DIVISIONS);
+        let wanted = partly.iter().map(|&t| (importance_at_rim(mesh, t, coarsest), t));
+        let wanted: Vec<(f64, u32)> = wanted.filter(|wanted| wanted.0 > 0.0).collect();
+        let bisection = Bisection::new(mesh, wanted, MOST_ALONG);
+        Some(Self { bisection, coarsest, before })
     }
 
+    /// Bisects so many triangles.
+    pub fn advance(&mut self, mesh: &mut PathMesh, triangles: usize) -> Progress {
+        let mut importance =
+            |mesh: &PathMesh, t: u32| Ok::<_, Infallible>(importance_at_rim(mesh, t, self.coarsest));
+        let Ok(progress) = self.bisection.advance(mesh, triangles, &mut importance);
+        progress
+    }
+
+    /// Returns whether any triangle was bisected.
+    pub fn has_changed(&self, mesh: &PathMesh) -> bool {
+        mesh.triangle_count() > self.before
+    }
+}
+
+fn importance_at_rim(mesh: &PathMesh, t: u32, coarsest: f64) -> f64 {
+    if_partly(mesh, t, |mesh, t| {
+        let (diameter, divisions) = (mesh.diameter(t), mesh.triangles[t as usize].divisions);
+        if diameter > coarsest || divisions > 0 { diameter } else { 0.0 }
+    })
+}
+
+/// Returns the importance of a triangle through which the rim passes; that of others is 0.
+fn if_partly(mesh: &PathMesh, t: u32, importance: impl Fn(&PathMesh, u32) -> f64) -> f64 {
+    match mesh.passage(t) {
+        Passage::Partly => importance(mesh, t),
+        Passage::Closed | Passage::Open => 0.0,
+    }
+}
+
+impl PathMesh {
     /// Returns the mesh with smaller triangles for paths that visit places: around those beside the rim of
     /// the area, and on ways between them that are as narrow as a triangle. It depends on nothing but the
     /// mesh and the places, and is the mesh itself where neither is needed.
@@ -80,10 +118,7 @@ impl PathMesh {
 
     /// Bisects triangles as long as they and their parts are important.
     fn divide(&mut self, triangles: &[u32], most: usize, importance: impl Fn(&Self, u32) -> f64) {
-        let of_partly = |mesh: &Self, t: u32| match mesh.passage(t) {
-            Passage::Partly => importance(mesh, t),
-            Passage::Closed | Passage::Open => 0.0,
-        };
+        let of_partly = |mesh: &Self, t: u32| if_partly(mesh, t, &importance);
         let wanted = triangles.iter().map(|&t| (of_partly(self, t), t)).filter(|wanted| wanted.0 > 0.0);
         let Ok(()) = self.bisect(wanted.collect(), most, |mesh, t| Ok::<_, Infallible>(of_partly(mesh, t)));
     }

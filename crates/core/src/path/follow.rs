@@ -12,7 +12,10 @@ use super::triangle_costs::{TriangleCost, TriangleCosts};
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Planner};
 use crate::geometry::Rect;
+use crate::mesh::Progress;
 
+/// One thread computes the costs of so many triangles in a step.
+const AT_ONCE: usize = 2048;
 /// More rectangles in which the cost changed are joined to one.
 const MOST_AREAS: usize = 64;
 
@@ -59,29 +62,8 @@ impl Planner {
         density: &dyn CostDensity,
         areas: &[Rect],
     ) -> Result<(), PathError> {
-        let new = mesh.into();
-        let Some(Adaptation { base, costs: known, changed }) = &self.adaptation else {
-            *self = Self::on_mesh(new, density)?;
-            return Ok(());
-        };
-        if Arc::ptr_eq(base, &new) {
-            return self.update(density, areas);
-        }
-        let shared = Shared::of(base, &new);
-        let unknown = (0..).zip(&shared.triangles).filter(|&(_, &t)| t == NONE).map(|(t, _)| t);
-        let mut unknown: Vec<u32> =
-            new.meeting(&[changed, areas].concat()).into_iter().chain(unknown).collect();
-        unknown.sort_unstable();
-        unknown.dedup();
-        let of_old = |&t: &u32| known.get(t as usize).copied().unwrap_or(TriangleCost::CLOSED);
-        let mut known: Vec<TriangleCost> = shared.triangles.iter().map(of_old).collect();
-        for (&triangle, cost) in unknown.iter().zip(new.costs_of(&unknown, density)?) {
-            known[triangle as usize] = cost;
-        }
-        let mut mesh = Arc::clone(&new);
-        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
-        self.adaptation = Some(Adaptation { base: new, costs: known, changed: Vec::new() });
-        self.move_marches(mesh, costs);
+        let mut moving = PlannerMove::new(mesh, areas);
+        while moving.advance(self, density)? == Progress::More {}
         Ok(())
     }
 
@@ -142,4 +124,98 @@ impl Planner {
         let partly = origins_for_bounds.par_iter_mut().map(|origin| (origin, &*costs.least, Passage::Partly));
         open.chain(partly).for_each(follow);
     }
+}
+
+/// The work of [`Planner::move_to`], in steps. The planner and the cost density are the same in all of them.
+pub struct PlannerMove {
+    mesh: Arc<PathMesh>,
+    areas: Vec<Rect>,
+    step: Step,
+}
+
+/// What is done next.
+enum Step {
+    Begin,
+    /// The costs of these triangles are computed, from that place on.
+    Costs {
+        known: Vec<TriangleCost>,
+        unknown: Vec<u32>,
+        next: usize,
+    },
+    /// The mesh is bisected where the cost varies much.
+    Adapt(Vec<TriangleCost>),
+    /// Marches follow.
+    March(Vec<TriangleCost>, Arc<PathMesh>, TriangleCosts),
+    Done,
+}
+
+impl PlannerMove {
+    /// Begins to go over to another mesh, where the cost changed inside rectangles in world units.
+    pub fn new(mesh: impl Into<Arc<PathMesh>>, areas: &[Rect]) -> Self {
+        Self { mesh: mesh.into(), areas: areas.to_vec(), step: Step::Begin }
+    }
+
+    /// Takes a step.
+    ///
+    /// # Errors
+    /// Fails as [`Planner::update`] does; then the planner is as before.
+    pub fn advance(
+        &mut self,
+        planner: &mut Planner,
+        density: &dyn CostDensity,
+    ) -> Result<Progress, PathError> {
+        let Self { mesh, areas, step } = self;
+        *step = match std::mem::replace(step, Step::Done) {
+            Step::Begin => match &planner.adaptation {
+                None => {
+                    *planner = Planner::on_mesh(Arc::clone(mesh), density)?;
+                    Step::Done
+                }
+                Some(Adaptation { base, .. }) if Arc::ptr_eq(base, mesh) => {
+                    planner.update(density, areas)?;
+                    Step::Done
+                }
+                Some(adaptation) => known_costs(adaptation, mesh, areas),
+            },
+            Step::Costs { mut known, unknown, next } => {
+                let most = if rayon::current_num_threads() > 1 { unknown.len() } else { AT_ONCE };
+                let end = next.saturating_add(most).min(unknown.len());
+                let some = &unknown[next..end];
+                for (&triangle, cost) in some.iter().zip(mesh.costs_of(some, density)?) {
+                    known[triangle as usize] = cost;
+                }
+                if end < unknown.len() {
+                    Step::Costs { known, unknown, next: end }
+                } else {
+                    Step::Adapt(known)
+                }
+            }
+            Step::Adapt(known) => {
+                let mut adapted = Arc::clone(mesh);
+                let costs = TriangleCosts::on_adapted(&mut adapted, &known, density)?;
+                Step::March(known, adapted, costs)
+            }
+            Step::March(known, adapted, costs) => {
+                let base = Arc::clone(mesh);
+                planner.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
+                planner.move_marches(adapted, costs);
+                Step::Done
+            }
+            Step::Done => Step::Done,
+        };
+        Ok(if matches!(step, Step::Done) { Progress::Done } else { Progress::More })
+    }
+}
+
+/// Takes the costs that are known of a mesh, and finds the triangles whose costs are not.
+fn known_costs(adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> Step {
+    let Adaptation { base, costs, changed } = adaptation;
+    let shared = Shared::of(base, new);
+    let without = (0..).zip(&shared.triangles).filter(|&(_, &t)| t == NONE).map(|(t, _)| t);
+    let mut unknown: Vec<u32> = new.meeting(&[changed, areas].concat()).into_iter().chain(without).collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    let of_old = |&t: &u32| costs.get(t as usize).copied().unwrap_or(TriangleCost::CLOSED);
+    let known = shared.triangles.iter().map(of_old).collect();
+    Step::Costs { known, unknown, next: 0 }
 }

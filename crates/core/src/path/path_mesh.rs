@@ -4,17 +4,15 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::area::PathArea;
+use super::meshing::PathMeshing;
 use crate::geometry::{BoxTree, Rect, Side, side_of_points, z_order};
 use crate::layers::Mask;
 use crate::mesh::MeshView;
 
 /// Marks a missing triangle.
 pub(super) const NONE: u32 = u32::MAX;
-/// A thread looks at so many triangles at a time.
-const TOGETHER: usize = 1024;
 
 /// Whether paths go through a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -43,7 +41,7 @@ pub struct PathMesh {
     around: Vec<u32>,
     pub(super) has_obtuse: bool,
     /// Where paths may go.
-    area: PathArea,
+    pub(super) area: PathArea,
     /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
     /// path through the domain leaves them.
     pub(super) covers_domain: bool,
@@ -84,37 +82,17 @@ impl PathMesh {
     /// The triangles outside an area are closed, and those through which its rim passes are left out. Along
     /// the outline of a domain, and with a clearance, these are bisected first.
     pub fn in_area(view: MeshView, area: &PathArea) -> Self {
-        let passage = |_: &[DVec2; 3], is_outside| if is_outside { Passage::Closed } else { Passage::Open };
-        let mut mesh = Self { area: area.clone(), ..Self::unconnected(view, passage) };
-        if !area.is_everything() {
-            mesh.close_outside_area();
+        let mut meshing = PathMeshing::new(view, area);
+        loop {
+            if let Some(mesh) = meshing.advance(usize::MAX) {
+                return mesh;
+            }
         }
-        mesh.connect();
-        if mesh.divide_along_area() {
-            mesh.sort_along_curve();
-            mesh.connect();
-        }
-        mesh
     }
 
     /// Returns the area of paths.
     pub fn area(&self) -> &PathArea {
         &self.area
-    }
-
-    /// Closes triangles that the area does not have.
-    fn close_outside_area(&mut self) {
-        let passage = |number: u32| match self.passage(number) {
-            Passage::Closed => Passage::Closed,
-            _ => self.area.passage(&self.corners(number)),
-        };
-        let numbers = (0..self.triangles.len() as u32).into_par_iter();
-        let passages: Vec<Passage> = numbers.with_min_len(TOGETHER).map(passage).collect();
-        for (triangle, passage) in self.triangles.iter_mut().zip(passages) {
-            triangle.is_kept_out = passage == Passage::Closed && triangle.is_passable();
-            triangle.passage = passage;
-        }
-        self.has_obtuse = self.triangles.iter().any(|triangle| triangle.obtuse < 3 && triangle.is_passable());
     }
 
     /// `passage` says for each triangle, by its corners and whether it is marked as outside the domain,
@@ -126,7 +104,7 @@ impl PathMesh {
     }
 
     /// Returns the mesh without the rows of triangles around its nodes.
-    fn unconnected(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
+    pub(super) fn unconnected(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
         let lattice = view.lattice();
         let nodes: Vec<DVec2> = view.nodes().iter().map(|&node| lattice.world_from_lattice(node)).collect();
         let mut mesh = Self { nodes, ..Self::default() };

@@ -49,7 +49,7 @@ impl Prover {
         self.running.is_some()
     }
 
-    /// Ends the work at the next programme. What was proved stays with the paths.
+    /// Ends the work. What was proved stays with the paths.
     pub fn cancel(&mut self) {
         self.running = None;
     }
@@ -104,7 +104,12 @@ impl Prover {
             Some(PathCertificate::new(&solution, &task).ok()?.with_search(mesh))
         };
         let advance = |certificate: &mut PathCertificate, output: &Output<Proof>| {
-            let Ok(end) = certificate.advance() else { return Progress::Done };
+            match certificate.advance_slice() {
+                Ok(Progress::Done) => {}
+                Ok(Progress::More) if output.is_wanted() => return Progress::More,
+                Ok(Progress::More) | Err(_) => return Progress::Done,
+            }
+            let end = certificate.end();
             let goes_on = output.send(Proof { solution: certificate.solution(), end }) && end.is_none();
             if goes_on { Progress::More } else { Progress::Done }
         };

@@ -11,13 +11,15 @@ use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{EarthPlane, metres_along};
 use meshbrush_core::layers::RiskField;
 use meshbrush_core::path::{
-    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathRequest, PathSample, PathSearch, Planner,
-    Planning, Solution,
+    CertificateEnd, Corridor, CostDensity, PathError, PathMesh, PathMeshing, PathRequest, PathSample,
+    PathSearch, Planner, PlannerMove, Planning, Solution,
 };
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::mesh::{Extract, Mesh};
+use meshbrush_mesh::mesh::{Extract, Mesh, Progress};
 use meshbrush_mesh::text::LengthUnit;
 
+/// Triangles that are compared with the area of paths in a step, or bisected along its rim.
+const AT_ONCE: usize = 2048;
 /// Places on a path at which its profile is known.
 const PROFILE_SAMPLES: usize = 200;
 
@@ -106,23 +108,13 @@ impl KnownPlanner {
         Ok(())
     }
 
-    /// Goes over to the mesh as it is after an edit, where the cost changed in some rectangles.
-    fn move_to(
-        &mut self,
-        mesh: PathMesh,
-        plan: Arc<PathPlan>,
-        density: &dyn CostDensity,
-        areas: &[Rect],
-    ) -> Result<(), PathError> {
-        let mesh = Arc::new(mesh);
-        let detailed = mesh.detailed(&plan.routes);
-        self.planner.move_to(Arc::clone(&detailed), density, areas)?;
-        (self.meshes, self.plan) = ([mesh, detailed], plan);
+    /// Notes that its planner has gone over to the mesh as it is after an edit.
+    fn note_move(&mut self, meshes: [Arc<PathMesh>; 2], plan: Arc<PathPlan>) {
+        (self.meshes, self.plan) = (meshes, plan);
         #[cfg(test)]
         {
             self.moves += 1;
         }
-        Ok(())
     }
 }
 
@@ -203,11 +195,11 @@ pub(super) enum PlannedMesh {
 }
 
 impl PlannedMesh {
-    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMesh, PathError> {
+    fn in_area(&self, plan: &PathPlan, domain: &Domain) -> Result<PathMeshing, PathError> {
         let area = plan.area(domain)?;
         Ok(match self {
-            Self::Mesh(mesh) => PathMesh::in_area(mesh.view(), &area),
-            Self::Extract(extract) => PathMesh::in_area(extract.view(), &area),
+            Self::Mesh(mesh) => PathMeshing::new(mesh.view(), &area),
+            Self::Extract(extract) => PathMeshing::new(extract.view(), &area),
         })
     }
 }
@@ -226,14 +218,18 @@ pub(super) struct PathWork {
 
 /// What is done next.
 enum Step {
-    /// Closes the triangles outside the area of paths.
-    Close(PlannerSource),
+    /// Begins with the triangles of a mesh, if there is another one.
+    Start(PlannerSource),
+    /// Finds those in the area of paths.
+    Close(Option<Box<KnownPlanner>>, Box<PathMeshing>),
     /// Makes smaller triangles for the places.
     Detail(Arc<PathMesh>),
     /// Makes a planner.
     Plan([Arc<PathMesh>; 2], Planning),
-    /// A planner follows, on another mesh if there is one.
-    Follow(Box<KnownPlanner>, Option<Box<PathMesh>>),
+    /// A planner follows, on the same mesh.
+    Follow(Box<KnownPlanner>),
+    /// A planner goes over to another mesh.
+    Move(Box<KnownPlanner>, [Arc<PathMesh>; 2], Box<PlannerMove>),
     /// Begins with the next route.
     Begin(Box<KnownPlanner>),
     /// Finds its path.
@@ -253,7 +249,7 @@ impl PathWork {
         is_live: bool,
     ) -> Option<Self> {
         let density = plan.cost.density(risk.clone(), &domain).ok()?;
-        let (step, found) = (Step::Close(source), Vec::new());
+        let (step, found) = (Step::Start(source), Vec::new());
         Some(Self { plan, risk, domain, unit, is_live, density, step, found })
     }
 
@@ -277,14 +273,15 @@ impl PathWork {
     fn step(&mut self) -> Result<ControlFlow<Option<Work>, Step>, PathError> {
         let Self { plan, risk, domain, density, is_live, .. } = self;
         Ok(ControlFlow::Continue(match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Close(PlannerSource { known, mesh }) => {
-                let mesh = mesh.map(|mesh| mesh.in_area(plan, domain)).transpose()?;
-                match (known, mesh) {
-                    (Some(known), mesh) => Step::Follow(known, mesh.map(Box::new)),
-                    (None, Some(mesh)) => Step::Detail(Arc::new(mesh)),
-                    (None, None) => return Ok(ControlFlow::Break(None)),
-                }
+            Step::Start(PlannerSource { known, mesh: Some(mesh) }) => {
+                Step::Close(known, Box::new(mesh.in_area(plan, domain)?))
             }
+            Step::Start(PlannerSource { known: Some(known), mesh: None }) => Step::Follow(known),
+            Step::Start(PlannerSource { known: None, mesh: None }) => return Ok(ControlFlow::Break(None)),
+            Step::Close(known, mut meshing) => match meshing.advance(AT_ONCE) {
+                None => Step::Close(known, meshing),
+                Some(mesh) => self.take_mesh(known, Arc::new(mesh)),
+            },
             Step::Detail(mesh) => {
                 let detailed = mesh.detailed(&plan.routes);
                 let planning = Planning::new(Arc::clone(&detailed));
@@ -297,14 +294,19 @@ impl PathWork {
                     Step::Begin(Box::new(known))
                 }
             },
-            Step::Follow(mut known, mesh) => {
+            Step::Follow(mut known) => {
                 let areas = known.changed_areas(plan, risk, domain);
-                match mesh {
-                    Some(mesh) => known.move_to(*mesh, plan.clone(), &**density, &areas)?,
-                    None => known.follow(plan.clone(), &**density, &areas, *is_live)?,
+                known.follow(plan.clone(), &**density, &areas, *is_live)?;
+                self.begin_routes(known)
+            }
+            Step::Move(mut known, meshes, mut moving) => {
+                match moving.advance(&mut known.planner, &**density)? {
+                    Progress::More => Step::Move(known, meshes, moving),
+                    Progress::Done => {
+                        known.note_move(meshes, plan.clone());
+                        self.begin_routes(known)
+                    }
                 }
-                (known.risk, known.domain, known.corridor) = (risk.clone(), domain.clone(), None);
-                Step::Begin(known)
             }
             Step::Begin(known) => {
                 let Some(places) = plan.routes.get(self.found.len()) else {
@@ -327,6 +329,21 @@ impl PathWork {
             }
             Step::Done => return Ok(ControlFlow::Break(None)),
         }))
+    }
+
+    /// Goes over to a mesh in the area of paths, or begins with it.
+    fn take_mesh(&self, known: Option<Box<KnownPlanner>>, mesh: Arc<PathMesh>) -> Step {
+        let Some(known) = known else { return Step::Detail(mesh) };
+        let detailed = mesh.detailed(&self.plan.routes);
+        let areas = known.changed_areas(&self.plan, &self.risk, &self.domain);
+        let moving = PlannerMove::new(Arc::clone(&detailed), &areas);
+        Step::Move(known, [mesh, detailed], Box::new(moving))
+    }
+
+    /// Begins with the routes, when the planner knows the plan.
+    fn begin_routes(&self, mut known: Box<KnownPlanner>) -> Step {
+        (known.risk, known.domain, known.corridor) = (self.risk.clone(), self.domain.clone(), None);
+        Step::Begin(known)
     }
 
     /// The next route has no path, for a reason.

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 use glam::DVec2;
 
 use super::{Certificate, CertificateEnd, CertificateTask, DualFunction};
+use crate::mesh::Progress;
 use crate::path::{CostDensity, PathError, PathMesh, PathRequest, PathSearch, Planner, Solution};
 
 /// Upper bounds are above the cost by about this part of the requested width.
@@ -152,17 +153,27 @@ impl PathCertificate {
     /// # Errors
     /// Fails as [`Certificate::advance`] does.
     pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
+        while self.advance_slice()? == Progress::More {}
+        Ok(self.end())
+    }
+
+    /// Does a slice of [`Self::advance`]. It is done once a programme is solved or a step of a search taken,
+    /// or there is nothing more to do.
+    ///
+    /// # Errors
+    /// Fails as [`Certificate::advance`] does.
+    pub fn advance_slice(&mut self) -> Result<Progress, PathError> {
         if self.end().is_none()
             && let Some(leg) = self.widest(|leg| self.has_more(leg))
         {
             let count = self.legs.len() + 1;
             let certificate = &mut self.legs[leg].certificate;
             match certificate.end() {
-                None => _ = certificate.advance().map_err(|error| error.of_leg(leg, count))?,
+                None => return certificate.advance_slice().map_err(|error| error.of_leg(leg, count)),
                 Some(_) => self.seeking = self.seek(leg),
             }
         }
-        Ok(self.end())
+        Ok(Progress::Done)
     }
 
     /// Returns whether a leg can be certified further, or a better path be sought for it.

@@ -45,26 +45,27 @@ mod programme;
 mod proof;
 mod quadratic;
 mod setup;
+mod solver;
 mod task;
 mod triangle;
+mod under_way;
 
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::{Passage, PathError, PathMesh};
 use crate::geometry::Rect;
-use crate::mesh::{Limits, Mesh};
-use edges::lower_at_edges;
+use crate::mesh::{Limits, Mesh, Progress};
 use marking::{bisections, estimates};
 use minorant::Minorant;
-use programme::Programme;
+use programme::{Programme, ProgrammeSolution};
 use proof::proven_gain;
 use quadratic::{QuadraticElement, QuadraticSpace};
 use triangle::FlatTriangle;
+use under_way::{ProgrammeUnderWay, Stage, UnderWay};
 
 pub use dual::DualFunction;
 pub use legs::{LegProof, PathCertificate};
@@ -88,8 +89,6 @@ const STRIP_LOSS: f64 = 20.0;
 const MOST_WORK: u64 = 700_000;
 /// The number of steps that the solver usually takes for a programme.
 const USUAL_STEPS: u64 = 25;
-/// A thread computes the minorants of so many triangles at a time.
-const TOGETHER: usize = 16;
 /// Number of programmes in a row that hardly raise the bound after which the work ends.
 const MOST_IDLE: usize = 3;
 
@@ -135,6 +134,7 @@ pub struct Certificate {
     idle: usize,
     end: Option<CertificateEnd>,
     stop: Arc<AtomicBool>,
+    under_way: UnderWay,
 }
 
 impl Certificate {
@@ -159,6 +159,7 @@ impl Certificate {
             idle: 0,
             end,
             stop: Arc::default(),
+            under_way: UnderWay::default(),
         })
     }
 
@@ -210,6 +211,7 @@ impl Certificate {
         if joins && upper < self.task.upper && upper > 0.0 {
             self.task.path = path;
             self.task.upper = upper;
+            self.under_way = UnderWay::default();
             self.idle = 0;
             self.end = (self.width() <= self.task.width).then_some(CertificateEnd::Reached);
         }
@@ -222,49 +224,98 @@ impl Certificate {
     /// Fails when the cost has no positive lower bound somewhere, or the finer mesh shows that no path leads
     /// from start to goal.
     pub fn advance(&mut self) -> Result<Option<CertificateEnd>, PathError> {
+        while self.advance_slice()? == Progress::More {}
+        Ok(self.end)
+    }
+
+    /// Does a slice of [`Self::advance`], some milliseconds on one thread. It is done once the programme is
+    /// solved and the mesh refined, or the work has ended or was told to stop.
+    ///
+    /// # Errors
+    /// Fails as [`Self::advance`] does.
+    pub fn advance_slice(&mut self) -> Result<Progress, PathError> {
         if self.end.is_some() || self.stop.load(Ordering::Relaxed) {
-            return Ok(self.end);
+            self.under_way = UnderWay::default();
+            return Ok(Progress::Done);
         }
+        let Some((work, stage)) = self.under_way.take() else { return self.begin_programme() };
+        let next = match stage {
+            Stage::Minorants(mut found) => match self.find_minorants(&work, &mut found) {
+                Progress::More => Stage::Minorants(found),
+                Progress::Done => Stage::Edges(found),
+            },
+            Stage::Edges(found) => Stage::Begin(self.minorants_of(&work.space, found)?),
+            Stage::Begin(minorants) => match self.programme(&work, &minorants).solver() {
+                Some(solver) => Stage::Solve(minorants, Box::new(solver)),
+                None => return Ok(self.solver_failed()),
+            },
+            Stage::Solve(minorants, mut solver) => match solver.advance() {
+                Progress::More => Stage::Solve(minorants, solver),
+                Progress::Done => match self.programme(&work, &minorants).solution(&solver) {
+                    Some(solution) => Stage::Solved(minorants, solution),
+                    None => return Ok(self.solver_failed()),
+                },
+            },
+            Stage::Solved(minorants, solution) => {
+                self.take(&work, &minorants, &solution);
+                return Ok(Progress::Done);
+            }
+        };
+        self.under_way = UnderWay::of(work, next);
+        Ok(Progress::More)
+    }
+
+    /// Finds the triangles of the next programme.
+    fn begin_programme(&mut self) -> Result<Progress, PathError> {
         let kept = setup::reachable(&self.mesh, &self.task)?;
         let space = QuadraticSpace::new(&self.mesh, &kept.triangles);
         if self.work + (space.nodes as u64) * USUAL_STEPS > MOST_WORK {
             self.end = Some(CertificateEnd::TooLarge);
-            return Ok(self.end);
+            return Ok(Progress::Done);
         }
-        let minorants = self.minorants_of(&space)?;
-        let (start, goal) = (&space.elements[kept.start], &space.elements[kept.goal]);
-        let gain = gain_weights(start, goal, &self.task);
-        let programme = Programme {
-            space: &space,
-            minorants: &minorants,
-            gain: &gain,
-            pinned: start.values[0],
+        self.minorants.resize(self.mesh.raw_triangle_count(), None);
+        let gain = gain_weights(&space.elements[kept.start], &space.elements[kept.goal], &self.task);
+        let next = Stage::Minorants(Vec::with_capacity(space.elements.len()));
+        self.under_way = UnderWay::of(ProgrammeUnderWay { kept, space, gain }, next);
+        Ok(Progress::More)
+    }
+
+    fn programme<'a>(&self, work: &'a ProgrammeUnderWay, minorants: &'a [Minorant]) -> Programme<'a> {
+        let ProgrammeUnderWay { kept, space, gain } = work;
+        Programme {
+            space,
+            minorants,
+            gain,
+            pinned: space.elements[kept.start].values[0],
             unit: self.task.upper,
             accuracy: (ACCURACY * self.task.width).clamp(1e-8, 1e-4),
-        };
-        let Some(solution) = programme.solve(&self.stop) else {
-            if !self.stop.load(Ordering::Relaxed) {
-                self.end = Some(CertificateEnd::SolverFailed);
-            }
-            return Ok(self.end);
-        };
+        }
+    }
+
+    fn solver_failed(&mut self) -> Progress {
+        self.end = Some(CertificateEnd::SolverFailed);
+        Progress::Done
+    }
+
+    /// Takes the bound of a solution, and refines the mesh for the next programme.
+    fn take(&mut self, work: &ProgrammeUnderWay, minorants: &[Minorant], solution: &ProgrammeSolution) {
+        let ProgrammeUnderWay { kept, space, gain } = work;
         self.programmes += 1;
         self.nodes = space.nodes;
         self.work += (space.nodes as u64) * u64::from(solution.steps);
         let before = self.width();
-        let proved = proven_gain(&space, &minorants, &solution.function, &gain);
-        let lower = (proved.gain * self.without_strips(&space)).min(self.task.upper);
+        let proved = proven_gain(space, minorants, &solution.function, gain);
+        let lower = (proved.gain * self.without_strips(space)).min(self.task.upper);
         if lower > self.lower {
             self.lower = lower;
-            self.dual = Some(Arc::new(DualFunction::new(&space, &minorants, &solution, proved.scale)));
+            self.dual = Some(Arc::new(DualFunction::new(space, minorants, solution, proved.scale)));
         }
-        let estimates = estimates(&space, &minorants, &solution, &kept);
+        let estimates = estimates(space, minorants, solution, kept);
         let lost = estimates.iter().sum::<f64>() / self.task.upper;
         self.end = self.reason_to_end(before, lost);
         if self.end.is_none() {
-            self.refine(&space, &minorants, &estimates, lost);
+            self.refine(space, minorants, &estimates, lost);
         }
-        Ok(self.end)
     }
 
     /// `before` is the width before the last programme, `lost` what the estimates say of the width now.
@@ -346,33 +397,6 @@ impl Certificate {
     fn without_strips(&self, space: &QuadraticSpace) -> f64 {
         let diameters = space.elements.iter().map(|element| element.flat.diameter());
         (1.0 - STRIP_LOSS * self.inset() / diameters.fold(f64::INFINITY, f64::min)).max(0.0)
-    }
-
-    /// Returns an affine function below the cost for each triangle of the space.
-    fn minorants_of(&mut self, space: &QuadraticSpace) -> Result<Vec<Minorant>, PathError> {
-        self.minorants.resize(self.mesh.raw_triangle_count(), None);
-        let inset = self.inset();
-        let of_element = |element: &QuadraticElement| {
-            let level = self.mesh.triangle(element.id).level();
-            match self.minorants[element.id.index()] {
-                Some((at, minorant)) if at == level => (level, minorant),
-                _ => (level, Minorant::new(&*self.task.cost, &element.flat, inset)),
-            }
-        };
-        let found: Vec<(u32, Minorant)> =
-            space.elements.par_iter().with_min_len(TOGETHER).map(of_element).collect();
-        let mut all = Vec::with_capacity(space.elements.len());
-        for (element, known) in space.elements.iter().zip(found) {
-            self.minorants[element.id.index()] = Some(known);
-            all.push(known.1.at_most(100.0 * self.task.upper / element.flat.diameter()));
-        }
-        lower_at_edges(&*self.task.cost, space, &mut all, inset);
-        for (element, minorant) in space.elements.iter().zip(&all) {
-            if minorant.least.is_nan() || minorant.least <= 0.0 {
-                return Err(PathError::UnboundedCost { at: element.flat.centroid() });
-            }
-        }
-        Ok(all)
     }
 }
 

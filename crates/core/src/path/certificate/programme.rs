@@ -7,15 +7,13 @@
 //!
 //! Gradient and bound are divided by ℓ, and v by the cost of the known path, so that all numbers are near 1.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use clarabel::algebra::CscMatrix;
-use clarabel::solver::{DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SupportedConeT};
+use clarabel::solver::{DefaultSettings, DefaultSettingsBuilder, SupportedConeT};
 use glam::DVec2;
 
 use super::minorant::Minorant;
 use super::quadratic::QuadraticSpace;
+use super::solver::ConeSolver;
 
 /// The solver's answer. It need not be optimal or feasible to be useful.
 pub(super) struct ProgrammeSolution {
@@ -44,8 +42,8 @@ pub(super) struct Programme<'a> {
 }
 
 impl Programme<'_> {
-    /// Solves it. `None` where the solver failed so badly that there is no answer, or was told to stop.
-    pub(super) fn solve(&self, stop: &Arc<AtomicBool>) -> Option<ProgrammeSolution> {
+    /// Begins to solve it. `None` where the solver does not take it.
+    pub(super) fn solver(&self) -> Option<ConeSolver> {
         let rows = 9 * self.space.elements.len();
         let columns = self.space.values - 1;
         let matrix = self.matrix(rows, columns);
@@ -57,17 +55,17 @@ impl Programme<'_> {
                 objective[column] -= weight;
             }
         }
-        let none = CscMatrix::zeros((columns, columns));
-        let mut solver =
-            DefaultSolver::new(&none, &objective, &matrix, &limits, &cones, self.settings()).ok()?;
-        let told = Arc::clone(stop);
-        solver.set_termination_callback(move |_| told.load(Ordering::Relaxed));
-        solver.solve();
-        let is_finite = solver.solution.x.iter().all(|value| value.is_finite());
-        (is_finite && !stop.load(Ordering::Relaxed)).then(|| ProgrammeSolution {
-            function: self.function(&solver.solution.x),
-            flows: self.flows(&solver.solution.z),
-            steps: solver.solution.iterations,
+        ConeSolver::new(&objective, &matrix, &limits, &cones, self.settings())
+    }
+
+    /// Returns the solution. `None` where the solver failed so badly that there is no answer.
+    pub(super) fn solution(&self, solver: &ConeSolver) -> Option<ProgrammeSolution> {
+        let solution = solver.solution();
+        let is_finite = solution.x.iter().all(|value| value.is_finite());
+        is_finite.then(|| ProgrammeSolution {
+            function: self.function(&solution.x),
+            flows: self.flows(&solution.z),
+            steps: solution.iterations,
         })
     }
 

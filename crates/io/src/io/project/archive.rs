@@ -241,6 +241,14 @@ impl<W: Write> ArchiveWriter<W> {
     ) -> io::Result<()> {
         let mut packing = Packing::new();
         write(&mut meter.count(&mut packing))?;
+        self.add_packed(name, packing)
+    }
+
+    /// Adds a part that was packed.
+    ///
+    /// # Errors
+    /// Fails with the errors of the output, and when the archive would pass 4 GiB.
+    pub fn add_packed(&mut self, name: &str, packing: Packing) -> io::Result<()> {
         let (packed, size, crc) = packing.finish()?;
         let (packed_size, size) = (small(packed.len() as u64)?, small(size)?);
         // The fields from "version needed" to "length of extra fields" are the same in both headers. Bit 11:
@@ -270,7 +278,7 @@ impl<W: Write> ArchiveWriter<W> {
     ///
     /// # Errors
     /// Fails with the errors of the output.
-    pub fn finish(mut self) -> io::Result<()> {
+    pub fn finish(mut self) -> io::Result<W> {
         let mut end = END.to_le_bytes().to_vec();
         for word in [0, 0, self.count, self.count] {
             end.extend(word.to_le_bytes());
@@ -280,7 +288,8 @@ impl<W: Write> ArchiveWriter<W> {
         end.extend([0; 2]);
         self.out.write_all(&self.directory)?;
         self.out.write_all(&end)?;
-        self.out.flush()
+        self.out.flush()?;
+        Ok(self.out)
     }
 }
 

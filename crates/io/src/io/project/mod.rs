@@ -31,6 +31,7 @@ pub(super) mod embedded;
 mod keys;
 mod old_tiles;
 mod old_version;
+mod packing;
 mod painted;
 mod part_names;
 mod paths;
@@ -56,6 +57,7 @@ use meshbrush_core::raster::{Raster, RasterPyramid, TiledRaster};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
 use old_version::OLD_PAINT;
+pub use packing::ProjectPacking;
 use painted::Allowance;
 use part_names::NewParts;
 pub(super) use part_names::PartNames;
@@ -250,7 +252,7 @@ fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Res
     for (name, write) in parts {
         archive.add(name, meter, write)?;
     }
-    archive.finish()
+    archive.finish().map(|_| ())
 }
 
 fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {

@@ -138,6 +138,7 @@ impl Survey {
         };
         let tasks = (visits / TASK_VISITS).min(MOST_TASKS).max(at_least);
         let size = match self.is_first_round() {
+            true if threads == 1 => self.round.len().min(most_visits),
             true => self.round.len().min(MOST_AT_FIRST),
             false => (self.round.len() / TASKS).clamp(1, MOST_SUBTREES),
         };
