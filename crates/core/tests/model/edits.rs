@@ -130,6 +130,13 @@ fn a_curve_that_is_lowest_between_two_pixels_is_decided_at_their_line() {
     edit(234, SMALL, &mut Seen::default());
 }
 
+/// The rim of a mask and the outline of the domain lie on one line, along which the search stayed until its
+/// limit: a sliver beside it was found for a triangle, and not for the one around it.
+#[test]
+fn a_sliver_beside_a_line_of_two_layers_is_found_for_triangles_of_all_sizes() {
+    edit(5166, SMALL, &mut Seen::default());
+}
+
 /// Runs the edits of `fuzz/` on a few bytes.
 #[test]
 fn edits_from_bytes_hold_what_random_edits_do() {

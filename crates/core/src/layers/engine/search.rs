@@ -1,5 +1,7 @@
 //! Whether some cell that touches a triangle asks for more than its level.
 
+use std::collections::BinaryHeap;
+
 use crate::geometry::Octagon;
 use crate::raster::{ValueRange, ValueRanges};
 
@@ -15,32 +17,69 @@ use super::reading::Question;
 /// know more. It must give a cut wherever the answer is [`Share::Some`].
 ///
 /// Where two layers change along one line, as at the rim of a mask that they share, cells on the line can
-/// stay undecided to the last. So the search ends after [`MOST_ASKED`] rectangles, with no cell found.
+/// stay undecided to the last. So after [`MOST_IN_ORDER`] rectangles, each within or beside the one before,
+/// it goes on with the largest that is left, and it ends after [`MOST_BY_SIZE`] of those, with no cell found.
 pub fn any_cell(
     triangle: &Octagon,
     cells: Cells,
     ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
 ) -> bool {
     let mut left = vec![cells];
-    for _ in 0..MOST_ASKED {
+    for _ in 0..MOST_IN_ORDER {
         let Some(cells) = left.pop() else { return false };
-        if !triangle.meets(&cells.octagon()) {
-            continue;
+        match look(triangle, cells, ask) {
+            Part::Asks => return true,
+            Part::DoesNot => {}
+            Part::Undecided([low, high]) => left.extend([high, low]),
         }
-        match ask(&cells) {
-            (Share::None, _) => {}
-            (Share::All, _) => return true,
-            (Share::Some, cut) => {
-                let [low, high] = cells.divided(cut.expect("an undecided rectangle has a cut"));
-                left.extend([high, low]);
-            }
+    }
+    any_cell_by_size(triangle, left, ask)
+}
+
+/// Continues [`any_cell`] in the rectangles that are left, the largest first.
+#[cold]
+fn any_cell_by_size(
+    triangle: &Octagon,
+    left: Vec<Cells>,
+    ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>),
+) -> bool {
+    let by_size = |Cells { min, max }: Cells| ((max[0] - min[0]).max(max[1] - min[1]), min, max);
+    let mut left: BinaryHeap<_> = left.into_iter().map(by_size).collect();
+    for _ in 0..MOST_BY_SIZE {
+        let Some((_, min, max)) = left.pop() else { return false };
+        match look(triangle, Cells { min, max }, ask) {
+            Part::Asks => return true,
+            Part::DoesNot => {}
+            Part::Undecided(parts) => left.extend(parts.map(by_size)),
         }
     }
     false
 }
 
-/// The number of rectangles after which [`any_cell`] ends.
-const MOST_ASKED: usize = 1 << 16;
+/// The number of rectangles that [`any_cell`] looks at one beside the other.
+const MOST_IN_ORDER: usize = 1 << 15;
+/// The number of rectangles that it looks at afterwards, from the largest on.
+const MOST_BY_SIZE: usize = 1 << 15;
+
+/// What is known of the cells of a rectangle that touch a triangle.
+enum Part {
+    Asks,
+    DoesNot,
+    /// These parts tell more.
+    Undecided([Cells; 2]),
+}
+
+#[inline]
+fn look(triangle: &Octagon, cells: Cells, ask: &mut impl FnMut(&Cells) -> (Share, Option<Cut>)) -> Part {
+    if !triangle.meets(&cells.octagon()) {
+        return Part::DoesNot;
+    }
+    match ask(&cells) {
+        (Share::None, _) => Part::DoesNot,
+        (Share::All, _) => Part::Asks,
+        (Share::Some, cut) => Part::Undecided(cells.divided(cut.expect("an undecided rectangle has a cut"))),
+    }
+}
 
 /// A search in one raster, square by square of its own.
 pub struct RasterSearch<'a, R> {
@@ -142,4 +181,50 @@ enum Square {
     DoesNot,
     /// The square has these cells, and only parts of it tell.
     Undecided(Cells),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::LatticePoint;
+
+    /// Cells on a row stay undecided to the last, and only those of a small rectangle elsewhere ask.
+    #[test]
+    fn what_asks_is_found_beside_a_line_that_stays_undecided() {
+        const SIDE: u32 = 1 << 20;
+        let ask_with = |row: i64, rect: Cells| {
+            move |cells: &Cells| {
+                let size = [0, 1].map(|axis| cells.max[axis] - cells.min[axis]);
+                let axis = usize::from(size[1] > size[0]);
+                let cut = Cut { axis, at: cells.min[axis] + size[axis] / 2 };
+                let is_on_row = cells.min[1] <= row && row < cells.max[1];
+                let common = cells.intersection(&rect);
+                match common {
+                    Some(common) if common == *cells => (Share::All, None),
+                    None if !is_on_row || size == [1, 1] => (Share::None, None),
+                    _ => (Share::Some, Some(cut)),
+                }
+            }
+        };
+        let triangle =
+            Octagon::triangle([[0, 0], [SIDE, 0], [0, SIDE]].map(|[x, y]| LatticePoint::new(x, y)));
+        let all = Cells { min: [0; 2], max: [i64::from(SIDE); 2] };
+        let mut random = fastrand::Rng::with_seed(5166);
+        for _ in 0..20 {
+            let row = random.i64(0..1000);
+            let at = [(); 2].map(|()| random.i64(2_000..i64::from(SIDE) / 2 - 2_000));
+            let rect = Cells { min: at, max: at.map(|v| v + 1_500) };
+            assert!(any_cell(&triangle, all, &mut ask_with(row, rect)), "{rect:?} beside row {row}");
+        }
+        // It ends where there is nothing.
+        let nothing = Cells { min: [-9; 2], max: [-8; 2] };
+        let (mut asked, ask) = (0, ask_with(500, nothing));
+        let mut counted = |cells: &Cells| {
+            asked += 1;
+            ask(cells)
+        };
+        assert!(!any_cell(&triangle, all, &mut counted));
+        let most = MOST_IN_ORDER + MOST_BY_SIZE;
+        assert!((most / 2..=most).contains(&asked), "{asked}");
+    }
 }
