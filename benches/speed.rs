@@ -18,7 +18,9 @@ use meshbrush_benches::window::{BRUSH, Pool, median_ms, pools};
 use meshbrush_benches::{diamond, field, memory, resident};
 use meshbrush_core::document::Document;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
-use meshbrush_mesh::mesh::{BlockRefiner, Limits, Mesh, Refiner, SharedRule, bisection_edge_length};
+use meshbrush_mesh::mesh::{
+    BlockRefiner, Limits, Mesh, Progress, Refiner, SharedRule, bisection_edge_length,
+};
 
 fn main() {
     if resident::answer() {
@@ -358,11 +360,21 @@ fn steps_in_blocks(level: u32) -> (usize, [f64; 3]) {
     for _ in 0..5 {
         mesh.clone_from(&coarse);
         let mut refiner = BlockRefiner::new(&mesh, Limits::default());
-        for step in &mut times {
-            let began = Instant::now();
-            refiner.advance(&mut mesh, &within, usize::MAX).expect("within the default limits");
-            step.push(began.elapsed());
+        let (mut step, mut is_done, mut took) = (0, false, [Duration::ZERO; 3]);
+        while !is_done {
+            let (began, count) = (Instant::now(), mesh.raw_triangle_count());
+            let progress =
+                refiner.advance(&mut mesh, &within, usize::MAX).expect("within the default limits");
+            is_done = progress == Progress::Done;
+            // The skeleton is the first to change the mesh, in one slice.
+            step = match step {
+                0 if mesh.raw_triangle_count() == count => 0,
+                0 => 1,
+                _ => 2,
+            };
+            took[step] += began.elapsed();
         }
+        times.iter_mut().zip(took).for_each(|(times, took)| times.push(took));
     }
     (mesh.raw_triangle_count(), times.map(median_ms))
 }
