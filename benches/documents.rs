@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Settings};
-use meshbrush_core::domain::Domain;
+use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource,
@@ -90,6 +90,16 @@ pub fn lake() -> Vec<Vec<Vec<DVec2>>> {
         (0..CORNERS).map(corner).collect()
     };
     vec![vec![ring(0.48), ring(0.25)]]
+}
+
+/// Returns a document of 1.8 million triangles with nodes on the outlines of [`lake`].
+pub fn lake_document() -> Document {
+    let domain = Domain::of_polygons(&lake()).expect("rings");
+    let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };
+    let layers = Layer::stack([wave(0.65, 0.0011)]);
+    let mut settings = Settings { domain, boundary, layers, ..Settings::default() };
+    (settings.transfer.h_min, settings.transfer.h_risk) = (0.0002, 0.0002);
+    Document::new(settings, None).expect("valid settings")
 }
 
 /// Returns a document with eight layers on the unit square; `fine` decides the size of the mesh, 0.0011 for two

@@ -17,13 +17,11 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, Throughput};
 use glam::{DVec2, dvec2};
 use meshbrush_benches::diamond;
-use meshbrush_benches::documents::lake;
+use meshbrush_benches::documents::lake_document;
 use meshbrush_benches::risks::{RandomRisk, mesh, processor_time};
-use meshbrush_benches::window::wave;
-use meshbrush_core::document::{Document, Follower, Settings};
-use meshbrush_core::domain::{BoundaryTreatment, Domain};
+use meshbrush_core::document::Follower;
 use meshbrush_core::field::CostFormula;
-use meshbrush_core::layers::{Layer, RiskField};
+use meshbrush_core::layers::RiskField;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_core::path::{
     CertificateEnd, CertificateTask, CostDensity, FormulaCost, March, Passage, PathArea, PathCertificate,
@@ -231,12 +229,8 @@ fn after_a_stroke(group: &mut Group<'_>, pool: &ThreadPool, cost: &dyn CostDensi
 
 /// Prints how long it takes to find the triangles that paths may cross.
 fn coasts() {
-    let domain = Domain::of_polygons(&lake()).expect("rings");
-    let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };
-    let layers = Layer::stack([wave(0.65, 0.0011)]);
-    let mut settings = Settings { domain: domain.clone(), boundary, layers, ..Settings::default() };
-    (settings.transfer.h_min, settings.transfer.h_risk) = (0.0002, 0.0002);
-    let mut document = Document::new(settings, None).expect("valid settings");
+    let mut document = lake_document();
+    let domain = document.settings().domain.clone();
     let follower = Follower::new(&mut document).expect("it has a mesh");
     let derived = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::FOR_SOLVERS);
     let extract = derived.extract(follower.mesh());

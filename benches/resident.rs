@@ -4,15 +4,12 @@
 use std::process::Command;
 use std::sync::Arc;
 
-use meshbrush_core::document::{Document, Follower, Settings};
-use meshbrush_core::domain::{BoundaryTreatment, Domain};
-use meshbrush_core::layers::{Layer, LayerKind, Quantity};
+use meshbrush_core::document::{Document, Follower};
 use meshbrush_core::outline::OutlineFollower;
 use meshbrush_core::path::{PathMesh, PathRequest, Planner};
 
-use crate::documents::{lake, layered, painted};
+use crate::documents::{lake_document, layered, painted};
 use crate::risks::RandomRisk;
-use crate::window::wave;
 
 /// What is measured, and its name on the page.
 #[derive(Clone, Copy)]
@@ -55,16 +52,6 @@ impl Case {
             Self::Outline => lake_document(),
         }
     }
-}
-
-/// Returns a document of 1.8 million triangles with nodes on an outline.
-fn lake_document() -> Document {
-    let domain = Domain::of_polygons(&lake()).expect("rings");
-    let boundary = BoundaryTreatment::OnOutline { diameter: 0.0011 };
-    let layers = Layer::stack([wave(0.65, 0.0011), LayerKind::Paint(Quantity::Diameter)]);
-    let mut settings = Settings { domain, boundary, layers, ..Settings::default() };
-    (settings.transfer.h_min, settings.transfer.h_risk) = (0.0002, 0.0002);
-    Document::new(settings, None).expect("valid settings")
 }
 
 /// Measures a case in a process of its own, which runs this program with two words. `None` where the system

@@ -6,7 +6,7 @@ use egui::{Align2, Color32, Event, Modifiers, PointerButton, Theme, Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
-use super::{painted_shapes, painted_texts};
+use super::{painted_radii, painted_texts};
 use crate::app::theme;
 use crate::app::widgets::*;
 
@@ -598,14 +598,8 @@ fn the_transfer_curve_is_edited_by_its_handles() {
         harness.run();
     };
     let before = harness.state().transfer;
-    let thumbs = |harness: &Harness<'_, State>| {
-        let thumb = theme::tokens_of(&harness.ctx).thumb;
-        let radii = painted_shapes(harness.output()).into_iter().filter_map(|shape| match shape {
-            egui::Shape::Circle(circle) if circle.fill == thumb => Some(circle.radius),
-            _ => None,
-        });
-        radii.sum::<f32>()
-    };
+    let thumb = theme::tokens_of(&harness.ctx).thumb;
+    let thumbs = |harness: &Harness<'_, State>| painted_radii(harness.output(), thumb);
     let at_rest = thumbs(&harness);
     let h_max = harness.get_by_role_and_label(Role::Slider, "h_max").rect().center();
     harness.hover_at(h_max);

@@ -9,8 +9,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::{
-    FREE, TALL, Window, canvas, key, move_to, on_screen, open_tab, painted_shapes, painted_texts, send,
-    window, window_of,
+    FREE, TALL, Window, canvas, key, move_to, on_screen, open_tab, painted_radii, painted_shapes,
+    painted_texts, send, window, window_of,
 };
 use crate::app::command::{Command, FileCommand, ViewCommand};
 use crate::app::features::paths::PathCommand;
@@ -333,13 +333,7 @@ fn the_thumb_of_a_slider_grows_under_the_pointer() {
     });
     harness.run();
     let thumb = tokens_of(&harness.ctx).thumb;
-    let radius = |harness: &Harness<'_>| {
-        let thumbs = painted_shapes(harness.output()).into_iter().filter_map(|shape| match shape {
-            Shape::Circle(circle) if circle.fill == thumb => Some(circle.radius),
-            _ => None,
-        });
-        thumbs.sum::<f32>()
-    };
+    let radius = |harness: &Harness<'_>| painted_radii(harness.output(), thumb);
     let at_rest = radius(&harness);
     let slider = harness.get_by_role_and_label(Role::Slider, "Size").rect().center();
     harness.hover_at(slider);

@@ -1,6 +1,6 @@
 //! What a frame paints.
 
-use eframe::egui::{FullOutput, Rect, Shape};
+use eframe::egui::{Color32, FullOutput, Rect, Shape};
 
 /// Returns the single shapes of a frame, from the back to the front.
 pub fn painted_shapes(frame: &FullOutput) -> Vec<&Shape> {
@@ -24,4 +24,13 @@ pub fn painted_texts(frame: &FullOutput) -> Vec<(String, Rect)> {
         _ => None,
     });
     seen.collect()
+}
+
+/// Returns the sum of the radii of the circles among them that are filled with a colour, in points.
+pub fn painted_radii(frame: &FullOutput, fill: Color32) -> f32 {
+    let radii = painted_shapes(frame).into_iter().filter_map(|shape| match shape {
+        Shape::Circle(circle) if circle.fill == fill => Some(circle.radius),
+        _ => None,
+    });
+    radii.sum()
 }
