@@ -15,6 +15,7 @@ use crate::window::{FRAME_BUDGET, Slices};
 pub struct Scene {
     pub document: Document,
     pub follower: Follower,
+    pricer: Pricer,
     pub slices: Slices,
     /// The time in which the mesh was made.
     pub scratch: Duration,
@@ -36,7 +37,8 @@ impl Scene {
     pub fn new(mut document: Document) -> Self {
         let began = Instant::now();
         let follower = Follower::new(&mut document).expect("it has a mesh");
-        Self { document, follower, slices: Slices::default(), scratch: began.elapsed() }
+        let scratch = began.elapsed();
+        Self { document, follower, pricer: Pricer::default(), slices: Slices::default(), scratch }
     }
 
     /// Returns the number of triangles of the mesh.
@@ -131,9 +133,10 @@ impl Scene {
     /// Returns the time in which the price of a dab is known, and the price. The first slices draw the dab on
     /// a copy.
     pub fn price(&mut self, brush: Brush, at: DVec2) -> (Duration, Price) {
-        let mut pricer = Pricer::default();
-        pricer.ask(Some(StrokePlan::click(brush, at)), &self.document, &self.follower);
-        let Self { document, follower, slices, .. } = self;
+        let Self { document, follower, pricer, slices, .. } = self;
+        // The same price is not computed twice.
+        pricer.ask(None, document, follower);
+        pricer.ask(Some(StrokePlan::click(brush, at)), document, follower);
         let time = slices.run(|visits| pricer.advance(document, follower, visits) == Progress::Done);
         (time, pricer.price().expect("it is done"))
     }

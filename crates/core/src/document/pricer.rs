@@ -15,6 +15,8 @@ use crate::paint::{Preview, Repaint, StrokePlan};
 pub struct Pricer {
     question: Option<Question>,
     work: Work,
+    /// What the last price was counted in: its memory is used again.
+    counted: Option<Forecast>,
 }
 
 /// A planned stroke, and what its price depends on: the price is valid as long as none of this changes.
@@ -130,11 +132,82 @@ impl Pricer {
     pub fn advance(&mut self, document: &Document, follower: &Follower, budget: usize) -> Progress {
         let Some(question) = self.question else { return Progress::Done };
         self.work = match std::mem::take(&mut self.work) {
-            Work::Painting(painting) => paint_more(painting, question, document, follower, budget),
-            Work::Counting(counting) => count_more(counting, question, follower, budget),
+            Work::Painting(preview) => self.paint_more(preview, question, document, follower, budget),
+            Work::Counting(counting) => self.count_more(counting, question, follower, budget),
             settled @ (Work::Idle | Work::Known(_)) => settled,
         };
         self.progress()
+    }
+
+    fn paint_more(
+        &mut self,
+        mut preview: Box<Preview>,
+        question: Question,
+        document: &Document,
+        follower: &Follower,
+        budget: usize,
+    ) -> Work {
+        if !preview.advance(budget) {
+            return Work::Painting(preview);
+        }
+        let (raster, changed) = preview.finish();
+        if changed.is_empty() {
+            return Work::Known(Price::Nothing(NoChange::OutsideField));
+        }
+        let is_same = match document.paint().get(question.layer) {
+            Some(before) => *before == raster,
+            None => raster.is_blank(),
+        };
+        if is_same {
+            return Work::Known(Price::Nothing(NoChange::PaintedAlready));
+        }
+        let mut paint = document.paint().clone();
+        paint.insert(question.layer, raster);
+        let (field, layer) = (follower.field(), question.layer);
+        let painted: Vec<PaintChange> = changed
+            .iter()
+            .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
+            .collect();
+        let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
+        let limits = follower.settings().limits();
+        let forecast = match self.counted.take() {
+            Some(memory) => Forecast::of_changes_in(memory, follower.mesh(), affected, &limits),
+            None => Forecast::of_changes(follower.mesh(), affected, &limits),
+        };
+        match forecast {
+            None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
+                Work::Known(Price::Nothing(NoChange::OutsideField))
+            }
+            None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
+            Some(forecast) => {
+                Work::Counting(Box::new(Counting { forecast, paint, known: SettledPool::default() }))
+            }
+        }
+    }
+
+    fn count_more(
+        &mut self,
+        mut counting: Box<Counting>,
+        question: Question,
+        follower: &Follower,
+        budget: usize,
+    ) -> Work {
+        let Counting { forecast, paint, known } = &mut *counting;
+        let domain = follower.domain();
+        let criterion = RefinementCriterion::by_area(domain, follower.field(), paint);
+        let is_in_domain = |corners, _| !domain.excludes_at(corners);
+        let fewest = questions_per_thread(budget, follower.field());
+        let progress =
+            forecast.advance(follower.mesh(), &criterion.shared_with(known, fewest), is_in_domain, budget);
+        let price = match price_of(progress, forecast) {
+            None => return Work::Counting(counting),
+            Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {
+                Price::Nothing(why_nothing(question, paint, follower))
+            }
+            Some(price) => price,
+        };
+        self.counted = Some(counting.forecast);
+        Work::Known(price)
     }
 }
 
@@ -152,67 +225,9 @@ fn begin(Question { plan, layer, .. }: Question, document: &Document) -> Work {
     Work::Painting(Box::new(Preview::new(&plan, h_max, bounds, raster)))
 }
 
-fn paint_more(
-    mut preview: Box<Preview>,
-    question: Question,
-    document: &Document,
-    follower: &Follower,
-    budget: usize,
-) -> Work {
-    if !preview.advance(budget) {
-        return Work::Painting(preview);
-    }
-    let (raster, changed) = preview.finish();
-    if changed.is_empty() {
-        return Work::Known(Price::Nothing(NoChange::OutsideField));
-    }
-    let is_same = match document.paint().get(question.layer) {
-        Some(before) => *before == raster,
-        None => raster.is_blank(),
-    };
-    if is_same {
-        return Work::Known(Price::Nothing(NoChange::PaintedAlready));
-    }
-    let mut paint = document.paint().clone();
-    paint.insert(question.layer, raster);
-    let (field, layer) = (follower.field(), question.layer);
-    let painted: Vec<PaintChange> = changed
-        .iter()
-        .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
-        .collect();
-    let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
-    let limits = follower.settings().limits();
-    match Forecast::of_changes(follower.mesh(), affected, &limits) {
-        None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
-            Work::Known(Price::Nothing(NoChange::OutsideField))
-        }
-        None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
-        Some(forecast) => {
-            Work::Counting(Box::new(Counting { forecast, paint, known: SettledPool::default() }))
-        }
-    }
-}
-
 /// Returns whether a rectangle in world units has a point of the lattice of a field.
 fn meets(area: &Rect, field: &SizeField) -> bool {
     area.intersection(&field.lattice().bounds()).is_some()
-}
-
-fn count_more(mut counting: Box<Counting>, question: Question, follower: &Follower, budget: usize) -> Work {
-    let Counting { forecast, paint, known } = &mut *counting;
-    let domain = follower.domain();
-    let criterion = RefinementCriterion::by_area(domain, follower.field(), paint);
-    let is_in_domain = |corners, _| !domain.excludes_at(corners);
-    let fewest = questions_per_thread(budget, follower.field());
-    let progress =
-        forecast.advance(follower.mesh(), &criterion.shared_with(known, fewest), is_in_domain, budget);
-    match price_of(progress, forecast) {
-        None => Work::Counting(counting),
-        Some(Price::Change(0)) if forecast.added() == 0 && forecast.removed() == 0 => {
-            Work::Known(Price::Nothing(why_nothing(question, paint, follower)))
-        }
-        Some(price) => Work::Known(price),
-    }
 }
 
 /// Returns the price after a slice of a forecast; `None` while counting goes on.

@@ -335,18 +335,26 @@ fn a_forecast_is_what_the_update_then_does() {
         let mut mesh = coarse.clone();
         let mut updater = Updater::new(Limits::default());
         let mut spots = Vec::new();
+        // A forecast that was made before, perhaps not to its end.
+        let mut memory: Option<Forecast> = None;
         for count in 0..edits / 9 {
             let changes = edit(&mut random, &mut spots, &mesh);
             let before = mesh.raw_triangle_count();
-            let mut forecast = match random.bool() {
-                true => Forecast::new(&mesh, hull(&areas_of(&changes)), &Limits::default()),
-                false => {
-                    let areas = changes.clone();
-                    Forecast::of_changes(&mesh, areas, &Limits::default()).expect("there is an area")
+            let mut forecast = match (random.u8(..3), memory.take()) {
+                (0, _) => Forecast::new(&mesh, hull(&areas_of(&changes)), &Limits::default()),
+                (1, Some(memory)) => {
+                    Forecast::of_changes_in(memory, &mesh, changes.clone(), &Limits::default())
+                        .expect("there is an area")
                 }
+                _ => Forecast::of_changes(&mesh, changes.clone(), &Limits::default())
+                    .expect("there is an area"),
             };
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
+            if random.bool() {
+                _ = forecast.advance(&mesh, &|| asks, |_, _| true, slice).unwrap();
+                memory = Some(forecast.clone());
+            }
             while forecast.advance(&mesh, &|| asks, |_, _| true, slice).unwrap() == Progress::More {}
             changes.into_iter().for_each(|area| updater.add_area(area));
             settle(&mut updater, &mut mesh, &spots);
@@ -356,6 +364,7 @@ fn a_forecast_is_what_the_update_then_does() {
             grew += usize::from(added > 0 && removed == 0);
             shrank += usize::from(removed > 0 && added == 0);
             both += usize::from(added > 0 && removed > 0);
+            memory = memory.or(Some(forecast));
         }
     }
     eprintln!("{grew} grew, {shrank} shrank, {both} both");

@@ -24,6 +24,8 @@ use crate::mesh::kernel::{
 
 /// Triangles of a batch, unless a slice is smaller.
 const BATCH: usize = 4096;
+/// The memory for more nodes is not used again: a map is emptied in time that is proportional to its room.
+const MOST_KEPT: usize = 1 << 16;
 
 /// Counts what [`Updater`](crate::mesh::Updater) would do after a change of the rule, in slices, and leaves
 /// the mesh alone.
@@ -87,6 +89,11 @@ enum Fate {
     Stays,
 }
 
+/// Returns the rectangle around some areas; `None` without one.
+fn hull_of(areas: &[ChangedArea]) -> Option<LatticeRect> {
+    areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))
+}
+
 /// Returns how many triangles of the domain come when one is bisected, or go below zero.
 fn gain(triangle: &TreeTriangle, is_in_domain: &impl Fn([LatticePoint; 3], u32) -> bool) -> i64 {
     let counts = |triangle: &TreeTriangle| i64::from(is_in_domain(triangle.corners(), triangle.level()));
@@ -103,7 +110,7 @@ impl Forecast {
     /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
     /// what is known of the changes; `None` without an area.
     pub fn of_changes(mesh: &Mesh, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
-        let hull = areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))?;
+        let hull = hull_of(&areas)?;
         Some(Self {
             level_cap: limits.level_cap(),
             areas: ChangedAreas::new(areas),
@@ -122,6 +129,37 @@ impl Forecast {
             change: 0,
             batch: Vec::new(),
         })
+    }
+
+    /// [`Self::of_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
+    pub fn of_changes_in(
+        memory: Self,
+        mesh: &Mesh,
+        areas: Vec<ChangedArea>,
+        limits: &Limits,
+    ) -> Option<Self> {
+        if memory.fates.capacity() > MOST_KEPT {
+            return Self::of_changes(mesh, areas, limits);
+        }
+        let hull = hull_of(&areas)?;
+        let mut forecast = Self {
+            level_cap: limits.level_cap(),
+            areas: ChangedAreas::new(areas),
+            search: RectSearch::new(mesh, hull),
+            is_searching: true,
+            added: 0,
+            removed: 0,
+            change: 0,
+            ..memory
+        };
+        [&mut forecast.reached, &mut forecast.centres].into_iter().for_each(Bitset::clear);
+        forecast.fates.clear();
+        forecast.near.clear();
+        forecast.open.clear();
+        forecast.loose.clear();
+        [&mut forecast.restored, &mut forecast.chain].into_iter().for_each(Vec::clear);
+        forecast.batch.clear();
+        Some(forecast)
     }
 
     /// Returns the triangles that would come, as far as counted.
