@@ -43,8 +43,10 @@ const SLOW_FRAME_SHARE: (f32, Duration) = (1.0 / 3.0, Duration::from_millis(40))
 /// The share and the most time for work on the mesh where drawing is slow and the pointer draws nothing. The
 /// mesh should be complete soon, and nobody waits for the next frame.
 const SLOW_FRAME_SHARE_AT_REST: (f32, Duration) = (0.6, Duration::from_millis(60));
-/// The most time for work on the mesh in a page: a browser does nothing else meanwhile.
-const MOST_IN_PAGE: Duration = Duration::from_millis(20);
+/// The most time for jobs and the mesh together in a page, and the least for the mesh: drawing comes after
+/// them, and a browser does nothing else meanwhile.
+const MOST_IN_PAGE: Duration = Duration::from_millis(14);
+const LEAST_IN_PAGE: Duration = Duration::from_millis(4);
 /// Where frames do the work of jobs, one that has worked this long already leaves the mesh to the next one.
 const LONG_BEFORE_MESH: Duration = Duration::from_millis(12);
 
@@ -170,7 +172,8 @@ impl App {
             if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
         let jobs = &self.jobs;
         let start = Instant::now();
-        let deadline = start + budget;
+        let deadline =
+            if host::IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
         let cuts = self.session.advance_cuts(jobs);
         let is_late =
             self.jobs.is_without_threads() && !self.reproducible && began.elapsed() > LONG_BEFORE_MESH;

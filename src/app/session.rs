@@ -320,6 +320,8 @@ impl Session {
         self.cuts.discard(&mut self.document);
         self.document.replace_with(document);
         self.document_id = self.document_id.next();
+        // Its triangles can be a thousand times as dear.
+        self.pace = Pace::default();
         self.brake.release();
         self.size_change = SizeChange::default();
         self.query(None);

@@ -68,12 +68,18 @@ pub(super) struct Making {
 
 /// What is done next, and what is there for it.
 enum Step {
-    /// The sea is placed in the plane that the program chooses for it.
-    Place(Box<SeaChart>),
+    /// A plane is chosen for the sea.
+    Choose(Box<SeaChart>),
+    /// The sea is placed in that plane.
+    Place(Box<(SeaChart, Reprojection)>),
+    /// It is cut to the frame.
+    Cut(Box<(Vec<Polygon>, Raster, Reprojection)>),
     /// The depths are projected.
     Project(Box<(Domain, Raster, Reprojection)>),
     /// Diameters are found that the slopes of the ground ask for.
     Slopes(Box<(Domain, RasterSource)>),
+    /// The search for straits begins.
+    Straits(Box<(Domain, [LayerKind; 3])>),
     /// Straits are searched.
     Search(Box<(Domain, [LayerKind; 3], StraitSearch)>),
     /// The document is made.
@@ -83,13 +89,28 @@ enum Step {
 
 impl Making {
     pub(super) fn new(name: &str, chart: SeaChart) -> Self {
-        Self { name: name.into(), step: Step::Place(Box::new(chart)) }
+        Self { name: name.into(), step: Step::Choose(Box::new(chart)) }
     }
 
     /// Takes the next step. Returns the settings after the last one.
     pub(super) fn advance(&mut self) -> Option<Settings> {
         self.step = match std::mem::replace(&mut self.step, Step::Done) {
-            Step::Place(chart) => Step::Project(Box::new(placed(*chart))),
+            Step::Choose(chart) => {
+                let reprojection = plane_for(&chart.sea);
+                Step::Place(Box::new((*chart, reprojection)))
+            }
+            Step::Place(work) => {
+                let (SeaChart { sea, depths }, reprojection) = *work;
+                let polygons: Vec<Polygon> = sea.into_iter().map(|named| named.polygon).collect();
+                Step::Cut(Box::new((projected_polygons(&polygons, &reprojection), depths, reprojection)))
+            }
+            Step::Cut(work) => {
+                let (polygons, depths, reprojection) = *work;
+                let frame = Rect::new(FRAME[0], FRAME[1]);
+                let domain = Domain::of_stored_polygons(polygons, frame).expect("a valid outline");
+                let domain = Domain { projection: Some(reprojection.to), ..domain };
+                Step::Project(Box::new((domain, depths, reprojection)))
+            }
             Step::Project(work) => {
                 let (domain, depths, reprojection) = *work;
                 let depths =
@@ -103,8 +124,12 @@ impl Making {
             Step::Slopes(work) => {
                 let (domain, depths) = *work;
                 let [waves, slopes] = depth_layers(&domain, &depths);
+                Step::Straits(Box::new((domain, [waves, slopes, along_coasts()])))
+            }
+            Step::Straits(work) => {
+                let (domain, kinds) = *work;
                 let search = StraitSearch::new(&domain, STRAITS);
-                Step::Search(Box::new((domain, [waves, slopes, along_coasts()], search)))
+                Step::Search(Box::new((domain, kinds, search)))
             }
             Step::Search(mut work) => match work.2.advance(EDGES) {
                 Progress::More => Step::Search(work),
@@ -124,18 +149,12 @@ impl Making {
     }
 }
 
-/// Returns the sea in the plane that the program chooses for it, and its depths as they are.
-fn placed(chart: SeaChart) -> (Domain, Raster, Reprojection) {
-    let SeaChart { sea, depths } = chart;
+/// Returns the way into the plane that the program chooses for the sea.
+fn plane_for(sea: &[NamedPolygon]) -> Reprojection {
     let rings = sea.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
     let extent = GeographicExtent::of_rings(rings).expect("polygons");
     let projection = ProjectionChoice::Automatic.projection(&extent).expect("a small part of the Earth");
-    let reprojection = Reprojection { from: Coordinates::Geographic, to: projection };
-    let polygons: Vec<Polygon> = sea.into_iter().map(|named| named.polygon).collect();
-    let frame = Rect::new(FRAME[0], FRAME[1]);
-    let domain = Domain::of_stored_polygons(projected_polygons(&polygons, &reprojection), frame)
-        .expect("a valid outline");
-    (Domain { projection: Some(projection), ..domain }, depths, reprojection)
+    Reprojection { from: Coordinates::Geographic, to: projection }
 }
 
 fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {

@@ -7,9 +7,13 @@ use super::band::Band;
 use super::changes::{FittedBand, Outline, OutlineChanges};
 use super::corners::TurningCorners;
 use super::fitting::Fitting;
+use super::follower_making::FollowerMaking;
 use super::{DerivedMesh, OutlineFollower};
 use crate::domain::DomainOnLattice;
 use crate::mesh::{Cleaning, Mesh, MeshPatch, Progress};
+
+/// A follower takes in so many triangles in a step.
+const AT_ONCE: usize = 4096;
 
 /// The work of [`DerivedMesh::new`], and of [`OutlineFollower::new`] where that is asked for: both from one
 /// derivation.
@@ -30,7 +34,7 @@ enum Step {
     Change(Arc<TurningCorners>, Box<FittedBand>),
     Measure(Arc<TurningCorners>, Box<FittedBand>, MeshPatch),
     Clean(Option<OutlineChanges>, Option<(Arc<TurningCorners>, Box<FittedBand>)>),
-    Follow(Arc<TurningCorners>, Box<FittedBand>),
+    Follow(Arc<TurningCorners>, Box<FittedBand>, Option<Box<FollowerMaking>>),
     Done,
 }
 
@@ -47,7 +51,7 @@ impl MeshDerivation {
             (Step::Done, _) => return Progress::Done,
             (Step::Clean(changes, fitted), _) => {
                 self.derived = Some(DerivedMesh::cleaned(&self.mesh, changes, &self.cleaning));
-                fitted.map_or(Step::Done, |(corners, fitted)| Step::Follow(corners, fitted))
+                fitted.map_or(Step::Done, |(corners, fitted)| Step::Follow(corners, fitted, None))
             }
             (_, None) => Step::Clean(None, None),
             (Step::Begin, Some(region)) => Step::Band(Outline::new(self.mesh.lattice(), region).corners),
@@ -73,11 +77,16 @@ impl MeshDerivation {
                 let changes = fitted.with_patch(patch, &outline);
                 Step::Clean(Some(changes), self.follows.then_some((corners, fitted)))
             }
-            (Step::Follow(corners, fitted), Some(region)) => {
-                let outline = Outline::with_corners(self.mesh.lattice(), region, corners);
-                let follower = OutlineFollower::of_fitted(&self.mesh, &self.domain, &outline, &fitted);
-                self.follower = Some(follower);
-                Step::Done
+            (Step::Follow(corners, fitted, making), Some(region)) => {
+                let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
+                let begin = || Box::new(FollowerMaking::new(&self.mesh, &self.domain, &outline, &fitted));
+                match making.unwrap_or_else(begin).advance(&self.mesh, &outline, &fitted, AT_ONCE) {
+                    ControlFlow::Continue(making) => Step::Follow(corners, fitted, Some(Box::new(making))),
+                    ControlFlow::Break(follower) => {
+                        self.follower = Some(follower);
+                        Step::Done
+                    }
+                }
             }
         };
         if matches!(self.step, Step::Done) { Progress::Done } else { Progress::More }

@@ -26,6 +26,7 @@ use rayon::prelude::*;
 use super::band::{GRAIN, RINGS};
 use super::changes::{FittedBand, Outline, OutlineChanges, OutlineFit, beside};
 use super::corners::TurningCorners;
+use super::follower_making::FollowerMaking;
 use super::numbers::{Numbers, Pages};
 use super::window::{LOCAL_RINGS, Rings, SLACK, Window, expected};
 use super::writer::Writer;
@@ -126,11 +127,12 @@ impl OutlineFollower {
         let region = domain.region_on_outline()?;
         let outline = Outline::new(mesh.lattice(), region);
         let fitted = FittedBand::whole(mesh, region, &outline, &mut |_, _| {});
-        Some(Self::of_fitted(mesh, domain, &outline, &fitted))
+        let making = FollowerMaking::new(mesh, domain, &outline, &fitted);
+        making.advance(mesh, &outline, &fitted, usize::MAX).break_value()
     }
 
-    /// [`Self::new`], from a whole band that was put on an outline.
-    pub(super) fn of_fitted(
+    /// Returns a follower without the triangles of a band, but with room for them.
+    pub(super) fn empty(
         mesh: &Mesh,
         domain: &DomainOnLattice,
         outline: &Outline,
@@ -147,9 +149,6 @@ impl OutlineFollower {
         follower.triangles.reserve(fitted.band.ids.len());
         follower.seats.reserve(fitted.band.ids.len());
         follower.nodes.reserve(fitted.patchwork.points.len());
-        let mut writer = Writer::new(mesh, fitted, outline);
-        (0..fitted.band.ids.len() as u32).for_each(|t| writer.write(&mut follower, t));
-        fitted.band.touched.iter().for_each(|&(id, inside)| follower.write_beside(mesh, id, inside));
         follower
     }
 
@@ -310,7 +309,7 @@ impl OutlineFollower {
         }
     }
 
-    fn write_beside(&mut self, mesh: &Mesh, id: TriangleId, inside: bool) {
+    pub(super) fn write_beside(&mut self, mesh: &Mesh, id: TriangleId, inside: bool) {
         let Some(pieces) = beside(mesh, id, inside) else { return };
         let corners = mesh.corners(id).map(node_place);
         // The nodes of the triangles across its edges lie inside, too.

@@ -43,6 +43,7 @@ mod fitting;
 mod window;
 mod follower;
 mod writer;
+mod follower_making;
 mod derived;
 mod deriving;
 mod check;

@@ -10,30 +10,55 @@ pub(super) struct Writer<'a> {
     mesh: &'a Mesh,
     fitted: &'a FittedBand,
     outline: &'a Outline<'a>,
+    written: Written,
+}
+
+/// What a writer knows of a band, and which of its nodes are written.
+pub(super) struct Written {
     pieces: PiecesByTriangle,
     acted: Vec<bool>,
     is_node_written: Vec<bool>,
     star: Vec<(u32, usize)>,
 }
 
-impl<'a> Writer<'a> {
-    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
+impl Written {
+    /// None of them.
+    pub(super) fn of(fitted: &FittedBand) -> Self {
         Self {
             pieces: PiecesByTriangle::new(&fitted.band, &fitted.patchwork),
             acted: fitted.acted(),
             is_node_written: vec![false; fitted.patchwork.points.len()],
             star: Vec::new(),
-            mesh,
-            fitted,
-            outline,
         }
+    }
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(mesh: &'a Mesh, fitted: &'a FittedBand, outline: &'a Outline<'a>) -> Self {
+        Self::going_on(mesh, fitted, outline, Written::of(fitted))
+    }
+
+    /// Returns a writer that goes on where another one for the same band ended.
+    pub(super) fn going_on(
+        mesh: &'a Mesh,
+        fitted: &'a FittedBand,
+        outline: &'a Outline<'a>,
+        written: Written,
+    ) -> Self {
+        Self { mesh, fitted, outline, written }
+    }
+
+    /// Returns what another writer needs to go on.
+    pub(super) fn into_written(self) -> Written {
+        self.written
     }
 
     /// Writes a triangle of the band, and its nodes.
     pub(super) fn write(&mut self, follower: &mut OutlineFollower, triangle: u32) {
         let FittedBand { band, patchwork, placement, .. } = self.fitted;
         let home = |v: u32| node_place(placement.homes[v as usize]);
-        let pieces = self.pieces.replacement(self.mesh, band, patchwork, &self.outline.angles, triangle);
+        let pieces =
+            self.written.pieces.replacement(self.mesh, band, patchwork, &self.outline.angles, triangle);
         let kept_piece = |(piece, corners): (u32, [u32; 3])| KeptPiece {
             corners: corners.map(home),
             on_boundary: self.on_boundary(piece, corners),
@@ -72,7 +97,7 @@ impl<'a> Writer<'a> {
 
     fn write_node(&mut self, follower: &mut OutlineFollower, node: u32) {
         let v = node as usize;
-        if std::mem::replace(&mut self.is_node_written[v], true) {
+        if std::mem::replace(&mut self.written.is_node_written[v], true) {
             return;
         }
         let FittedBand { patchwork, placement, pins, .. } = self.fitted;
@@ -80,8 +105,8 @@ impl<'a> Writer<'a> {
         let kept = KeptNode {
             home: placement.homes[v],
             at: patchwork.points[v],
-            acts: self.acted.get(v).is_some_and(|&acts| acts),
-            fit: self.fitted.fit_of(self.outline, node, &mut self.star),
+            acts: self.written.acted.get(v).is_some_and(|&acts| acts),
+            fit: self.fitted.fit_of(self.outline, node, &mut self.written.star),
             corner_limit: pin.map_or(0.0, |n| pins[n].limit),
         };
         follower.nodes.insert(node_place(kept.home), kept);

@@ -5,17 +5,21 @@ use glam::DVec2;
 
 use super::integral::PathFigures;
 use super::lower::LowerBound;
+use super::march::March;
 use super::obstacle::obstacle;
 use super::place::Place;
 use super::planner::{PathRequest, Planner};
 use super::refine::{Effort, refine};
-use super::shortest::Shortest;
+use super::shortest::{CornerSearch, Shortest};
 use super::taut::is_constant_along;
 use super::ways::Ways;
 use super::{CostDensity, PathError, Solution, Waypoint};
+use crate::mesh::Progress;
 
 /// The tolerance with which two paths are compared.
 const COMPARED: f64 = 1e-3;
+/// An interval of a shortest way takes as long as so many nodes of a march.
+const INTERVALS: usize = 8;
 /// Another way is worth a closer look if sketches promise that it costs less by this share.
 const LEAST_GAIN: f64 = 1e-4;
 
@@ -35,20 +39,28 @@ pub(super) struct LegSearch {
 }
 
 /// What is done next.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Step {
     /// Follows the march from the start, and makes the path smooth.
     Trace,
     /// Compares that with the path as it was traced: where the cost jumps, a smooth one can cost more.
     Compare,
+    /// Begins to march from the goal.
+    Back,
+    /// Marches from the goal.
+    March(Box<March>),
     /// Finds other ways.
-    Ways,
+    Ways(Box<March>),
     /// Sketches the way with this number, and takes it if it promises to cost less.
     Sketch(usize),
     /// Tries a path by way of lines that are cheaper than the triangles around them.
     Lines,
-    /// Tries the shortest way in the plane.
+    /// Begins to look for the shortest way in the plane.
     Shortest,
+    /// Looks for it.
+    Corners(Box<CornerSearch>),
+    /// Tries it.
+    Take(Vec<DVec2>),
     /// Begins with the lower bound.
     Bound,
     /// Raises the lower bound.
@@ -61,7 +73,8 @@ impl LegSearch {
         Self { leg, ends, request, step, solution, ways: Vec::new(), least: f64::INFINITY }
     }
 
-    /// Takes a step. Returns the path at the end. `places` is the number of places of the route.
+    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end. `places` is
+    /// the number of places of the route.
     ///
     /// # Errors
     /// Fails when no march leads to the goal, or the cost of the path is not finite.
@@ -71,9 +84,10 @@ impl LegSearch {
         density: &dyn CostDensity,
         bound: &mut LowerBound,
         places: usize,
+        nodes: usize,
     ) -> Result<Option<Solution>, PathError> {
         let Self { ends, request, .. } = *self;
-        self.step = match self.step {
+        self.step = match std::mem::replace(&mut self.step, Step::Bound) {
             Step::Trace if ends[0].point == ends[1].point => {
                 let points = ends.map(|end| end.point).to_vec();
                 return Ok(Some(planner.solution(points, density, request.tolerance)));
@@ -84,10 +98,15 @@ impl LegSearch {
             }
             Step::Compare => {
                 self.take_better(planner, density, self.ways[0].clone());
-                if request.effort == Effort::FULL { Step::Ways } else { Step::Bound }
+                if request.effort == Effort::FULL { Step::Back } else { Step::Bound }
             }
-            Step::Ways => {
-                self.find_ways(planner);
+            Step::Back => Step::March(Box::new(planner.begin_back(ends[1]))),
+            Step::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
+                Progress::More => Step::March(march),
+                Progress::Done => Step::Ways(march),
+            },
+            Step::Ways(march) => {
+                self.find_ways(planner, &march);
                 (self.least, _) = sketch(planner, density, &self.ways[0]);
                 Step::Sketch(1)
             }
@@ -103,17 +122,27 @@ impl LegSearch {
                 }
                 Step::Shortest
             }
-            Step::Shortest => {
-                if let Some(points) = self.shortest(planner, density) {
-                    let refined = refined(planner, density, &points, request);
-                    self.take_better(planner, density, points);
-                    self.take_better(planner, density, refined);
+            Step::Shortest => match self.begin_shortest(planner, density) {
+                Some(search) => Step::Corners(Box::new(search)),
+                None => Step::Bound,
+            },
+            Step::Corners(mut search) => {
+                match self.look_around(&mut search, planner, density, nodes / INTERVALS) {
+                    Progress::More => Step::Corners(search),
+                    Progress::Done => {
+                        search.way(&planner.mesh, &planner.walls).map_or(Step::Bound, Step::Take)
+                    }
                 }
+            }
+            Step::Take(points) => {
+                let refined = refined(planner, density, &points, request);
+                self.take_better(planner, density, points);
+                self.take_better(planner, density, refined);
                 Step::Bound
             }
             Step::Bound if self.begin_bound(planner, bound)? => Step::Raise,
             Step::Bound => return Ok(Some(std::mem::take(&mut self.solution))),
-            Step::Raise => match bound.raise(&planner.mesh, &planner.costs.least, ends) {
+            Step::Raise => match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
                 None => Step::Raise,
                 Some(lower) => {
                     self.solution.lower = lower.min(self.solution.upper);
@@ -168,10 +197,9 @@ impl LegSearch {
     }
 
     /// Finds the way of the march from the goal, and those by other valleys.
-    fn find_ways(&mut self, planner: &Planner) {
-        let march = planner.march_back(self.ends);
-        self.ways.extend(planner.traced_back(&march, self.ends));
-        let marches = [planner.open_marches(self.leg)[0], &march];
+    fn find_ways(&mut self, planner: &Planner, march: &March) {
+        self.ways.extend(planner.traced_back(march, self.ends));
+        let marches = [planner.open_marches(self.leg)[0], march];
         let Planner { mesh, walls, costs, .. } = planner;
         let others = Ways { mesh, costs: &costs.mean, walls, ends: self.ends, marches }.others(&self.ways);
         self.ways.extend(others);
@@ -188,24 +216,34 @@ impl LegSearch {
         }
     }
 
-    /// Returns the shortest way in the plane, if the solution has one cost all along. `None` also where the
-    /// solution is no longer than that.
-    fn shortest(&self, planner: &Planner, density: &dyn CostDensity) -> Option<Vec<DVec2>> {
+    /// Begins to look for the shortest way in the plane that is shorter than the solution, if that has one
+    /// cost all along.
+    fn begin_shortest(&self, planner: &Planner, density: &dyn CostDensity) -> Option<CornerSearch> {
         let Self { ends, solution, .. } = self;
         if !is_constant_along(&solution.points, |rectangle| density.range_on_ground(rectangle)) {
             return None;
         }
-        let Planner { mesh, walls, costs, .. } = planner;
-        let (first, means) = (ends[0].triangle, &costs.mean);
-        let range = |triangle: u32| density.range_on_ground(&mesh.rectangle(triangle));
-        let cost = range(first);
-        let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
-        let shortest = Shortest { mesh, walls, has_cost: &has_cost };
         // On the Earth a longer line in the plane can be the shorter one.
         let scales = solution.points.iter().map(|&at| density.inverse_scale_at(at));
         let [least, greatest] =
             scales.fold([f64::INFINITY, 0.0_f64], |[a, b], scale| [a.min(scale), b.max(scale)]);
-        shortest.way(*ends, solution.length * (greatest / least))
+        Some(CornerSearch::new(&planner.mesh, &planner.walls, *ends, solution.length * (greatest / least)))
+    }
+
+    /// Looks at most at so many intervals for the shortest way. Returns whether there is more to do.
+    fn look_around(
+        &self,
+        search: &mut CornerSearch,
+        planner: &Planner,
+        density: &dyn CostDensity,
+        intervals: usize,
+    ) -> Progress {
+        let Planner { mesh, costs, .. } = planner;
+        let (first, means) = (self.ends[0].triangle, &costs.mean);
+        let range = |triangle: u32| density.range_on_ground(&mesh.rectangle(triangle));
+        let cost = range(first);
+        let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
+        search.advance(&Shortest { mesh, has_cost: &has_cost }, intervals.max(1))
     }
 }
 

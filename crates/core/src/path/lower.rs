@@ -7,6 +7,7 @@ use super::Passage;
 use super::march::March;
 use super::path_mesh::PathMesh;
 use super::place::Place;
+use crate::mesh::Progress;
 
 /// A lower bound of the least cost of all paths between two places.
 ///
@@ -24,6 +25,8 @@ use super::place::Place;
 #[derive(Clone, Debug, Default)]
 pub struct LowerBound {
     march: March,
+    /// Whether the march is under way.
+    marches: bool,
     from_start: Vec<f64>,
     from_goal: Vec<f64>,
     v: Vec<f64>,
@@ -92,16 +95,30 @@ impl LowerBound {
         self.crossed = problem.crossed(&self.w);
         self.at_nodes.clear();
         self.at_nodes.resize(mesh.node_count(), 1.0);
-        (self.upper, self.corrections) = (upper, 0);
+        (self.upper, self.corrections, self.marches) = (upper, 0, false);
     }
 
-    /// Raises the bound by one function v. Returns it once that is all.
-    pub(super) fn raise(&mut self, mesh: &PathMesh, costs: &[f64], [start, goal]: [Place; 2]) -> Option<f64> {
+    /// Raises the bound by one function v, or accepts at most so many nodes in the march for it. Returns the
+    /// bound once that is all.
+    pub(super) fn raise(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        [start, goal]: [Place; 2],
+        most: usize,
+    ) -> Option<f64> {
         let problem = Problem { mesh, costs, start, goal };
         let Self { w, at_nodes, .. } = self;
-        let seed = |&node: &u32| (node, w[node as usize].abs() * at_nodes[node as usize]);
-        let seeds: Vec<(u32, f64)> = self.crossed.iter().map(seed).collect();
-        self.march.run(mesh, &self.costs, Passage::Partly, &seeds, None);
+        if !self.marches {
+            let seed = |&node: &u32| (node, w[node as usize].abs() * at_nodes[node as usize]);
+            let seeds: Vec<(u32, f64)> = self.crossed.iter().map(seed).collect();
+            self.march.begin(mesh, &seeds);
+        }
+        let progress = self.march.go_on_for(mesh, &self.costs, Passage::Partly, None, most);
+        self.marches = progress == Progress::More;
+        if self.marches {
+            return None;
+        }
         self.v.clear();
         self.v.extend(self.march.values().zip(w).map(|(v, &mut w)| finite(v).copysign(w)));
         self.best = self.best.max(problem.bound(&self.v, &self.counting));

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::Passage;
 use super::path_mesh::{NONE, PathMesh};
 use super::queue::Queue;
+use crate::mesh::Progress;
 
 /// The distance function of a cost that is constant on each triangle, to first order: fast marching on
 /// triangles \[KimmelSethian1998\].
@@ -61,6 +62,12 @@ impl March {
         seeds: &[Seed],
         until: Option<[u32; 3]>,
     ) {
+        self.begin(mesh, seeds);
+        self.go_on(mesh, costs, least, until);
+    }
+
+    /// Begins to march from seeds.
+    pub(super) fn begin(&mut self, mesh: &PathMesh, seeds: &[Seed]) {
         self.nodes.clear();
         let fresh = |&at: &DVec2| Front { at, value: f64::INFINITY, from: NONE, is_accepted: false };
         self.nodes.extend(mesh.nodes.iter().map(fresh));
@@ -69,20 +76,34 @@ impl March {
         for &(node, value) in seeds {
             self.offer(node, value, NONE);
         }
-        self.go_on(mesh, costs, least, until);
     }
 
     /// Goes on with a march that paused, with the same costs, until these nodes are accepted; without any, to
     /// the end.
     pub fn go_on(&mut self, mesh: &PathMesh, costs: &[f64], least: Passage, until: Option<[u32; 3]>) {
+        _ = self.go_on_for(mesh, costs, least, until, usize::MAX);
+    }
+
+    /// [`Self::go_on`], for at most so many nodes. Returns whether more are left.
+    pub(super) fn go_on_for(
+        &mut self,
+        mesh: &PathMesh,
+        costs: &[f64],
+        least: Passage,
+        until: Option<[u32; 3]>,
+        most: usize,
+    ) -> Progress {
         let has_more = |march: &Self| {
             until.is_none_or(|nodes| nodes.iter().any(|&node| !march.nodes[node as usize].is_accepted))
         };
+        let last = self.accepted_count.saturating_add(most);
         let mut goes_on = has_more(self);
-        while goes_on && let Some(node) = self.next() {
+        while goes_on && self.accepted_count < last {
+            let Some(node) = self.next() else { return Progress::Done };
             self.spread(mesh, costs, least, node);
             goes_on = until.is_none_or(|nodes| !nodes.contains(&node)) || has_more(self);
         }
+        if goes_on { Progress::More } else { Progress::Done }
     }
 
     /// Returns whether every node that can be reached was accepted.

@@ -5,6 +5,7 @@ use super::march::{March, Seed};
 use super::path_mesh::{NONE, PathMesh};
 use super::place::Place;
 use super::shared::Shared;
+use crate::mesh::Progress;
 
 /// A march from a waypoint.
 #[derive(Clone, Debug, Default)]
@@ -19,26 +20,27 @@ pub(super) struct Origin {
 }
 
 impl Origin {
-    /// Marches from a place, as far as that is not done. `until`: only to the corners of that place's
-    /// triangle, unless the costs change again and again.
+    /// Marches from a place, as far as that is not done, and at most for so many nodes. Returns whether more
+    /// are left. `until`: only to the corners of that place's triangle, unless the costs change again and
+    /// again.
     pub fn run(
         &mut self,
         mesh: &PathMesh,
         costs: &[f64],
         least: Passage,
-        place: Place,
-        until: Option<Place>,
-    ) {
+        (place, until): (Place, Option<Place>),
+        most: usize,
+    ) -> Progress {
         let seeds = place.seeds(mesh, costs);
         let is_same_place = self.place == Some(place);
         let to_the_end = is_same_place && self.follows;
         let until = until.filter(|_| !to_the_end).map(|place| place.corner_nodes(mesh));
-        if self.is_current && is_same_place && self.seeds == seeds {
-            return self.march.go_on(mesh, costs, least, until);
+        if !(self.is_current && is_same_place && self.seeds == seeds) {
+            self.march.begin(mesh, &seeds);
+            self.follows = to_the_end;
+            (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
         }
-        self.march.run(mesh, costs, least, &seeds, until);
-        self.follows = to_the_end;
-        (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
+        self.march.go_on_for(mesh, costs, least, until, most)
     }
 
     /// Follows changed costs; what cannot be followed is marched again later.

@@ -19,6 +19,7 @@ use super::triangle_costs::{TriangleCost, TriangleCosts};
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
 use crate::geometry::Rect;
+use crate::mesh::Progress;
 
 /// The requirements of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,7 +162,7 @@ impl Planner {
         let leg = |(leg, (pair, bound)): (usize, (&[Place], &mut LowerBound))| {
             let mut search = LegSearch::new(leg, [pair[0], pair[1]], request);
             loop {
-                if let Some(found) = search.advance(self, density, bound, places.len())? {
+                if let Some(found) = search.advance(self, density, bound, places.len(), usize::MAX)? {
                     return Ok(found);
                 }
             }
@@ -173,16 +174,20 @@ impl Planner {
         legs.into_iter().collect()
     }
 
-    /// Does the march with this number of those from the places. Returns whether there was one.
-    pub(super) fn march_one(&mut self, places: &[Place], has_bounds: bool, number: usize) -> bool {
+    /// Accepts at most so many nodes in the march with this number of those from the places. Returns whether
+    /// more are left; `None` where there is no such march.
+    pub(super) fn march_one(
+        &mut self,
+        places: &[Place],
+        has_bounds: bool,
+        number: usize,
+        most: usize,
+    ) -> Option<Progress> {
         self.resize_origins(places.len(), has_bounds);
         let mesh = Arc::clone(&self.mesh);
         let marches = self.marches(places, false, has_bounds);
-        let Some(Marching { origin, costs, least, place, until }) = marches.into_iter().nth(number) else {
-            return false;
-        };
-        origin.run(&mesh, costs, least, place, until);
-        true
+        let Marching { origin, costs, least, place, until } = marches.into_iter().nth(number)?;
+        Some(origin.run(&mesh, costs, least, (place, until), most))
     }
 
     /// Returns what is known for the bound of a leg, of so many.
@@ -213,7 +218,7 @@ impl Planner {
         let mesh = Arc::clone(&self.mesh);
         let marches = self.marches(places, complete, has_bounds);
         marches.into_par_iter().for_each(|Marching { origin, costs, least, place, until }| {
-            origin.run(&mesh, costs, least, place, until);
+            _ = origin.run(&mesh, costs, least, (place, until), usize::MAX);
         });
     }
 
@@ -269,13 +274,18 @@ impl Planner {
         Solution { walls: vec![Arc::clone(&self.walls)], ..Solution::of(points, density, tolerance) }
     }
 
-    /// A march from the goal as far as the start. It errs elsewhere than one from the start, and can find the
-    /// better one of two ways that cost nearly the same.
-    pub(super) fn march_back(&self, [start, goal]: [Place; 2]) -> March {
-        let (mut march, costs) = (March::default(), &self.costs.mean);
-        let seeds = goal.seeds(&self.mesh, costs);
-        march.run(&self.mesh, costs, Passage::Open, &seeds, Some(start.corner_nodes(&self.mesh)));
+    /// Begins a march from the goal as far as the start. It errs elsewhere than one from the start, and can
+    /// find the better one of two ways that cost nearly the same.
+    pub(super) fn begin_back(&self, goal: Place) -> March {
+        let mut march = March::default();
+        march.begin(&self.mesh, &goal.seeds(&self.mesh, &self.costs.mean));
         march
+    }
+
+    /// Accepts at most so many nodes in the march from the goal. Returns whether more are left.
+    pub(super) fn march_back(&self, march: &mut March, start: Place, most: usize) -> Progress {
+        let until = Some(start.corner_nodes(&self.mesh));
+        march.go_on_for(&self.mesh, &self.costs.mean, Passage::Open, until, most)
     }
 
     /// The path that a march from the goal leads to.

@@ -3,6 +3,7 @@
 use super::leg::LegSearch;
 use super::place::Place;
 use super::{CostDensity, PathError, PathRequest, Planner, Solution};
+use crate::mesh::Progress;
 use glam::DVec2;
 
 /// The work of [`Planner::solve`] in steps. Where there are more threads than one, they do it in one step.
@@ -23,6 +24,9 @@ enum Step {
 }
 
 impl PathSearch {
+    /// Nodes that a march accepts in some milliseconds.
+    pub const NODES_AT_ONCE: usize = 16_384;
+
     /// Begins the search for the path of least cost from the first of the places to the last by way of the
     /// others.
     ///
@@ -33,8 +37,9 @@ impl PathSearch {
         Ok(Self { places, request, step: Step::March(0), found: Vec::new() })
     }
 
-    /// Takes a step. Returns the path at the end, which is that of [`Planner::solve`]. Planner and cost are
-    /// always the same, and nobody else uses the planner meanwhile.
+    /// Takes a step, in which a march accepts at most so many nodes. Returns the path at the end, which is
+    /// that of [`Planner::solve`]. Planner and cost are always the same, and nobody else uses the planner
+    /// meanwhile.
     ///
     /// # Errors
     /// Fails when no path leads from one place to the next.
@@ -42,20 +47,25 @@ impl PathSearch {
         &mut self,
         planner: &mut Planner,
         density: &dyn CostDensity,
+        nodes: usize,
     ) -> Result<Option<Solution>, PathError> {
+        let nodes = nodes.max(1);
         if rayon::current_num_threads() > 1 {
             let legs = planner.legs_between(density, &self.places, self.request)?;
             return Ok(Some(Solution::joined(legs)));
         }
         match &mut self.step {
-            Step::March(number) if planner.march_one(&self.places, self.request.has_bounds, *number) => {
-                *number += 1;
+            Step::March(number) => {
+                match planner.march_one(&self.places, self.request.has_bounds, *number, nodes) {
+                    Some(Progress::More) => {}
+                    Some(Progress::Done) => *number += 1,
+                    None => self.step = self.next_leg(),
+                }
             }
-            Step::March(_) => self.step = self.next_leg(),
             Step::Leg(search) => {
                 let (leg, legs) = (self.found.len(), self.places.len() - 1);
                 let mut bound = std::mem::take(planner.bound_of(leg, legs));
-                let found = search.advance(planner, density, &mut bound, self.places.len());
+                let found = search.advance(planner, density, &mut bound, self.places.len(), nodes);
                 *planner.bound_of(leg, legs) = bound;
                 if let Some(found) = found? {
                     self.found.push(found);

@@ -23,6 +23,7 @@ use super::path_mesh::{NONE, PathMesh};
 use super::place::Place;
 use super::walls::Walls;
 use crate::geometry::{BestFirst, Side, side_of_points};
+use crate::mesh::Progress;
 
 /// The most intervals that a search looks at.
 const MOST_INTERVALS: usize = 200_000;
@@ -32,13 +33,12 @@ const LEAST_GAIN: f64 = 1e-9;
 /// Where a shortest way is sought: through the open triangles with the cost of the first one.
 pub(super) struct Shortest<'a> {
     pub mesh: &'a PathMesh,
-    pub walls: &'a Walls,
     /// Returns whether a triangle has that cost.
     pub has_cost: &'a dyn Fn(u32) -> bool,
 }
 
 /// The point that a part of the way begins with: the start, or a corner by the number of its node.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Root {
     at: DVec2,
     /// [`NONE`] for the start.
@@ -48,7 +48,7 @@ struct Root {
 }
 
 /// A part of an edge through which a triangle is seen: on the left and on the right, seen from the root.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Interval {
     triangle: u32,
     /// The place of the edge's first end among the corners of the triangle: its left end from outside.
@@ -58,49 +58,13 @@ struct Interval {
 }
 
 impl Shortest<'_> {
-    /// The shortest way between two places, as a polyline that the walls admit. `None` where it is not
-    /// shorter than `known`, or the search is too long.
-    pub fn way(&self, [start, goal]: [Place; 2], known: f64) -> Option<Vec<DVec2>> {
-        let mut search = CornerSearch::new(self, goal.point, known * (1.0 - LEAST_GAIN));
-        search.see_around(Root { at: start.point, node: NONE, length: 0.0 });
-        let mut intervals = 0;
-        while let Some((least, (root, seen))) = search.waiting.pop() {
-            if least >= search.shortest {
-                break;
-            }
-            // Meanwhile a shorter way to the root may be known.
-            if root.node != NONE && root.length > search.corners[root.node as usize].length {
-                continue;
-            }
-            match seen {
-                None => search.see_around(root),
-                Some(interval) => search.see_through(root, interval),
-            }
-            intervals += 1;
-            if intervals > MOST_INTERVALS {
-                return None;
-            }
-        }
-        let mut way = vec![goal.point];
-        let mut node = search.last?;
-        // Ends: each corner has a longer way than the one before it.
-        while node != NONE {
-            way.push(self.mesh.nodes[node as usize]);
-            node = search.corners[node as usize].before;
-        }
-        way.push(start.point);
-        way.dedup();
-        way.reverse();
-        (way.len() > 1 && self.walls.admit_all(&way)).then_some(way)
-    }
-
     fn is_open(&self, triangle: u32) -> bool {
         triangle != NONE && self.mesh.passage(triangle) == Passage::Open && (self.has_cost)(triangle)
     }
 }
 
 /// The state of a corner of the walls during a search.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Corner {
     /// Whether a shortest way can bend there.
     bends: bool,
@@ -110,8 +74,10 @@ struct Corner {
     before: u32,
 }
 
-struct CornerSearch<'a> {
-    over: &'a Shortest<'a>,
+/// The search for a shortest way between two places, in steps.
+#[derive(Clone, Debug)]
+pub(super) struct CornerSearch {
+    start: DVec2,
     goal: DVec2,
     /// The triangles that hold the goal.
     at_goal: Vec<u32>,
@@ -124,43 +90,96 @@ struct CornerSearch<'a> {
     shortest: f64,
     /// The last corner on it.
     last: Option<u32>,
+    /// How many intervals it has looked at; `None` before the first one.
+    looked_at: Option<usize>,
 }
 
-impl<'a> CornerSearch<'a> {
-    fn new(over: &'a Shortest<'a>, goal: DVec2, known: f64) -> Self {
+impl CornerSearch {
+    /// Begins to look for a way that is shorter than `known`.
+    pub fn new(mesh: &PathMesh, walls: &Walls, [start, goal]: [Place; 2], known: f64) -> Self {
         let blank = Corner { bends: false, length: f64::INFINITY, before: NONE };
-        let mut corners = vec![blank; over.mesh.node_count()];
-        over.walls.bends().into_iter().for_each(|node| corners[node as usize].bends = true);
-        let at_goal = over.mesh.open_triangles_at(goal);
-        Self { over, goal, at_goal, corners, waiting: BestFirst::default(), shortest: known, last: None }
+        let mut corners = vec![blank; mesh.node_count()];
+        walls.bends().into_iter().for_each(|node| corners[node as usize].bends = true);
+        let [start, goal] = [start.point, goal.point];
+        let at_goal = mesh.open_triangles_at(goal);
+        let shortest = known * (1.0 - LEAST_GAIN);
+        let (waiting, last, looked_at) = (BestFirst::default(), None, None);
+        Self { start, goal, at_goal, corners, waiting, shortest, last, looked_at }
+    }
+
+    /// Looks at the next intervals, at most so many. Returns whether there is more to do.
+    pub fn advance(&mut self, over: &Shortest, most: usize) -> Progress {
+        if self.looked_at.is_none() {
+            self.see_around(over, Root { at: self.start, node: NONE, length: 0.0 });
+        }
+        let mut looked_at = self.looked_at.unwrap_or(0);
+        for _ in 0..most {
+            let Some((least, (root, seen))) = self.waiting.pop() else { return Progress::Done };
+            if least >= self.shortest {
+                return Progress::Done;
+            }
+            // Meanwhile a shorter way to the root may be known.
+            if root.node != NONE && root.length > self.corners[root.node as usize].length {
+                continue;
+            }
+            match seen {
+                None => self.see_around(over, root),
+                Some(interval) => self.see_through(over, root, interval),
+            }
+            looked_at += 1;
+            if looked_at > MOST_INTERVALS {
+                // Another way may be shorter.
+                self.last = None;
+                return Progress::Done;
+            }
+        }
+        self.looked_at = Some(looked_at);
+        Progress::More
+    }
+
+    /// Returns the shortest way, as a polyline that the walls admit. `None` where none is shorter than the
+    /// one that was known, or the search was too long.
+    pub fn way(&self, mesh: &PathMesh, walls: &Walls) -> Option<Vec<DVec2>> {
+        let mut way = vec![self.goal];
+        let mut node = self.last?;
+        // Ends: each corner has a longer way than the one before it.
+        while node != NONE {
+            way.push(mesh.nodes[node as usize]);
+            node = self.corners[node as usize].before;
+        }
+        way.push(self.start);
+        way.dedup();
+        way.reverse();
+        (way.len() > 1 && walls.admit_all(&way)).then_some(way)
     }
 
     /// Looks from a root into the triangles around it.
-    fn see_around(&mut self, root: Root) {
-        let mesh = self.over.mesh;
+    fn see_around(&mut self, over: &Shortest, root: Root) {
+        let mesh = over.mesh;
         let around = match root.node {
             NONE => mesh.open_triangles_at(root.at),
             node => mesh.around(node).to_vec(),
         };
-        for triangle in around.into_iter().filter(|&triangle| self.over.is_open(triangle)) {
+        for triangle in around.into_iter().filter(|&triangle| over.is_open(triangle)) {
             if self.at_goal.contains(&triangle) {
                 self.reach_goal(root);
             }
             let corners = mesh.triangles[triangle as usize].corners;
-            corners.iter().for_each(|&node| self.reach(node, root));
+            corners.iter().for_each(|&node| self.reach(mesh, node, root));
             for edge in 0..3 {
                 let [a, b] = [corners[edge], corners[(edge + 1) % 3]].map(|node| mesh.nodes[node as usize]);
                 // From inside, the first end of an edge is on the right.
                 if side_of_points(a, b, root.at) == Side::Left {
-                    self.put(root, mesh.across[triangle as usize][edge], [b, a], triangle);
+                    self.put(over, root, mesh.across[triangle as usize][edge], [b, a], triangle);
                 }
             }
         }
     }
 
     /// Looks from a root through an interval into a triangle.
-    fn see_through(&mut self, root: Root, Interval { triangle, edge, left, right }: Interval) {
-        let mesh = self.over.mesh;
+    fn see_through(&mut self, over: &Shortest, root: Root, seen: Interval) {
+        let Interval { triangle, edge, left, right } = seen;
+        let mesh = over.mesh;
         let corners = mesh.triangles[triangle as usize].corners;
         let [p, q, c] = [0, 1, 2].map(|step| mesh.nodes[corners[(edge + step) % 3] as usize]);
         let sides = |at| [side_of_points(root.at, left, at), side_of_points(root.at, right, at)];
@@ -172,26 +191,26 @@ impl<'a> CornerSearch<'a> {
         }
         let [of_left, of_right] = sides(c);
         if of_left != Side::Left && of_right != Side::Right {
-            self.reach(corners[(edge + 2) % 3], root);
+            self.reach(mesh, corners[(edge + 2) % 3], root);
         }
         let across = |step: usize| mesh.across[triangle as usize][(edge + step) % 3];
         if of_left == Side::Right {
             let from = crossing([root.at, left], [p, c]);
             let to = if of_right == Side::Right { crossing([root.at, right], [p, c]) } else { c };
-            self.put(root, across(2), [from, to], triangle);
+            self.put(over, root, across(2), [from, to], triangle);
         }
         if of_right == Side::Left {
             let from = if of_left == Side::Left { crossing([root.at, left], [c, q]) } else { c };
-            self.put(root, across(1), [from, crossing([root.at, right], [c, q])], triangle);
+            self.put(over, root, across(1), [from, crossing([root.at, right], [c, q])], triangle);
         }
     }
 
     /// Puts what is seen from a root through an interval into the queue.
-    fn put(&mut self, root: Root, triangle: u32, [left, right]: [DVec2; 2], from: u32) {
-        if left == right || !self.over.is_open(triangle) {
+    fn put(&mut self, over: &Shortest, root: Root, triangle: u32, [left, right]: [DVec2; 2], from: u32) {
+        if left == right || !over.is_open(triangle) {
             return;
         }
-        let across = self.over.mesh.across[triangle as usize];
+        let across = over.mesh.across[triangle as usize];
         let Some(edge) = (0..3).find(|&edge| across[edge] == from) else { return };
         let least = root.length + least_by(root.at, [left, right], self.goal);
         if least < self.shortest {
@@ -200,8 +219,8 @@ impl<'a> CornerSearch<'a> {
     }
 
     /// A node is seen from a root.
-    fn reach(&mut self, node: u32, root: Root) {
-        let at = self.over.mesh.nodes[node as usize];
+    fn reach(&mut self, mesh: &PathMesh, node: u32, root: Root) {
+        let at = mesh.nodes[node as usize];
         let corner = &mut self.corners[node as usize];
         let length = root.length + root.at.distance(at);
         let least = length + at.distance(self.goal);

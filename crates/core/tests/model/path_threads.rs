@@ -65,7 +65,9 @@ fn found(seed: u64) -> Vec<Vec<u64>> {
         let request = if is_live { PathRequest::LIVE } else { PathRequest::FULL };
         let mut in_steps = planner.clone();
         let mut search = PathSearch::new(&in_steps, &places, request).unwrap();
-        let in_steps = (0..).find_map(|_| search.advance(&mut in_steps, &density).unwrap()).unwrap();
+        let mut sizes = fastrand::Rng::with_seed(seed);
+        let mut step = || search.advance(&mut in_steps, &density, sizes.usize(..300)).unwrap();
+        let in_steps = (0..).find_map(|_| step()).unwrap();
         let solution = planner.solve(&density, &places, request).unwrap();
         assert_eq!(bits(&in_steps), bits(&solution), "{seed}");
         all.push(bits(&solution));

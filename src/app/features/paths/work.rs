@@ -317,11 +317,13 @@ impl PathWork {
                     Err(problem) => self.without_path(known, problem),
                 }
             }
-            Step::Search(mut known, mut search) => match search.advance(&mut known.planner, &**density) {
-                Ok(None) => Step::Search(known, search),
-                Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
-                Err(problem) => self.without_path(known, problem),
-            },
+            Step::Search(mut known, mut search) => {
+                match search.advance(&mut known.planner, &**density, PathSearch::NODES_AT_ONCE) {
+                    Ok(None) => Step::Search(known, search),
+                    Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
+                    Err(problem) => self.without_path(known, problem),
+                }
+            }
             Step::Profile(known, solution) => {
                 let place = (EarthPlane::new(domain.projection, self.unit), self.unit);
                 self.found.push(Ok(FoundPath::new(*solution, &**density, place)));

@@ -207,11 +207,13 @@ impl PathCertificate {
                     Err(_) => None,
                 }
             }
-            Some(Seeking::With(mut planner, mut search)) => match search.advance(&mut planner, &*self.cost) {
-                Ok(None) => return Some(Seeking::With(planner, search)),
-                Ok(found) => found,
-                Err(_) => None,
-            },
+            Some(Seeking::With(mut planner, mut search)) => {
+                match search.advance(&mut planner, &*self.cost, PathSearch::NODES_AT_ONCE) {
+                    Ok(None) => return Some(Seeking::With(planner, search)),
+                    Ok(found) => found,
+                    Err(_) => None,
+                }
+            }
         };
         match found {
             Some(found) if found.upper < solution.upper * (1.0 - LEAST_GAIN * self.width) => {
