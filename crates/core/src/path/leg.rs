@@ -64,7 +64,7 @@ enum Step {
     /// Begins with the lower bound.
     Bound,
     /// Raises the lower bound.
-    Raise,
+    Raise(Box<LowerBound>),
 }
 
 impl LegSearch {
@@ -82,7 +82,6 @@ impl LegSearch {
         &mut self,
         planner: &Planner,
         density: &dyn CostDensity,
-        bound: &mut LowerBound,
         places: usize,
         nodes: usize,
     ) -> Result<Option<Solution>, PathError> {
@@ -115,35 +114,19 @@ impl LegSearch {
                 Step::Sketch(number + 1)
             }
             Step::Sketch(_) => Step::Lines,
-            Step::Lines => {
-                if let Some(along) = planner.along_lines(density, ends, self.solution.cost) {
-                    self.take_better(planner, density, refined(planner, density, &along, request));
-                    self.take_better(planner, density, along);
-                }
-                Step::Shortest
-            }
+            Step::Lines => self.try_lines(planner, density),
             Step::Shortest => match self.begin_shortest(planner, density) {
                 Some(search) => Step::Corners(Box::new(search)),
                 None => Step::Bound,
             },
-            Step::Corners(mut search) => {
-                match self.look_around(&mut search, planner, density, nodes / INTERVALS) {
-                    Progress::More => Step::Corners(search),
-                    Progress::Done => {
-                        search.way(&planner.mesh, &planner.walls).map_or(Step::Bound, Step::Take)
-                    }
-                }
-            }
-            Step::Take(points) => {
-                let refined = refined(planner, density, &points, request);
-                self.take_better(planner, density, points);
-                self.take_better(planner, density, refined);
-                Step::Bound
-            }
-            Step::Bound if self.begin_bound(planner, bound)? => Step::Raise,
-            Step::Bound => return Ok(Some(std::mem::take(&mut self.solution))),
-            Step::Raise => match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
-                None => Step::Raise,
+            Step::Corners(search) => self.go_around(search, planner, density, nodes / INTERVALS),
+            Step::Take(points) => self.try_shortest(planner, density, points),
+            Step::Bound => match self.begin_bound(planner)? {
+                Some(bound) => Step::Raise(Box::new(bound)),
+                None => return Ok(Some(std::mem::take(&mut self.solution))),
+            },
+            Step::Raise(mut bound) => match bound.raise(&planner.mesh, &planner.costs.least, ends, nodes) {
+                None => Step::Raise(bound),
                 Some(lower) => {
                     self.solution.lower = lower.min(self.solution.upper);
                     return Ok(Some(std::mem::take(&mut self.solution)));
@@ -170,19 +153,18 @@ impl LegSearch {
         Ok(())
     }
 
-    /// Begins with the lower bound. Returns whether there is one to be raised.
-    fn begin_bound(&self, planner: &Planner, bound: &mut LowerBound) -> Result<bool, PathError> {
+    /// Begins with the lower bound; `None` where none is wanted, or nothing is known.
+    fn begin_bound(&self, planner: &Planner) -> Result<Option<LowerBound>, PathError> {
         let (ends, value) = (self.ends, self.solution.upper);
         if !value.is_finite() {
             return Err(PathError::CostOutOfRange { at: ends[0].point, value });
         }
         // A path through a part of the domain that no triangle covers may cost less than any that is known.
         let has_bound = self.request.has_bounds && planner.mesh.covers_domain;
-        if has_bound {
+        Ok(has_bound.then(|| {
             let marches = planner.partly_open_marches(self.leg);
-            bound.begin(&planner.mesh, &planner.costs.least, ends, marches, value);
-        }
-        Ok(has_bound)
+            LowerBound::new(&planner.mesh, &planner.costs.least, ends, marches, value)
+        }))
     }
 
     /// Takes a path in place of the solution if it costs less.
@@ -216,6 +198,24 @@ impl LegSearch {
         }
     }
 
+    /// Takes a path along lines that are cheaper than the triangles around them if it costs less.
+    fn try_lines(&mut self, planner: &Planner, density: &dyn CostDensity) -> Step {
+        if let Some(along) = planner.along_lines(density, self.ends, self.solution.cost) {
+            let refined = refined(planner, density, &along, self.request);
+            self.take_better(planner, density, refined);
+            self.take_better(planner, density, along);
+        }
+        Step::Shortest
+    }
+
+    /// Takes the shortest way if it costs less.
+    fn try_shortest(&mut self, planner: &Planner, density: &dyn CostDensity, way: Vec<DVec2>) -> Step {
+        let refined = refined(planner, density, &way, self.request);
+        self.take_better(planner, density, way);
+        self.take_better(planner, density, refined);
+        Step::Bound
+    }
+
     /// Begins to look for the shortest way in the plane that is shorter than the solution, if that has one
     /// cost all along.
     fn begin_shortest(&self, planner: &Planner, density: &dyn CostDensity) -> Option<CornerSearch> {
@@ -230,20 +230,23 @@ impl LegSearch {
         Some(CornerSearch::new(&planner.mesh, &planner.walls, *ends, solution.length * (greatest / least)))
     }
 
-    /// Looks at most at so many intervals for the shortest way. Returns whether there is more to do.
-    fn look_around(
+    /// Looks at most at so many intervals for the shortest way.
+    fn go_around(
         &self,
-        search: &mut CornerSearch,
+        mut search: Box<CornerSearch>,
         planner: &Planner,
         density: &dyn CostDensity,
         intervals: usize,
-    ) -> Progress {
-        let Planner { mesh, costs, .. } = planner;
+    ) -> Step {
+        let Planner { mesh, costs, walls, .. } = planner;
         let (first, means) = (self.ends[0].triangle, &costs.mean);
         let range = |triangle: u32| density.range_on_ground(&mesh.rectangle(triangle));
         let cost = range(first);
         let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
-        search.advance(&Shortest { mesh, has_cost: &has_cost }, intervals.max(1))
+        match search.advance(&Shortest { mesh, has_cost: &has_cost }, intervals.max(1)) {
+            Progress::More => Step::Corners(search),
+            Progress::Done => search.way(mesh, walls).map_or(Step::Bound, Step::Take),
+        }
     }
 }
 

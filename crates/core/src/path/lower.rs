@@ -22,13 +22,11 @@ use crate::mesh::Progress;
 ///    marches are least exact.
 /// 3. Where |∇v| > F the cost is lowered around, and v is computed again, until little is left to gain. These
 ///    marches go through the triangles of 1 and some around them: beyond, v may be anything.
-#[derive(Clone, Debug, Default)]
-pub struct LowerBound {
+#[derive(Clone, Debug)]
+pub(super) struct LowerBound {
     march: March,
     /// Whether the march is under way.
     marches: bool,
-    from_start: Vec<f64>,
-    from_goal: Vec<f64>,
     v: Vec<f64>,
     costs: Vec<f64>,
     /// The triangles through which a path that costs at most the upper bound may go.
@@ -70,37 +68,42 @@ struct Problem<'a> {
 impl LowerBound {
     /// Begins a bound, where `upper` is the cost of a path, and the marches went from the start and from the
     /// goal through all triangles that are not closed. [`Self::raise`] goes on for the same places.
-    pub(super) fn begin(
-        &mut self,
+    pub fn new(
         mesh: &PathMesh,
         costs: &[f64],
         [start, goal]: [Place; 2],
         [us, ug]: [&March; 2],
         upper: f64,
-    ) {
+    ) -> Self {
         let problem = Problem { mesh, costs, start, goal };
-        self.from_start.clear();
-        self.from_start.extend(us.values().map(finite));
-        self.from_goal.clear();
-        self.from_goal.extend(ug.values().map(finite));
+        let [from_start, from_goal] = [us, ug].map(|march| march.values().map(finite).collect::<Vec<f64>>());
         let clamps = rayon::join(
-            || problem.clamped(&self.from_start, start, goal),
-            || problem.clamped(&self.from_goal, goal, start),
+            || problem.clamped(&from_start, start, goal),
+            || problem.clamped(&from_goal, goal, start),
         );
         let clamped_gain = problem.gain(&clamps.0).max(-problem.gain(&clamps.1));
-        self.find_counting(&problem, &clamps, upper);
-        self.w.clear();
-        self.w.extend(self.from_start.iter().zip(&self.from_goal).map(|(s, g)| 0.5 * (s - g)));
-        self.best = clamped_gain.max(problem.bound(&self.w, &self.counting));
-        self.crossed = problem.crossed(&self.w);
-        self.at_nodes.clear();
-        self.at_nodes.resize(mesh.node_count(), 1.0);
-        (self.upper, self.corrections, self.marches) = (upper, 0, false);
+        let (counting, costs) = counting(&problem, &clamps, upper);
+        drop(clamps);
+        let w: Vec<f64> = from_start.iter().zip(&from_goal).map(|(s, g)| 0.5 * (s - g)).collect();
+        Self {
+            march: March::default(),
+            marches: false,
+            v: Vec::new(),
+            factors: Vec::new(),
+            best: clamped_gain.max(problem.bound(&w, &counting)),
+            crossed: problem.crossed(&w),
+            at_nodes: vec![1.0; mesh.node_count()],
+            counting,
+            costs,
+            w,
+            upper,
+            corrections: 0,
+        }
     }
 
     /// Raises the bound by one function v, or accepts at most so many nodes in the march for it. Returns the
     /// bound once that is all.
-    pub(super) fn raise(
+    pub fn raise(
         &mut self,
         mesh: &PathMesh,
         costs: &[f64],
@@ -132,22 +135,6 @@ impl LowerBound {
         None
     }
 
-    /// Finds the triangles through which a path that costs at most `upper` may go, and closes those that are
-    /// far from them.
-    fn find_counting(&mut self, problem: &Problem, clamps: &(Vec<f64>, Vec<f64>), upper: f64) {
-        self.counting.clear();
-        self.costs.clear();
-        for (t, triangle) in (0..).zip(&problem.mesh.triangles) {
-            let at = |&node: &u32| clamps.0[node as usize] + clamps.1[node as usize];
-            let least = triangle.corners.iter().map(at).fold(f64::INFINITY, f64::min);
-            if least <= upper * (1.0 + ROUNDING) && triangle.is_passable() {
-                self.counting.push(t);
-            }
-            let is_near = least <= upper * MARGIN;
-            self.costs.push(if is_near { problem.costs[t as usize] } else { f64::INFINITY });
-        }
-    }
-
     /// Lowers the costs around triangles where v is too steep.
     fn lower_costs(&mut self, problem: &Problem) {
         self.factors.clear();
@@ -168,6 +155,22 @@ impl LowerBound {
         });
         self.at_nodes.iter_mut().zip(&self.factors).for_each(|(all, factor)| *all *= factor);
     }
+}
+
+/// Returns the triangles through which a path that costs at most `upper` may go, and the costs of all, where
+/// those far from them are closed. `clamps` are bounds of the distances from both ends.
+fn counting(problem: &Problem, clamps: &(Vec<f64>, Vec<f64>), upper: f64) -> (Vec<u32>, Vec<f64>) {
+    let (mut counting, mut costs) = (Vec::new(), Vec::with_capacity(problem.mesh.triangle_count()));
+    for (t, triangle) in (0..).zip(&problem.mesh.triangles) {
+        let at = |&node: &u32| clamps.0[node as usize] + clamps.1[node as usize];
+        let least = triangle.corners.iter().map(at).fold(f64::INFINITY, f64::min);
+        if least <= upper * (1.0 + ROUNDING) && triangle.is_passable() {
+            counting.push(t);
+        }
+        let is_near = least <= upper * MARGIN;
+        costs.push(if is_near { problem.costs[t as usize] } else { f64::INFINITY });
+    }
+    (counting, costs)
 }
 
 impl Problem<'_> {

@@ -72,7 +72,6 @@ pub use follow::PlannerMove;
 pub use front::{Front, FrontPoint};
 pub use ground::{GroundCost, in_plane};
 pub use integral::PathFigures;
-pub use lower::LowerBound;
 pub use march::{March, Seed};
 pub use meshing::PathMeshing;
 pub use path_mesh::{Passage, PathMesh};

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::area::PathArea;
 use super::meshing::PathMeshing;
-use crate::geometry::{BoxTree, Rect, Side, side_of_points, z_order};
+use crate::geometry::{BoxRuns, Rect, Side, side_of_points, z_order};
 use crate::layers::Mask;
 use crate::mesh::MeshView;
 
@@ -45,7 +45,7 @@ pub struct PathMesh {
     /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
     /// path through the domain leaves them.
     pub(super) covers_domain: bool,
-    tree: OnceLock<BoxTree>,
+    boxes: OnceLock<BoxRuns>,
 }
 
 /// A triangle for paths.
@@ -171,7 +171,7 @@ impl PathMesh {
 
     /// Fills the rows of triangles around the nodes.
     pub(super) fn connect(&mut self) {
-        self.tree = OnceLock::new();
+        self.boxes = OnceLock::new();
         self.row_starts = vec![0; self.nodes.len() + 1];
         for triangle in self.triangles.iter().filter(|triangle| triangle.is_passable()) {
             triangle.corners.iter().for_each(|&node| self.row_starts[node as usize + 1] += 1);
@@ -237,10 +237,11 @@ impl PathMesh {
     /// Returns the triangles whose rectangles meet one of the given ones, in the order of their numbers.
     pub(super) fn meeting(&self, areas: &[Rect]) -> Vec<u32> {
         let mut found = Vec::new();
+        let rectangle = |triangle| self.rectangle(triangle);
         for area in areas {
-            let _ = self.tree().visit_meeting(area, |triangle| {
+            let _ = self.boxes().visit_meeting(area, rectangle, |triangle| {
                 found.push(triangle);
-                ControlFlow::<()>::Continue(())
+                ControlFlow::Continue(())
             });
         }
         found.sort_unstable();
@@ -250,16 +251,13 @@ impl PathMesh {
 
     /// Returns the triangles that may contain a point, but for rounding.
     fn around_point(&self, point: DVec2) -> Vec<u32> {
-        let size = self.tree().bounds().map_or(0.0, |all| all.size().max_element());
+        let size = self.boxes().bounds().map_or(0.0, |all| all.size().max_element());
         self.meeting(&[Rect::new(point, point).expanded(1e-12 * size)])
     }
 
     /// Returns an index of the triangles' rectangles, made when it is first needed.
-    fn tree(&self) -> &BoxTree {
-        self.tree.get_or_init(|| {
-            let rectangles: Vec<Rect> = (0..self.triangles.len() as u32).map(|t| self.rectangle(t)).collect();
-            BoxTree::new(&rectangles)
-        })
+    fn boxes(&self) -> &BoxRuns {
+        self.boxes.get_or_init(|| BoxRuns::new(self.triangles.len(), |triangle| self.rectangle(triangle)))
     }
 
     /// Returns whether a point lies in a triangle of the domain that the area of paths closes.

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::leg::LegSearch;
 use super::lines::Lines;
-use super::lower::LowerBound;
 use super::march::March;
 use super::origin::Origin;
 use super::path_mesh::PathMesh;
@@ -56,8 +55,6 @@ pub struct Planner {
     pub(super) origins: Vec<Origin>,
     /// Marches with least costs through all triangles that are not closed, one for each waypoint.
     pub(super) origins_for_bounds: Vec<Origin>,
-    /// One for each leg.
-    bounds: Vec<LowerBound>,
 }
 
 /// A march from a place.
@@ -107,8 +104,8 @@ impl Planner {
 
     pub(super) fn with_costs(mesh: Arc<PathMesh>, costs: TriangleCosts) -> Self {
         let walls = Arc::new(Walls::new(&mesh));
-        let (origins, origins_for_bounds, bounds) = Default::default();
-        Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds, bounds }
+        let (origins, origins_for_bounds) = Default::default();
+        Self { mesh, walls, adaptation: None, costs, origins, origins_for_bounds }
     }
 
     /// Returns the triangles that paths go through: those of the mesh that the planner was made with, or
@@ -157,19 +154,15 @@ impl Planner {
         request: PathRequest,
     ) -> Result<Vec<Solution>, PathError> {
         self.march_from(places, false, request.has_bounds);
-        let mut bounds = std::mem::take(&mut self.bounds);
-        bounds.resize_with(places.len() - 1, LowerBound::default);
-        let leg = |(leg, (pair, bound)): (usize, (&[Place], &mut LowerBound))| {
+        let leg = |(leg, pair): (usize, &[Place])| {
             let mut search = LegSearch::new(leg, [pair[0], pair[1]], request);
             loop {
-                if let Some(found) = search.advance(self, density, bound, places.len(), usize::MAX)? {
+                if let Some(found) = search.advance(self, density, places.len(), usize::MAX)? {
                     return Ok(found);
                 }
             }
         };
-        let legs = places.par_windows(2).zip(&mut bounds).enumerate().map(leg);
-        let legs: Vec<Result<Solution, PathError>> = legs.collect();
-        self.bounds = bounds;
+        let legs: Vec<Result<Solution, PathError>> = places.par_windows(2).enumerate().map(leg).collect();
         // Of several errors, that of the first leg counts.
         legs.into_iter().collect()
     }
@@ -188,12 +181,6 @@ impl Planner {
         let marches = self.marches(places, false, has_bounds);
         let Marching { origin, costs, least, place, until } = marches.into_iter().nth(number)?;
         Some(origin.run(&mesh, costs, least, (place, until), most))
-    }
-
-    /// Returns what is known for the bound of a leg, of so many.
-    pub(super) fn bound_of(&mut self, leg: usize, legs: usize) -> &mut LowerBound {
-        self.bounds.resize_with(legs, LowerBound::default);
-        &mut self.bounds[leg]
     }
 
     /// Returns the places on the mesh.

@@ -63,13 +63,9 @@ impl PathSearch {
                 }
             }
             Step::Leg(search) => {
-                let (leg, legs) = (self.found.len(), self.places.len() - 1);
-                let mut bound = std::mem::take(planner.bound_of(leg, legs));
-                let found = search.advance(planner, density, &mut bound, self.places.len(), nodes);
-                *planner.bound_of(leg, legs) = bound;
-                if let Some(found) = found? {
+                if let Some(found) = search.advance(planner, density, self.places.len(), nodes)? {
                     self.found.push(found);
-                    if self.found.len() == legs {
+                    if self.found.len() == self.places.len() - 1 {
                         return Ok(Some(Solution::joined(std::mem::take(&mut self.found))));
                     }
                     self.step = self.next_leg();

@@ -239,11 +239,11 @@ impl BoxTree {
 }
 
 /// Returns whether two closed rectangles meet.
-fn meet(a: &Rect, b: &Rect) -> bool {
+pub(super) fn meet(a: &Rect, b: &Rect) -> bool {
     a.min.cmple(b.max).all() && b.min.cmple(a.max).all()
 }
 
-fn union(boxes: &[Rect]) -> Option<Rect> {
+pub(super) fn union(boxes: &[Rect]) -> Option<Rect> {
     boxes.iter().copied().reduce(|a, b| a.union(&b))
 }
 

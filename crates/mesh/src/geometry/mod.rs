@@ -3,6 +3,7 @@
 //! of a mesh lies.
 
 mod best_first;
+mod box_runs;
 mod box_tree;
 mod gauss;
 mod lattice;
@@ -16,6 +17,7 @@ mod segment;
 mod z_order;
 
 pub use best_first::BestFirst;
+pub use box_runs::BoxRuns;
 pub use box_tree::{BoxGroup, BoxTree};
 pub use gauss::{GAUSS, gauss_mean};
 pub use lattice::{GridError, LATTICE_BITS, Lattice, LatticePoint};
