@@ -213,16 +213,17 @@ impl Document {
         let unit = self.with(py, |state| state.document.settings().unit);
         let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
         self.with(py, |state| {
-            state.has_smallest |= saved.limits.h_min.is_some();
-            state.max_level = saved.mesh.max_level.or(state.max_level);
             let wanted = saved.override_settings(state.document.settings().clone());
             let wanted = wanted.map_err(|fault| fault_in(&tables, &fault))?;
+            state.document.change_numbers(wanted).map_err(mesh_error)?;
+            state.has_smallest |= saved.limits.h_min.is_some();
+            state.max_level = saved.mesh.max_level.or(state.max_level);
             // What is said about parts counts for every domain.
             if saved.domain.parts.is_some() {
                 state.parts.domain.parts = saved.domain.parts;
             }
             state.parts.domain.keep_pinches |= saved.domain.keep_pinches;
-            state.document.change_numbers(wanted).map_err(mesh_error)
+            Ok(())
         })
     }
 
