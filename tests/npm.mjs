@@ -19,7 +19,7 @@ function byProgram(recipe, files = {}) {
   for (const [name, content] of Object.entries({ "input.toml": recipe, ...files })) {
     fs.writeFileSync(path.join(scratch, name), content);
   }
-  const answer = execFileSync(program, ["mesh", path.join(scratch, "input.toml"), "--json"], { encoding: "utf8", maxBuffer: 1 << 26 });
+  const answer = execFileSync(program, ["mesh", path.join(scratch, "input.toml"), "--json"], { encoding: "utf8", maxBuffer: 1 << 26, stdio: "pipe" });
   return JSON.parse(answer);
 }
 
@@ -205,6 +205,9 @@ const tests = {
         const linear = 2 * points[2 * p] - 3 * points[2 * p + 1] + 1;
         assert.ok(found[p] < 0 ? Number.isNaN(value) : Math.abs(value - linear) < 1e-9, `${value} and ${linear}`);
       });
+      mesh.interpolate(nodes, points).forEach((value, n) => {
+        assert.ok(found[n >> 1] < 0 ? Number.isNaN(value) : Math.abs(value - points[n]) < 1e-9, `${value} and ${points[n]}`);
+      });
       const corner = mesh.locate(nodes[0], nodes[1]);
       assert.equal(corner.where, "node");
       if (name === "a formula") {
@@ -327,6 +330,31 @@ const tests = {
     assert.deepEqual(mesh.layers.map(({ kind }) => kind), ["formula", "formula", "paint"]);
   },
 
+  "the same can be said in several ways, and what is usual left out"() {
+    const of = (layers, act) => {
+      const mesh = Mesh.generate({ domain: [0, 0, 1, 1], spacing: 0.25, hMin: 0.01, layers });
+      act?.(mesh);
+      return mesh.fingerprint;
+    };
+    const point = { type: "Point", coordinates: [0.3, 0.8, 5] };
+    const feature = (geometry) => ({ type: "Feature", properties: null, geometry });
+    const places = [[[0.3, 0.8]], [0.3, 0.8], point, feature(point), { type: "FeatureCollection", features: [feature(null), feature(point)] }];
+    assert.equal(new Set(places.map((to) => of([{ kind: "distance", to, atZero: 0.02, slope: 0.3 }]))).size, 1);
+    const stroke = { points: [[0.3, 0.8]], radius: 0.2, diameter: 0.02 };
+    const painting = (more) => of([], (mesh) => mesh.paint({ ...stroke, ...more }));
+    assert.equal(painting({}), painting({ hardness: 0.5, strength: 1, change: "finer" }));
+    assert.equal(painting({}), painting({ erase: false }));
+    assert.equal(new Set([{}, { hardness: 1 }, { strength: 0.5 }].map(painting)).size, 3);
+    const coarser = [{}, { change: "any" }].map((more) => of([], (mesh) => mesh.paint([stroke, { ...stroke, diameter: 0.2, ...more }])));
+    assert.deepEqual(coarser.map((fingerprint) => fingerprint === painting({})), [true, false]);
+    // What a mesh is made of is no edit, and arrays are computed once.
+    const mesh = Mesh.generate({ domain: [0, 0, 1, 1], size: 0.1, layers: [{ kind: "paint", strokes: [stroke] }] });
+    const [before, nodes] = [mesh.fingerprint, mesh.nodes];
+    assert.equal(mesh.nodes, nodes);
+    mesh.undo();
+    assert.deepEqual([mesh.fingerprint, mesh.layers.length], [before, 2]);
+  },
+
   "parts and pinches stay where the options say so"() {
     // Two squares that meet in a node, and a smaller one beside them.
     const ring = (x, y, side) => [[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
@@ -407,6 +435,7 @@ const tests = {
       [{ domain: [0, 0, NaN, 1] }, /no rectangle/],
       [{ domain: [0, 0, 0, 1] }, /no rectangle/],
       [{ domain: [] }, /no point/],
+      [{ domain: Float64Array.of(0, 0, 1, 1) }, /needs 3 points/],
       [{ domain: [[0, 0], [1, 1]] }, /needs 3 points/],
       [{ domain: [[0, 0], [1, NaN], [1, 1]] }, /must be finite/],
       [{ domain: { bounds: [0, 0, 1] } }, /bounds: this must be 4 numbers, and these are 3/],
@@ -453,6 +482,7 @@ const tests = {
       [raster({ as: "error", values: [0, 1] }), /error is 0 at/],
       [{ ...square, layers: [{ kind: "threats", threats: [{ x: 1, y: NaN, range: 1 }] }], hMin: 0.1 }, /threat 1 cannot be used/],
       [{ ...square, layers: [{ kind: "paint", strokes: [{ points: [], radius: 1, diameter: 1 }] }] }, /needs a point/],
+      [{ ...square, layers: [{ kind: "paint", strokes: [{ points: [[0, 0]], radius: 1, diameter: 1, error: 1 }] }] }, /one of diameter, risk, error and erase/],
       [{ ...square, layers: [{ kind: "paint", strokes: [{ points: [[NaN, 1]], radius: 1, diameter: 1 }] }] }, /impossible/],
     ];
     for (const [options, words] of bad) {
@@ -460,7 +490,7 @@ const tests = {
     }
     const mesh = Mesh.generate(square);
     assert.throws(() => mesh.locateAll([1, 2, 3]), /x and y in turn/);
-    assert.throws(() => mesh.interpolate([1, 2], [0, 0]), /the mesh has \d+ nodes/);
+    [[1, 2], []].forEach((values) => assert.throws(() => mesh.interpolate(values, [0, 0]), /the mesh has \d+ nodes/));
   },
 };
 

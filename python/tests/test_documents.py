@@ -159,7 +159,7 @@ def test_parts_and_pinches_are_changed_and_undone() -> None:
     # Two squares that meet in a node, and a smaller one beside them.
     squares = [[[(x, y), (x + side, y), (x + side, y + side), (x, y + side)]] for x, y, side in ((0, 0, 2), (2, 2, 2), (3, 0, 1))]
     domain = mb.Domain({"type": "MultiPolygon", "coordinates": [[[*ring, ring[0]] for ring in polygon] for polygon in squares]})
-    for boundary, usual in (("fitted", 4), ("outline", 4), ("report", 9)):
+    for boundary, usual in (("fitted", 4), ("report", 9)):
         document = mb.Document(domain, spacing=0.5, boundary=boundary, unit="none")
         meshes = [document.mesh()]
         assert round(meshes[0].statistics["area"]) == usual
