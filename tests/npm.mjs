@@ -260,6 +260,8 @@ const tests = {
       [() => mesh.addLayer({ kind: "formula", formula: "x - 0.5" }), /positive/],
       [() => mesh.removeLayer("absent"), /There is no layer "absent"/],
       [() => mesh.update({ maxLevel: -1 }), /maxLevel: -1/],
+      [() => mesh.update({ domain: [0, 0, 2, 2] }), /there is no key domain/],
+      [() => mesh.changeLayer(0, { colour: "red" }), /there is no key colour/],
     ];
     for (const [act, words] of failing) {
       assert.throws(act, (problem) => problem instanceof Error && words.test(problem.message), String(words));
@@ -314,6 +316,10 @@ const tests = {
     assert.deepEqual([layerOf(0.2), layerOf(0.4, { layer: "a" }), layerOf(0.6)], ["b", "a", "a"]);
     mesh.addLayer({ kind: "paint", name: "c" });
     assert.equal(layerOf(0.8), "c");
+    // Of several layers with a name, the uppermost is meant.
+    mesh.addLayer({ kind: "paint", name: "c" });
+    mesh.changeLayer("c", { name: "d" });
+    assert.deepEqual(mesh.layers.slice(-2).map(({ name }) => name), ["c", "d"]);
   },
 
   "risk needs the smallest diameter, which an edit can say"() {
