@@ -12,6 +12,8 @@ import { Choices, random, randomDocument, randomLayer } from "./npm_documents.mj
 const [folder, program, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
 const { default: init, Mesh, PLACES } = await import(pathToFileURL(path.join(folder, "node.js")));
 assert.throws(() => Mesh.generate({ domain: [0, 0, 1, 1] }), /await init\(\) first/);
+// A module that cannot be loaded is no obstacle to the next one.
+await assert.rejects(() => init(Uint8Array.of(1, 2, 3)), WebAssembly.CompileError);
 await init();
 
 /** Returns the fingerprint and the number of triangles that the program finds for a recipe. */
