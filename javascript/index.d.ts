@@ -245,7 +245,10 @@ export class Mesh {
 
   /** Changes options. */
   update(options: Limits): Change;
-  /** Paints, on the uppermost paint layer of the quantity, a new one where there is none, or on `layer`. */
+  /**
+   * Paints on `layer`. Without it, on the paint layer that was painted on or added last if it has the quantity, else on the
+   * uppermost one that has it, and on a new one where there is none.
+   */
   paint(strokes: (Stroke & { layer?: WhichLayer }) | readonly (Stroke & { layer?: WhichLayer })[]): Change;
   /** Adds a layer on top. */
   addLayer(layer: Layer): Change;

@@ -68,7 +68,7 @@ function numbers(value, key) {
   return value instanceof Float64Array ? value : Float64Array.from(value);
 }
 
-const isPairs = (value) => Array.isArray(value) && value.length > 0 && value.every((entry) => isNumbers(entry) && entry.length === 2);
+const isPairs = (value) => Array.isArray(value) && value.every((entry) => isNumbers(entry) && entry.length === 2);
 
 /** Returns x and y in turn: of an array of those, or of pairs. */
 function points(value, key) {
@@ -91,6 +91,10 @@ function shapes(value, key, kind) {
     } else if (kind === "line") {
       found.lines.push(...arrays);
     } else {
+      const odd = arrays.find((array) => array.length % 2 !== 0);
+      if (odd !== undefined) {
+        throw new Error(`${key}: points are x and y in turn, and these are ${odd.length} numbers: give two for each point.`);
+      }
       arrays.forEach((array) => found.points.push(...array));
     }
   }

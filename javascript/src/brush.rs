@@ -1,8 +1,6 @@
 //! Strokes of a brush.
 
-use meshbrush_core::document::NoPaintLayer::Missing;
-use meshbrush_core::document::Setting;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, Quantity};
+use meshbrush_core::layers::LayerId;
 use meshbrush_core::paint::{Brush, Medium, Mirror};
 use wasm_bindgen::prelude::*;
 
@@ -68,15 +66,7 @@ impl Core {
         if let Some(layer) = layer {
             self.document.activate_layer(layer);
         }
-        if let Err(Missing(quantity)) = self.document.layer_for(&brush.medium) {
-            let kind = LayerKind::Paint(quantity.unwrap_or(Quantity::Diameter));
-            let mut added = Layer::stack([kind]).remove(0);
-            added.id = self.document.unused_layer_id();
-            let mut layers = self.settings().layers.clone();
-            layers.push(added);
-            self.document.set(Setting::Layers(layers)).map_err(error)?;
-        }
-        let found = self.document.layer_for(&brush.medium).map_err(error)?;
+        let found = self.document.layer_for_or_new(&brush.medium).map_err(error)?;
         if layer.is_some_and(|layer| layer != found) {
             return Err(error(
                 "This layer cannot be painted on with this brush: it is no paint layer of its quantity.",

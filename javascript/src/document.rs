@@ -181,7 +181,10 @@ impl Core {
     }
 
     fn cleaning(&self) -> Cleaning {
-        self.kept.cleaning(self.document.settings().derived_cleaning())
+        let settings = self.document.settings();
+        let usual = settings.derived_cleaning();
+        // Of a fitted mesh, the settings have what was said, and an undo takes it back.
+        if settings.is_fitted() { usual } else { self.kept.cleaning(usual) }
     }
 
     /// Returns the mesh, once there is one.

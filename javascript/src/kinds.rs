@@ -11,12 +11,13 @@ use meshbrush_core::layers::{
     PositiveDepth, Quantity, RasterReading, Shapes, StraitDiscs, Straits, Surface, SurfaceGoal, SurfaceNorm,
     SurfaceSource, Threat, ThreatLaw, Threats, ValueCurve, WaterMiddle,
 };
+use meshbrush_core::raster::RasterValues;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
 use wasm_bindgen::prelude::*;
 
 use crate::errors::{compiled, error};
-use crate::rasters::{ANY, DIAMETER, ERROR, RISK, source_of};
-use crate::values::{Table, entries, shapes_of};
+use crate::rasters::source_of;
+use crate::values::{Table, entries, points_of, shapes_of};
 
 /// How layers are combined, and the words for it.
 pub const COMBINE: [(&str, Combine); 3] =
@@ -69,13 +70,13 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
             LayerKind::Formula { quantity, formula: compiled("formula", &text, parse)? }
         }
         "raster" => {
-            let (reading, rule) = match (table.word("as", &QUANTITIES)?, table.numbers("curve")) {
-                (Some(Quantity::Risk), None) => (RasterReading::Risk, RISK),
-                (Some(Quantity::Diameter), None) => (RasterReading::Diameter, DIAMETER),
-                (Some(Quantity::Error), None) => (RasterReading::Error, ERROR),
+            let reading = match (table.word("as", &QUANTITIES)?, table.numbers("curve")) {
+                (Some(Quantity::Risk), None) => RasterReading::Risk,
+                (Some(Quantity::Diameter), None) => RasterReading::Diameter,
+                (Some(Quantity::Error), None) => RasterReading::Error,
                 (None, Some(knots)) => {
-                    let knots = knots.as_chunks::<2>().0.to_vec();
-                    (RasterReading::Curve(Arc::new(ValueCurve::new(knots).map_err(error)?)), ANY)
+                    let knots = points_of(&knots, "Points of a curve")?.into_iter().map(<[f64; 2]>::from);
+                    RasterReading::Curve(Arc::new(ValueCurve::new(knots.collect()).map_err(error)?))
                 }
                 _ => {
                     return Err(error(
@@ -84,7 +85,7 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
                     ));
                 }
             };
-            LayerKind::Raster { source: source_of(table, domain, &rule)?, reading }
+            LayerKind::Raster { source: source_of(table, domain, (&reading).into())?, reading }
         }
         "band" => {
             let between @ [least, greatest] = table.needed("between", table.several("between")?)?;
@@ -92,9 +93,11 @@ fn kind_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsError> 
                 return Err(error("between: write two finite numbers, the least value first."));
             }
             let diameter = table.needed("diameter", table.length("diameter")?)?;
-            LayerKind::Band { source: source_of(table, domain, &ANY)?, between, diameter }
+            LayerKind::Band { source: source_of(table, domain, RasterValues::Any)?, between, diameter }
         }
-        "depth" => LayerKind::Depth(Depths::new(source_of(table, domain, &ANY)?, depth_sizes(table)?)),
+        "depth" => {
+            LayerKind::Depth(Depths::new(source_of(table, domain, RasterValues::Any)?, depth_sizes(table)?))
+        }
         "surface" => surface_of(table, settings)?,
         "threats" => threats_of(table)?,
         "distance" => grown(table, distance_to(table)?)?,
@@ -128,7 +131,7 @@ fn surface_of(table: Table<'_>, settings: &Settings) -> Result<LayerKind, JsErro
     };
     let source = match table.text("formula")? {
         Some(text) => SurfaceSource::Formula(compiled("formula", &text, Formula::parse)?),
-        None => SurfaceSource::Raster(source_of(table, settings.domain.bounds, &ANY)?),
+        None => SurfaceSource::Raster(source_of(table, settings.domain.bounds, RasterValues::Any)?),
     };
     Ok(LayerKind::Surface(Surface { source, goal, norm: table.word("norm", &norms)?.unwrap_or_default() }))
 }

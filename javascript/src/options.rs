@@ -131,7 +131,7 @@ impl Kept {
 
     /// Returns this with what later options say.
     pub fn and(self, later: Self) -> Self {
-        Self { parts: later.parts.or(self.parts), pinches: later.pinches || self.pinches }
+        Self { parts: later.parts.or(self.parts), ..later }
     }
 }
 

@@ -4,27 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use meshbrush_core::layers::RasterSource;
-use meshbrush_core::raster::{Raster, RasterPyramid, is_raster_size};
+use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues, check_values, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Grouped, Number};
 use wasm_bindgen::JsError;
 
 use crate::errors::error;
 use crate::values::Table;
-
-/// What the values of a raster are, and the rule for them.
-pub struct ValueRule(&'static str, &'static str, fn(f32) -> bool);
-
-/// Any numbers.
-pub const ANY: ValueRule = ValueRule("", "", |_| true);
-/// Risks.
-pub const RISK: ValueRule = ValueRule("risk", "it must lie from 0 to 1. Scale the values first", |value| {
-    (0.0..=1.0).contains(&value)
-});
-/// Target diameters, in world units.
-pub const DIAMETER: ValueRule = ValueRule("target diameter", "it must be positive", |value| value > 0.0);
-/// Largest errors from surfaces.
-pub const ERROR: ValueRule = ValueRule("error", "it must be positive", |value| value > 0.0);
 
 /// Returns the rectangle with some sides.
 ///
@@ -45,14 +31,14 @@ pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, JsError> {
 ///
 /// # Errors
 /// Fails for values that cannot be used, and their place.
-pub fn source_of(table: Table<'_>, domain: Rect, rule: &ValueRule) -> Result<RasterSource, JsError> {
+pub fn source_of(table: Table<'_>, domain: Rect, of: RasterValues) -> Result<RasterSource, JsError> {
     let bounds = table.several("bounds")?.map_or(Ok(domain), rect_of)?;
     let [width, height] = ["width", "height"].map(|key| table.number(key).ok().flatten().unwrap_or(f64::NAN));
     let origins = [("upper", false), ("lower", true)];
     let lowest_first = table.word("origin", &origins)?.unwrap_or(false);
     let values = table.needed("values", table.numbers("values"))?;
     let raster = RasterPyramid::new(raster_of(&values, [width, height], bounds, lowest_first)?);
-    check_values(&raster, rule)?;
+    check_values(&raster, of).map_err(|problem| error(format_args!("values: {problem}")))?;
     Ok(RasterSource { name: String::new(), raster: Arc::new(raster) })
 }
 
@@ -86,14 +72,4 @@ fn raster_of(values: &[f64], size: [f64; 2], bounds: Rect, lowest_first: bool) -
     let pixels: Vec<f32> =
         if lowest_first { rows.flat_map(single).collect() } else { rows.rev().flat_map(single).collect() };
     Ok(Raster::from_values(bounds, sides, pixels))
-}
-
-fn check_values(raster: &RasterPyramid, &ValueRule(what, rule, is_valid): &ValueRule) -> Result<(), JsError> {
-    let raster = raster.raster();
-    let is_wrong = |value: f32| !value.is_nan() && !is_valid(value);
-    let wrong = raster.all().pixels().find(|&(x, y)| is_wrong(raster.get(x, y)));
-    let Some((x, y)) = wrong else { return Ok(()) };
-    let (value, at) = (raster.get(x, y), raster.pixel_center(x, y));
-    let [value, x, y] = [f64::from(value), at.x, at.y].map(Number);
-    Err(error(format_args!("The {what} is {value} at x = {x}, y = {y}; {rule}.")))
 }

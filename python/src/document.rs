@@ -213,16 +213,17 @@ impl Document {
         let unit = self.with(py, |state| state.document.settings().unit);
         let saved = SavedSettings::of_value_for(&tables, unit).map_err(|fault| fault_in(&tables, &fault))?;
         self.with(py, |state| {
-            state.has_smallest |= saved.limits.h_min.is_some();
-            state.max_level = saved.mesh.max_level.or(state.max_level);
             let wanted = saved.override_settings(state.document.settings().clone());
             let wanted = wanted.map_err(|fault| fault_in(&tables, &fault))?;
+            state.document.change_numbers(wanted).map_err(mesh_error)?;
+            state.has_smallest |= saved.limits.h_min.is_some();
+            state.max_level = saved.mesh.max_level.or(state.max_level);
             // What is said about parts counts for every domain.
             if saved.domain.parts.is_some() {
                 state.parts.domain.parts = saved.domain.parts;
             }
             state.parts.domain.keep_pinches |= saved.domain.keep_pinches;
-            state.document.change_numbers(wanted).map_err(mesh_error)
+            Ok(())
         })
     }
 
@@ -291,7 +292,9 @@ fn built_in_place(state: &Mutex<State>, follower: &core::Follower) -> Option<(Bu
 
 fn origin_of(state: &State, lattice: Lattice) -> MeshOrigin {
     let settings = state.document.settings();
-    let cleaning = state.parts.cleaning(settings.derived_cleaning());
+    let usual = settings.derived_cleaning();
+    // Of a fitted mesh, the settings have what was said, and an undo takes it back.
+    let cleaning = if settings.is_fitted() { usual } else { state.parts.cleaning(usual) };
     MeshOrigin {
         spec: MeshSpec { cleaning, ..settings.mesh_spec_on(lattice, limits_of(state)) },
         paint: state.document.paint().clone(),

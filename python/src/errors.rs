@@ -2,7 +2,6 @@
 
 use std::fmt::Display;
 
-use meshbrush_core::field::Formula;
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_io::io::recipe::LoadError;
 use meshbrush_io::io::{KeyFault, ReadError, Step, TextValue};
@@ -46,18 +45,13 @@ pub fn mistake_in(name: &str, formula: &str, mistake: &ParseError) -> PyErr {
 /// Returns the error for a value of a table that cannot be used. Of a formula it has the place of the
 /// mistake.
 pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
-    let Some(pointer) = &fault.pointer else { return mesh_error(without_table(fault)) };
-    let formula = text_at(tables, &fault.path);
-    let position = formula.and_then(|text| {
-        let mistake = Formula::parse_of_size(text).err()?;
-        Some(text[..mistake.span().start].chars().count())
-    });
-    formula_error(
-        without_table(fault).to_string(),
-        pointer,
-        formula.unwrap_or_default(),
-        position.unwrap_or(0),
-    )
+    match (&fault.pointer, fault.position) {
+        (Some(pointer), Some(position)) => {
+            let formula = text_at(tables, &fault.path).unwrap_or_default();
+            formula_error(without_table(fault).to_string(), pointer, formula, position)
+        }
+        _ => mesh_error(without_table(fault)),
+    }
 }
 
 /// Returns the fault without the name of its table, which nobody types in Python.

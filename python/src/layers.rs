@@ -1,7 +1,7 @@
 //! The layers of a document, and strokes on them.
 
 use meshbrush_core::document::Setting;
-use meshbrush_core::layers::{Layer, LayerId, LayerKind, Quantity};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind};
 use meshbrush_core::paint::{Brush, Medium, Mirror};
 use meshbrush_io::io::layers::{SavedCombine, SavedLayer};
 use meshbrush_io::io::recipe::{BesideLayer, LoadedLayer, Loading};
@@ -126,7 +126,8 @@ impl Document {
                 return Err("Risk needs h_min: the smallest target diameter, where the risk is 1.".to_owned());
             }
             if !(continues && state.document.stroke().is_some()) {
-                begin(&mut state, brush, Mirror { x: mirror.0, y: mirror.1 })?;
+                state.document.layer_for_or_new(&brush.medium).map_err(|error| error.to_string())?;
+                state.document.begin_mirrored_stroke(brush, Mirror { x: mirror.0, y: mirror.1 });
             }
             let unheard = points.iter().take_while(|_| !watch.is_cancelled());
             unheard.for_each(|&point| state.document.draw_to(point));
@@ -227,21 +228,4 @@ impl LayerChange {
         layer.locked = self.locked.unwrap_or(layer.locked);
         layer.combine = self.combine.map_or(layer.combine, Into::into);
     }
-}
-
-/// Begins a stroke, on a new paint layer if there is none for it.
-fn begin(state: &mut State, brush: Brush, mirror: Mirror) -> Result<(), String> {
-    use meshbrush_core::document::NoPaintLayer::Missing;
-    if let Err(Missing(quantity)) = state.document.layer_for(&brush.medium) {
-        let quantity = quantity.unwrap_or(Quantity::Diameter);
-        let kind = LayerKind::Paint(quantity);
-        let mut layer = Layer::stack([kind]).remove(0);
-        layer.id = state.document.unused_layer_id();
-        let mut layers = state.document.settings().layers.clone();
-        layers.push(layer);
-        state.document.set(Setting::Layers(layers)).map_err(|error| error.to_string())?;
-    }
-    state.document.layer_for(&brush.medium).map_err(|error| error.to_string())?;
-    state.document.begin_mirrored_stroke(brush, mirror);
-    Ok(())
 }

@@ -46,8 +46,9 @@ def test_layers_are_a_sequence_that_can_be_changed() -> None:
         document.layers["far"]
     with pytest.raises(mb.MeshError, match="finest, floor, replace"):
         document.layers[0].combine = "best"
+    assert repr(document) == "<meshbrush.Document “Untitled”: 1 layer>"
     del document.layers["near"]
-    assert "none" in repr(document.layers)
+    assert "none" in repr(document.layers) and repr(document).endswith("0 layers>")
 
 
 def test_files_of_every_program_for_maps_are_read() -> None:
@@ -132,10 +133,85 @@ def test_options_are_changed_and_undone() -> None:
     assert (now["h_max"], now["h_risk"], now["shape"]) == (0.1, 0.06, 2)
     with pytest.raises(TypeError, match="spcaing"):
         document.set(spcaing=1)
-    with pytest.raises(mb.MeshError, match="h_max"):
+    with pytest.raises(mb.MeshError, match="^h_max: -1 cannot be used"):
         document.set(h_max=-1)
     with pytest.raises(TypeError):
         mb.Document([[0, 0], [1, 0], [1, 1]], spcaing=1)  # type: ignore[call-arg]
+
+
+def test_options_that_cannot_be_met_change_nothing() -> None:
+    good = [dict(max_level=3), dict(gradation=0.2), dict(h_max=0.3), dict(keep_pinches=True), dict(parts="all"), dict(h_min=0.02)]
+    bad = [dict(h_max=-1), dict(h_min=0.5, h_max=0.1), dict(spacing=1e-9), dict(boundary="fitted"), dict(max_triangles=1), dict(rule="other")]
+    random = np.random.default_rng(17)
+    for number in range(60):
+        document = square()
+        before, revision, mesh = document.options, document._core.revision(), document.mesh().fingerprint
+        options = {key: value for n in random.permutation(len(good))[:3] for key, value in good[n].items()} | bad[number % len(bad)]
+        with pytest.raises(mb.MeshError):
+            document.set(**options)
+        assert (document.options, document._core.revision()) == (before, revision), options
+        assert document.mesh(fresh=True).fingerprint == mesh
+        with pytest.raises(mb.MeshError, match="h_min"):
+            document.layers.paint("risk")
+
+
+def test_parts_and_pinches_are_changed_and_undone() -> None:
+    # Two squares that meet in a node, and a smaller one beside them.
+    squares = [[[(x, y), (x + side, y), (x + side, y + side), (x, y + side)]] for x, y, side in ((0, 0, 2), (2, 2, 2), (3, 0, 1))]
+    domain = mb.Domain({"type": "MultiPolygon", "coordinates": [[[*ring, ring[0]] for ring in polygon] for polygon in squares]})
+    for boundary, usual in (("fitted", 4), ("report", 9)):
+        document = mb.Document(domain, spacing=0.5, boundary=boundary, unit="none")
+        meshes = [document.mesh()]
+        assert round(meshes[0].statistics["area"]) == usual
+        for parts, area in (("all", 9), (0.2, 8), ("largest", 4)):
+            document.set(parts=parts, keep_pinches=parts == 0.2)
+            meshes.append(document.mesh())
+            assert round(meshes[-1].statistics["area"]) == area, (boundary, parts)
+        if boundary == "report":
+            continue
+        for mesh in meshes[-2::-1]:
+            assert document.undo() and len(document.mesh()) == len(mesh), boundary
+        for mesh in meshes[1:]:
+            assert document.redo() and len(document.mesh()) == len(mesh), boundary
+
+
+def test_risk_can_be_painted_where_the_smallest_diameter_is_known(tmp_path: Path) -> None:
+    document = square()
+    with pytest.raises(mb.MeshError, match="h_min"), document.stroke(mb.Brush(radius=0.1, risk=0.5)) as stroke:
+        stroke.dot((0.5, 0.5))
+    document.save(tmp_path / "square.meshbrush")
+    told = square()
+    told.set(h_min=0.01)
+    # A project has a smallest diameter in any case.
+    for other in (told, mb.open(tmp_path / "square.meshbrush")):
+        with other.stroke(mb.Brush(radius=0.1, risk=0.5)) as stroke:
+            stroke.dot((0.8, 0.8))
+        assert [layer.kind for layer in other.layers] == ["formula", "paint"]
+
+
+def test_a_stroke_goes_on_after_another_edit_and_goes_to_the_newest_layer(tmp_path: Path) -> None:
+    document = square()
+    plain = len(document.mesh())
+    brush = mb.Brush(radius=0.05, diameter=0.006)
+    with document.stroke(brush) as stroke:
+        stroke.dot((0.8, 0.8))
+        document.set(gradation=0.5)
+        first = len(document.mesh())
+        stroke.dot((0.8, 0.2))
+    assert plain < first < len(document.mesh())
+    # Of two paint layers, the one that was added last is painted on, and not the one that was painted on before.
+    layer = document.layers.paint("diameter", name="new")
+    document.layers["new"].move_to(0)
+    with document.stroke(brush) as stroke:
+        stroke.dot((0.2, 0.8))
+    painted = len(document.mesh())
+    layer.remove()
+    assert len(document.mesh()) < painted
+    # The paint of another project is not added.
+    document.save(tmp_path / "painted.meshbrush")
+    name = document.layers[-1].name
+    with pytest.raises(mb.MeshError, match="has painted cannot be added"):
+        square().layers.add("paint", quantity="diameter", file=str(tmp_path / "painted.meshbrush"), layer=name)
 
 
 def test_strokes_update_the_mesh_in_place() -> None:
@@ -147,6 +223,15 @@ def test_strokes_update_the_mesh_in_place() -> None:
     change = document.update()
     assert not change.replaced and change.triangles > change.before == len(before) and "in place" in repr(change)
     painted = document.mesh()
+    # The mesh that follows was not made at once, and has other numbers.
+    assert before.statistics["seconds"] > 0 and painted.statistics["seconds"] == 0
+    again = document.update()
+    assert not again.replaced and again.triangles == again.before == len(painted)
+    fresh = square()
+    assert fresh.update().replaced and not fresh.update().replaced
+    fresh.set(spacing=0.15)
+    changed = fresh.update()
+    assert changed.replaced and "made again" in repr(changed)
     assert painted.fingerprint == document.mesh(fresh=True).fingerprint and painted.violations() == 0
     same = [set(map(tuple, np.sort(m.nodes[m.triangles], axis=1).reshape(-1, 6).tolist()))
             for m in (painted, document.mesh(fresh=True))]
@@ -218,8 +303,12 @@ def test_why_and_path() -> None:
     with pytest.raises(mb.FormulaError) as caught:
         document.path((0.1, 0.1), (0.9, 0.1), cost="1 + risc")
     assert caught.value.position == 4 and "^^^^" in str(caught.value)
-    with pytest.raises(mb.MeshError, match="within"):
-        document.path((0.1, 0.1), (0.9, 0.1), within=3)
+    for within in (3, 1, 0.99e-7, 0, -0.1, float("nan")):
+        with pytest.raises(mb.MeshError, match="within"):
+            document.path((0.1, 0.1), (0.9, 0.1), within=within)
+    wide, close = (document.path((0.1, 0.1), (0.9, 0.8), cost="1 + x*y + risk", within=within) for within in (0.999, 1e-3))
+    assert wide.note is close.note is None and wide.lower < close.lower <= close.cost <= wide.cost
+    assert document.path((0.1, 0.1), (0.9, 0.1), cost="1 + 0*risk", within=1e-7).note is None
 
 
 @pytest.mark.parametrize("fault, kind, part", [
@@ -233,6 +322,8 @@ def test_why_and_path() -> None:
     (lambda d: d.layers.raster(np.ones((2, 2)), (0, 0, -1, 1), reads="diameter"), mb.MeshError, "no rectangle"),
     (lambda d: d.layers.raster(-np.ones((2, 2)), reads="diameter"), mb.MeshError, "it must be positive"),
     (lambda d: d.layers.raster(np.full((2, 2), 1e300), reads="diameter"), mb.MeshError, "single precision"),
+    (lambda d: d.layers.raster(np.ones((1, 70_000)), reads="diameter"), mb.MeshError, "70,000 × 1 pixels are too many"),
+    (lambda d: d.layers.raster(np.ones((0, 3)), reads="diameter"), mb.MeshError, "3 × 0 pixels are too many or none"),
     (lambda d: d.layers.raster(np.array([["a"]]), reads="diameter"), mb.MeshError, "is no raster"),
     (lambda d: d.layers.raster("none.tif", reads="diameter"), mb.MeshError, "none.tif"),
     (lambda d: d.layers.threats(x=1, y=1, range=-1), mb.MeshError, "range"),
@@ -257,6 +348,7 @@ def test_why_and_path() -> None:
     (lambda d: d.mesh().write("a.msh", values={"a": [1]}), mb.MeshError, "nodes"),
     (lambda d: d.mesh().nodes_in("lonlat"), mb.MeshError, "projection"),
     (lambda d: d.mesh().write("a.msh", crs="EPSG:32635"), mb.MeshError, "projection"),
+    (lambda d: d.mesh().write("a.msh", crs="lonlat"), mb.MeshError, "projection"),
     (lambda d: d.mesh().write("a.msh", quantities=["a = 1/(x-x)"]), mb.MeshError, "finite number at every node"),
     (lambda d: d.mesh().write("a.png", quantities=["a = 1"]), mb.MeshError, "no values at the nodes"),
     (lambda d: d.to_world([[1, 2]]), mb.MeshError, "projection"),
@@ -278,6 +370,26 @@ def test_a_mistake_in_a_formula_has_its_place() -> None:
         square().layers.formula("θ + größe")
     assert (caught.value.position, caught.value.formula) == (4, "θ + größe")
     assert str(caught.value).endswith("θ + größe\n        ^^^^^")
+    # Wherever a formula is written: one that may use the depth, or not, or has a name.
+    random = np.random.default_rng(5)
+    places = [
+        lambda d, text: d.layers.formula(text),
+        lambda d, text: d.layers.formula(text, quantity="risk"),
+        lambda d, text: d.layers.surface(formula=text, within=0.1),
+        lambda d, text: mb.Document(mb.Domain.formula(text, (0, 0, 1, 1))),
+        lambda d, text: d.path((0.1, 0.1), (0.9, 0.9), cost=text),
+        lambda d, text: d.mesh().write("a.msh", quantities=[text]),
+        lambda d, text: d.mesh().write("a.msh", quantities=[f"name = {text}"]),
+    ]
+    document = square(h_min=0.01)
+    for number in range(70):
+        wrong = ["größe", "depth" if number % len(places) > 0 else "depht"][random.integers(2)]
+        terms = [str(term) for term in random.choice(["x", "2.5", "sin(y)", "(1 + x)", "θ", "r"], random.integers(1, 5))]
+        terms.insert(random.integers(len(terms) + 1), wrong)
+        with pytest.raises(mb.FormulaError) as caught:
+            places[number % len(places)](document, " + ".join(terms))
+        formula, position = caught.value.formula, caught.value.position
+        assert " + ".join(terms) in formula and formula.index(wrong) == position, (terms, formula, position)
 
 
 @pytest.mark.filterwarnings("ignore::meshbrush.MeshbrushWarning")
@@ -293,9 +405,20 @@ def test_documents_on_the_earth() -> None:
     assert np.hypot(*(mesh.nodes[nearest] - at[0])) < 1000
     assert np.allclose(document.to_world(lonlat), mesh.nodes, atol=1e-6)
     # Grids without a place cover the domain's rectangle; grids in degrees are projected.
-    finer = len(mesh)
-    document.layers.raster(np.full((4, 4), 700.0), (23.9, 37.9, 24.1, 38.1), reads="diameter")
-    assert len(document.mesh()) > finer
+    coarse = len(mesh)
+    layer = document.layers.raster(np.full((4, 4), 700.0), (23.9, 37.9, 24.1, 38.1), reads="diameter")
+    finer = len(document.mesh())
+    assert finer > coarse
+    # In the plane of the document, or the system that is named; without a word only where they can be degrees.
+    layer.remove()
+    low, high = document.to_world([[23.9, 37.9], [24.1, 38.1]])
+    document.layers.raster(np.full((4, 4), 700.0), (*low, *high), reads="diameter", crs="plane")
+    assert coarse < len(document.mesh()) and abs(len(document.mesh()) - finer) < 0.2 * finer
+    for bounds in ((23.9, 37.9, 24.1, 92), (23.9, -92, 24.1, 38.1), (23.9, 37.9, 362, 38.1), (-182, 37.9, 24.1, 38.1)):
+        with pytest.raises(mb.MeshError, match="coordinate system"):
+            document.layers.raster(np.full((4, 4), 700.0), bounds, reads="diameter")
+    for bounds in ((23.9, 37.9, 24.1, 90), (-180, 37.9, 24.1, 38.1), (23.9, 37.9, 360, 38.1)):
+        document.layers.raster(np.full((4, 4), 700.0), bounds, reads="diameter")
 
 
 def test_lengths_may_have_a_unit() -> None:

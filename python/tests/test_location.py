@@ -96,6 +96,9 @@ def test_points_of_other_shapes() -> None:
     mesh = mb.Document(mb.Domain.rectangle(0, 0, 1, 1)).mesh()
     assert mesh.locate((0.3, 0.4)).triangle.shape == (1,)
     assert mesh.locate(np.empty((0, 2))).weights.shape == (0, 3)
+    square = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.25).mesh()
+    middles = (square.nodes[square.triangles[:, 0]] + square.nodes[square.triangles[:, 1]]) / 2
+    assert (square.locate(middles).where == mb.Place.EDGE).all() and (square.locate(square.nodes).where == mb.Place.NODE).all()
     assert mesh.locate([[0.5, np.nan]]).where.tolist() == [mb.Place.INVALID]
     assert mesh.locate(np.array([[1, 1], [0, 2]], dtype=np.float32)[:, ::-1]).triangle[1] == -1
     for wrong in (np.zeros((3, 3)), np.zeros((2, 2, 2)), np.zeros(3)):

@@ -10,12 +10,14 @@ import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import meshbrush as mb
+from coasts import bay
 
 
 def large(diameter: float = 0.0008) -> mb.Document:
@@ -84,19 +86,71 @@ def test_an_update_that_was_ended_begins_again() -> None:
     assert document.update().triangles == len(document.mesh(fresh=True))
 
 
-def test_an_error_of_the_progress_function_ends_the_work() -> None:
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_work_that_nobody_waits_for_ends() -> None:
     def stop(stage: str, done: int) -> None:
         raise LookupError(stage)
 
-    with pytest.raises(LookupError):
-        large().mesh(progress=stop)
+    def follow() -> None:
+        document = small()
+        document.mesh()
+        document.layers.formula("0.0008 + 0.0003*sin(40*x)*sin(30*y)")
+        document.update(progress=stop)
+
+    def locate() -> None:
+        mesh, points = small().mesh(), np.random.default_rng(1).random((3_000_000, 2))
+        former = signal.signal(signal.SIGALRM, lambda *_: stop("alarm", 0))
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        try:
+            mesh.locate(points)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, former)
+
+    for work in (lambda: large().mesh(progress=stop), follow, locate):
+        with pytest.raises(LookupError):
+            work()
+        # A slice of the work is finished; all of it would take some seconds.
+        time.sleep(0.3)
+        busy = time.process_time()
+        time.sleep(0.5)
+        assert time.process_time() - busy < 0.1
 
 
-def test_progress_is_told() -> None:
-    told: list[tuple[str, int]] = []
-    large(0.0015).mesh(progress=lambda stage, done: told.append((stage, done)))
-    assert any(stage == "refining" and done > 0 for stage, done in told)
+def test_progress_is_told(tmp_path: Path) -> None:
+    told: list[tuple[str, int, float]] = []
+
+    def note(stage: str, done: int) -> None:
+        told.append((stage, done, time.monotonic()))
+
+    large(0.0015).mesh(progress=note)
+    assert any(stage == "refining" and done > 0 for stage, done, _ in told)
+    # No more often than ten times a second.
+    times = np.array([at for _, _, at in told])
+    assert (np.diff(times) > 0.09).all()
+    told.clear()
+    large(0.003).mesh().write(tmp_path / "mesh.vtu", progress=note)
+    assert {stage for stage, _, _ in told} == {"writing"} and max(done for _, done, _ in told) > 0
     small().mesh(progress=True)
+
+
+def test_stages_of_the_work_are_told() -> None:
+    told: list[tuple[str, int]] = []
+
+    def note(stage: str, done: int) -> None:
+        told.append((stage, done))
+
+    coast = mb.Document(bay(), boundary="outline", boundary_diameter=0.003)
+    mesh = coast.mesh(progress=note)
+    assert max(done for stage, done in told if stage == "fitting the mesh to its domain") > len(mesh)
+    document = mb.Document(mb.Domain.rectangle(0, 0, 1, 1), spacing=0.1)
+    document.layers.formula(0.02)
+    told.clear()
+    document.path((0.1, 0.1), (0.9, 0.8), cost="1 + x*y + risk", within=1e-5, progress=note)
+    assert told[0] == ("finding the path", 0) and {stage for stage, _ in told} == {"finding the path", "proving"}
+    # The width of the interval around the least cost, in millionths: less than a hundredth.
+    proved = [done for stage, done in told if stage == "proving"]
+    assert proved == sorted(proved, reverse=True) and 0 < proved[-1] and proved[0] < 10_000
 
 
 def test_other_threads_run_meanwhile() -> None:
@@ -148,13 +202,19 @@ def test_any_number_of_threads_gives_the_same_arrays() -> None:
         small().mesh(threads=0)
 
 
+def _on_several_threads() -> tuple[str, int]:
+    mesh = small().mesh()
+    return mesh.fingerprint, int(mesh.locate(np.tile(mesh.nodes, (20, 1))).triangle.min())
+
+
 def _in_child(queue: Any) -> None:
-    queue.put(small().mesh().fingerprint)
+    queue.put(_on_several_threads())
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are started anew here")
 def test_a_forked_process_meshes_too() -> None:
-    expected = small().mesh().fingerprint
+    # The threads of this process, which the other one does not have.
+    expected = _on_several_threads()
     context = multiprocessing.get_context("fork")
     queue = context.Queue()
     child = context.Process(target=_in_child, args=(queue,))

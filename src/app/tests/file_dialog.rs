@@ -270,8 +270,6 @@ fn without_a_name_nothing_can_be_written_and_tab_leaves_a_name_that_was_proposed
     let mut window = window();
     key(&mut window, Modifiers::COMMAND, Key::E);
     assert!(!text(&window).is_empty(), "a name is proposed");
-    let has_focus =
-        |window: &Window| window.get_by_role_and_label(Role::TextInput, "Path").accesskit_node().is_focused();
     assert!(has_focus(&window) && is_enabled(&window, "Export"));
     key(&mut window, Modifiers::NONE, Key::Tab);
     assert!(!has_focus(&window), "there is nothing to complete");
@@ -281,6 +279,34 @@ fn without_a_name_nothing_can_be_written_and_tab_leaves_a_name_that_was_proposed
     assert!(text(&window).is_empty() && !is_enabled(&window, "Export"));
     type_text(&mut window, " ");
     assert!(!is_enabled(&window, "Export"), "no name either");
+}
+
+#[test]
+fn tab_completes_what_was_typed_and_otherwise_goes_on_whatever_the_list_has() {
+    let folder = folder("tab");
+    fs::write(folder.join("coasts/north.meshbrush"), "a project").unwrap();
+    let mut window = window();
+    send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
+    wait_until(&mut window, |window| document(window).settings().name == "north");
+    key(&mut window, Modifiers::COMMAND, Key::S);
+    wait_for_rows(&mut window, &["north.meshbrush"]);
+    assert!(text(&window) == "north.meshbrush" && has_focus(&window));
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert!(!has_focus(&window), "the name was proposed");
+    key(&mut window, Modifiers::SHIFT, Key::Tab);
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_text(&mut window, "n");
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert!(text(&window) == "north.meshbrush" && has_focus(&window), "{}", text(&window));
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    key(&mut window, Modifiers::NONE, Key::Delete);
+    assert!(text(&window).is_empty() && rows(&window) == ["north.meshbrush"]);
+    key(&mut window, Modifiers::NONE, Key::Tab);
+    assert!(!has_focus(&window), "nothing is typed any more");
+}
+
+fn has_focus(window: &Window) -> bool {
+    window.get_by_role_and_label(Role::TextInput, "Path").accesskit_node().is_focused()
 }
 
 fn is_enabled(window: &Window, button: &str) -> bool {

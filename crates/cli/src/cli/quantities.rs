@@ -48,6 +48,11 @@ pub enum QuantityError {
     Formula(#[from] ParseError),
 }
 
+/// Returns the formula of a quantity with a name, or the whole text without one: its end in any case.
+pub fn expression(text: &str) -> &str {
+    split(text).1
+}
+
 /// Returns the name and formula. A comparison (`==`) is part of the formula.
 fn split(text: &str) -> (&str, &str) {
     if let Some((name, expression)) = text.split_once('=')

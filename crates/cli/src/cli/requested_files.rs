@@ -8,7 +8,7 @@ use super::details::MeshDetails;
 use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::output::{Output, RequestedLook};
-use super::quantities::{NamedQuantity, QuantityError, parse_quantities};
+use super::quantities::{NamedQuantity, QuantityError, expression, parse_quantities};
 use super::space_look::RequestedSpace;
 use super::terminal::Terminal;
 use meshbrush_core::earth::Coordinates;
@@ -82,12 +82,14 @@ impl RequestedFiles {
             return Err(KeyFault::value("view", format!("{NO_SVG_IN_SPACE}.")));
         }
         let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
-            let pointer = match &error {
-                QuantityError::Name(_) => None,
-                QuantityError::Formula(mistake) => Some(mistake.pointer().to_owned()),
+            let fault = match &error {
+                QuantityError::Name(_) => KeyFault::value("quantities", error.to_string()),
+                QuantityError::Formula(mistake) => {
+                    let text = &saved.quantities[index];
+                    KeyFault::mistake("quantities", text, text.len() - expression(text).len(), mistake)
+                }
             };
-            let fault = KeyFault::value("quantities", error.to_string()).at(index);
-            KeyFault { pointer, ..fault }
+            fault.at(index)
         })?;
         Ok(Self { outputs: vec![file], look, quantities, is_flat: saved.flat })
     }

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Document, Edit, Settings, SettingsError};
-use crate::layers::{Layer, LayerId, PaintLayers, Quantity};
+use super::{Document, Edit, EditError, Setting, Settings, SettingsError};
+use crate::layers::{Layer, LayerId, LayerKind, PaintLayers, Quantity};
 use crate::paint::Medium;
 use crate::raster::{PixelGrid, TiledRaster};
 use crate::text::short_name;
@@ -152,6 +152,24 @@ impl Document {
             Some(layer) => Ok(layer.id),
         }
     }
+
+    /// Returns the layer that a brush with this medium paints on, as [`Self::layer_for`] does, after adding
+    /// a paint layer on top where there is none for it.
+    ///
+    /// # Errors
+    /// Fails when the layer is locked or hidden, and when no layer can be added.
+    pub fn layer_for_or_new(&mut self, medium: &Medium) -> Result<LayerId, EditError> {
+        let quantity = match self.layer_for(medium) {
+            Err(NoPaintLayer::Missing(quantity)) => quantity.unwrap_or(Quantity::Diameter),
+            found => return Ok(found?),
+        };
+        let id = self.unused_layer_id();
+        let kind = LayerKind::Paint(quantity);
+        let mut layers = self.settings.layers.clone();
+        layers.push(Layer::new(id, kind.label(), kind));
+        self.set(Setting::Layers(layers))?;
+        Ok(id)
+    }
 }
 
 #[cfg(test)]
@@ -159,10 +177,8 @@ mod tests {
     use glam::dvec2;
 
     use super::*;
-    use crate::document::Setting;
     use crate::field::Formula;
-    use crate::layers::LayerKind;
-    use crate::paint::Brush;
+    use crate::paint::{Brush, DiameterChange};
 
     #[test]
     fn painted_pixels_are_not_read_as_another_quantity() {
@@ -203,6 +219,35 @@ mod tests {
                 error.ends_with("cannot be met: it must be positive; write inf to ask for nothing."),
                 "{error}"
             );
+        }
+    }
+
+    #[test]
+    fn a_brush_without_a_paint_layer_gets_one_on_top() {
+        let media = [
+            (Medium::Risk(0.5), Quantity::Risk),
+            (Medium::Diameter(0.1, DiameterChange::Finer), Quantity::Diameter),
+            (Medium::Error(0.1), Quantity::Error),
+            (Medium::Eraser, Quantity::Diameter),
+        ];
+        for (medium, quantity) in media {
+            let base = LayerKind::target(Formula::parse("0.1").unwrap());
+            let mut document =
+                Document::new(Settings { layers: Layer::stack([base]), ..Settings::default() }, None)
+                    .unwrap();
+            let id = document.layer_for_or_new(&medium).unwrap();
+            let layers = document.settings().layers.clone();
+            assert_eq!(layers.len(), 2, "{medium:?}");
+            assert_eq!((layers[1].id, layers[1].paints()), (id, Some(quantity)), "{medium:?}");
+            // The next stroke is on the same layer.
+            assert_eq!(document.layer_for_or_new(&medium), Ok(id), "{medium:?}");
+            assert_eq!(document.layer_for(&medium), Ok(id), "{medium:?}");
+            assert_eq!(document.settings().layers, layers, "{medium:?}");
+            let locked = layers.into_iter().map(|layer| Layer { locked: true, ..layer }).collect();
+            document.set(Setting::Layers(locked)).unwrap();
+            let error = document.layer_for_or_new(&medium).unwrap_err();
+            assert!(matches!(error, EditError::NoPaintLayer(NoPaintLayer::Locked { .. })), "{error}");
+            assert_eq!(document.settings().layers.len(), 2, "{medium:?}");
         }
     }
 }

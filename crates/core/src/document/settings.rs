@@ -372,8 +372,12 @@ impl Settings {
 
     /// Which triangles stay in the derived mesh: all, unless the mesh is fitted to polygons.
     pub fn derived_cleaning(&self) -> Cleaning {
-        let is_fitted = self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report;
-        if is_fitted { self.cleaning } else { Cleaning::NONE }
+        if self.is_fitted() { self.cleaning } else { Cleaning::NONE }
+    }
+
+    /// Returns whether the mesh is fitted to polygons.
+    pub fn is_fitted(&self) -> bool {
+        self.domain.region().is_some() && self.boundary != BoundaryTreatment::Report
     }
 
     /// Returns the limits of the size of the mesh.

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::domain::PieceChoice;
 use crate::field::{Formula, f32_not_below};
-use crate::raster::{Raster, RasterPyramid};
+use crate::raster::{Raster, RasterPyramid, RasterValues};
 
 /// Identifies a layer within a document, as long as the document exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -198,6 +198,17 @@ pub enum RasterReading {
     Error,
     /// The curve gives the target diameter for a value.
     Curve(Arc<ValueCurve>),
+}
+
+impl From<&RasterReading> for RasterValues {
+    fn from(reading: &RasterReading) -> Self {
+        match reading {
+            RasterReading::Risk => Self::Risk,
+            RasterReading::Diameter => Self::Diameter,
+            RasterReading::Error => Self::Error,
+            RasterReading::Curve(_) => Self::Any,
+        }
+    }
 }
 
 impl Layer {

@@ -8,6 +8,7 @@ mod pyramid;
 mod ranges;
 mod sample;
 mod tiled;
+mod values;
 
 use std::ops::Range;
 
@@ -20,6 +21,7 @@ pub use projected::{ProjectedRasterError, projected_raster};
 pub use pyramid::{RasterPyramid, SquareValues};
 pub use ranges::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 pub use tiled::{TILE, Tile, TilePlace, TiledRaster};
+pub use values::{RasterValues, check_values};
 
 /// Largest number of pixels along a side of a raster.
 pub const LONGEST_SIDE: u32 = 65_536;

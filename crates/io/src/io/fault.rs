@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 
 use serde::de::{Error, Expected, Unexpected};
 
+use meshbrush_core::field::formula::ParseError;
 use meshbrush_mesh::text::{Number, excerpt};
 
 /// A step from a table or a list to a value in it.
@@ -60,12 +61,15 @@ pub struct KeyFault {
     pub sentence: String,
     /// Two lines that point to a part of the value, as for a mistake in a formula.
     pub pointer: Option<String>,
+    /// Where in the value that part begins, in characters.
+    pub position: Option<usize>,
 }
 
 impl KeyFault {
     /// Returns a fault of the value whose path is still empty.
     pub(super) fn here(sentence: impl Into<String>) -> Self {
-        Self { path: Vec::new(), mark: Mark::Value, given: None, sentence: sentence.into(), pointer: None }
+        let sentence = sentence.into();
+        Self { path: Vec::new(), mark: Mark::Value, given: None, sentence, pointer: None, position: None }
     }
 
     /// Returns the fault of a number that breaks a rule.
@@ -82,6 +86,16 @@ impl KeyFault {
     /// Returns the fault of a value that cannot be used, in the table that holds it.
     pub fn value(key: impl Into<Step>, sentence: impl Into<String>) -> Self {
         Self::here(sentence).within(key)
+    }
+
+    /// Returns the fault of a text whose formula has a mistake. The formula begins after `skipped` bytes.
+    pub fn mistake(key: impl Into<Step>, text: &str, skipped: usize, mistake: &ParseError) -> Self {
+        let before = &text[..skipped + mistake.span().start];
+        Self {
+            pointer: Some(mistake.pointer().to_owned()),
+            position: Some(before.chars().count()),
+            ..Self::value(key, mistake.to_string())
+        }
     }
 
     /// Returns the fault of a key that should not be there.

@@ -116,6 +116,17 @@ fn measuring_is_cancelled() {
 }
 
 #[test]
+fn why_an_experiment_ended_is_said() {
+    let mut window = window_of(TALL);
+    let (job, output) = window.state().jobs.expect();
+    window.state_mut().features.plots.measuring = Some(job);
+    let problem = "There is no memory for this mesh.";
+    output.send(Err(problem.into()));
+    assert_eq!(wait_for_notice(&mut window), problem);
+    assert!(!window.state().features().plots.is_measuring());
+}
+
+#[test]
 fn plots_are_exported_as_drawing_and_table() {
     let folder = folder("plots", "exported");
     let mut window = window_of(TALL);

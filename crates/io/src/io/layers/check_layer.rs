@@ -310,10 +310,7 @@ pub fn compiled(
     text: &str,
     parse: fn(&str) -> Result<Formula, ParseError>,
 ) -> Result<Formula, KeyFault> {
-    parse(text).map_err(|mistake| {
-        let pointer = Some(mistake.pointer().to_owned());
-        KeyFault { pointer, ..KeyFault::value(key, mistake.to_string()) }
-    })
+    parse(text).map_err(|mistake| KeyFault::mistake(key, text, 0, &mistake))
 }
 
 /// Checks each entry of a list.

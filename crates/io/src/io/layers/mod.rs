@@ -29,7 +29,7 @@ mod words;
 pub use check_layer::{CheckedKind, CheckedShapes, FindFile, Growth, Stored, compiled, each};
 pub use checks::{point, points, positive_length, rect_of, rings};
 pub use fill::{LayerData, TextError};
-pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader, RasterValues, check_values};
+pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader};
 pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat, saved_polygon};
 pub use words::{
     SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm, SavedPositive,

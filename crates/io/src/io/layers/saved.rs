@@ -4,8 +4,8 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    RasterValues, SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm,
-    SavedPositive, SavedQuantity,
+    SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm, SavedPositive,
+    SavedQuantity,
 };
 use crate::io::RasterFormat;
 use crate::io::settings::SavedBoundaryType;
@@ -13,6 +13,7 @@ use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
     DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
 };
+use meshbrush_core::raster::RasterValues;
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

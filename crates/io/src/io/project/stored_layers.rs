@@ -7,14 +7,14 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::super::error::PlacedFlaw;
-use super::super::layers::{LayerData, SavedLayer, Stored, TextError, check_values};
+use super::super::layers::{LayerData, SavedLayer, Stored, TextError};
 use super::super::{Flaw, KeyFault};
 use super::part_names::PartNames;
 use super::settings::{Parts, checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{Layer, LayerId, ShapeList, Threat};
-use meshbrush_core::raster::RasterPyramid;
+use meshbrush_core::raster::{RasterPyramid, check_values};
 use meshbrush_mesh::text::Grouped;
 
 /// A layer with its identifier, and the place of its pixels if it reads a raster.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::super::geojson::{self, Outline};
 use super::super::layers::{
-    LayerData, RasterError, RasterFrame, RasterLoader, RasterValues, SavedLayer, Stored, TextError,
+    LayerData, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
 use super::super::{
@@ -21,7 +21,7 @@ use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, Regio
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
-use meshbrush_core::raster::RasterPyramid;
+use meshbrush_core::raster::{RasterPyramid, RasterValues};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
 use meshbrush_mesh::text::{LengthUnit, abridged};

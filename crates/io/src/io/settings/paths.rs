@@ -63,10 +63,9 @@ impl SavedPaths {
             (Some(_), Some(key)) => {
                 Err(KeyFault::key(key, "what paths cost is given by `cost` or by weights, not by both."))
             }
-            (Some(text), None) => CostFormula::parse(text).map(PathCost::Formula).map_err(|mistake| {
-                let pointer = Some(mistake.pointer().to_owned());
-                KeyFault { pointer, ..KeyFault::value("cost", mistake.to_string()) }
-            }),
+            (Some(text), None) => CostFormula::parse(text)
+                .map(PathCost::Formula)
+                .map_err(|mistake| KeyFault::mistake("cost", text, 0, &mistake)),
             (None, None) => Ok(PathCost::default()),
             (None, Some(key)) => {
                 let usual = Weights::default();

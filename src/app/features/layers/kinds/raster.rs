@@ -14,7 +14,7 @@ use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
-use meshbrush_io::io;
+use meshbrush_core::raster::check_values;
 
 /// A picture or a grid.
 pub static RASTER: LayerKindRow = LayerKindRow {
@@ -128,7 +128,7 @@ fn read_as(
     transfer: &Transfer,
 ) -> Result<RasterReading, String> {
     let checked = |reading: RasterReading| {
-        let problem = io::layers::check_values(&source.raster, (&reading).into());
+        let problem = check_values(&source.raster, (&reading).into());
         problem.map(|()| reading).map_err(|problem| format!("{}: {problem}", source.name))
     };
     Ok(match meaning {
