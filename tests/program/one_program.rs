@@ -208,7 +208,7 @@ fn boundary_of(random: &mut fastrand::Rng) -> DistanceTo {
 }
 
 fn threats(random: &mut fastrand::Rng) -> Threats {
-    let count = random.usize(1..30);
+    let count = random.usize(0..30);
     let one = |_| Threat {
         at: point(random),
         range: between(random, 0.1, 1.0),

@@ -407,7 +407,10 @@ fn a_recipe_is_written_as_it_was_read() {
     let long = format!(
         "[[layer]]\nkind = \"paint\"\nquantity = \"risk\"\nmask = [[[{ring}]], [[[0,0],[1,0],[1,1]]]]"
     );
-    for text in ["", FULL, odd, numbers, &long] {
+    // Empty lists of a layer are more than none.
+    let none = "[limits]\nh_min = 0.1\n[[layer]]\nkind = \"threats\"\nthreats = []\n\
+                [[layer]]\nkind = \"distance\"\ntypes = []\nat_zero = 0.1\nslope = 0.2";
+    for text in ["", FULL, odd, numbers, &long, none] {
         let recipe = saved(text);
         let written = to_text(&recipe);
         assert_eq!(saved(&written), recipe, "{written}");

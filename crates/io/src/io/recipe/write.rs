@@ -69,7 +69,7 @@ pub fn to_text(recipe: &SavedSettings) -> String {
     for (index, layer) in layer.iter().enumerate() {
         // The comment belongs to the first layer.
         let heading = if index == 0 { "[[layer]]" } else { "\n[[layer]]" };
-        write_entries(&mut text, heading, layer);
+        write_entries(&mut text, heading, layer, |_| true);
     }
     write_table(&mut text, "[paths]", paths);
     keep_out.iter().for_each(|region| write_table(&mut text, "[[keep_out]]", region));
@@ -78,14 +78,19 @@ pub fn to_text(recipe: &SavedSettings) -> String {
     text
 }
 
-/// A table after a blank line, unless it has no entry.
+/// A table after a blank line, unless it has no entry. A list without entries is as good as none there; in a
+/// layer it says that there are none.
 fn write_table(text: &mut String, heading: &str, table: &impl Serialize) {
-    write_entries(text, &format!("\n{heading}"), table);
+    write_entries(text, &format!("\n{heading}"), table, |value| {
+        value.as_array().is_none_or(|list| !list.is_empty())
+    });
 }
 
-fn write_entries(text: &mut String, heading: &str, table: &impl Serialize) {
+/// Writes the entries whose values say something.
+fn write_entries(text: &mut String, heading: &str, table: &impl Serialize, says: impl Fn(&Value) -> bool) {
     let Ok(Value::Object(table)) = serde_json::to_value(table) else { return };
-    let entries = in_order(&table);
+    let mut entries = in_order(&table);
+    entries.retain(|(_, value)| says(value));
     if entries.is_empty() {
         return;
     }
@@ -99,9 +104,8 @@ fn write_entries(text: &mut String, heading: &str, table: &impl Serialize) {
 
 /// Returns the entries that have a value, in the order of keys.
 fn in_order(table: &Map<String, Value>) -> Vec<(&str, &Value)> {
-    let is_nothing = |value: &Value| value.is_null() || value.as_array().is_some_and(Vec::is_empty);
     let mut entries: Vec<_> = table.iter().map(|(key, value)| (key.as_str(), value)).collect();
-    entries.retain(|(_, value)| !is_nothing(value));
+    entries.retain(|(_, value)| !value.is_null());
     entries
         .sort_by_key(|(key, _)| (ORDER.iter().position(|other| other == key).unwrap_or(ORDER.len()), *key));
     entries
