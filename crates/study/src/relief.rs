@@ -2,13 +2,14 @@
 //! lines, and how far a mesh is from them.
 
 use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::Range;
 
 use glam::{DVec2, dvec2};
 
 use crate::geometry::Rect;
 use crate::layers::DepthSurface;
-use crate::mesh::MeshView;
-use crate::raster::Raster;
+use crate::mesh::{MeshView, Progress};
+use crate::raster::{PixelRect, Raster};
 use crate::surface::{SurfaceFit, SurfaceRule};
 
 /// About how many isobaths there are from the shore to the deepest place.
@@ -35,6 +36,53 @@ pub struct Relief {
     exaggeration: f64,
 }
 
+/// A relief whose surface is sampled row by row, from the lowest.
+#[derive(Clone, Debug)]
+pub struct ReliefSampling {
+    relief: Relief,
+    /// How many rows are sampled.
+    rows: u32,
+    /// 1 for depths, -1 for heights.
+    sign: f64,
+}
+
+impl ReliefSampling {
+    fn new(
+        (deepest, first_isobath): (f64, f64),
+        domain: Rect,
+        (bounds, size): (Rect, [u32; 2]),
+        sign: f64,
+    ) -> Self {
+        let deepest = deepest.max(f64::MIN_POSITIVE);
+        let relief = Relief {
+            depths: Raster::filled(bounds, size, f32::NAN),
+            interval: isobath_interval(deepest),
+            first_isobath,
+            exaggeration: RELIEF * domain.size().max_element() / deepest,
+        };
+        Self { relief, rows: 0, sign }
+    }
+
+    /// Samples so many more rows of the surface of the relief. Returns whether there are more.
+    pub fn advance(&mut self, rows: u32, value_at: impl Fn(DVec2) -> Option<f64>) -> Progress {
+        let depths = &mut self.relief.depths;
+        let ([columns, all], centers) = (depths.size(), depths.pixel_centers());
+        let end = self.rows.saturating_add(rows.max(1)).min(all);
+        for (x, y) in (PixelRect { min: [0, self.rows], max: [columns, end] }).pixels() {
+            if let Some(value) = value_at(centers(x, y)) {
+                depths.set(x, y, (self.sign * value) as f32);
+            }
+        }
+        self.rows = end;
+        if end < all { Progress::More } else { Progress::Done }
+    }
+
+    /// Returns the relief, once all rows are sampled.
+    pub fn finish(self) -> Relief {
+        self.relief
+    }
+}
+
 /// What a pixel of a relief shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReliefPixel {
@@ -47,56 +95,23 @@ pub struct ReliefPixel {
 }
 
 impl Relief {
-    /// Returns the relief of a surface over `bounds` in world units; `size` is [columns, rows]. `domain` is
-    /// all that the relief could be drawn of: it says how steep the ground is drawn. `None` where `goes_on`
-    /// says at the beginning of a row that nobody wants it any more.
-    pub fn new(
-        surface: &DepthSurface,
-        domain: Rect,
-        bounds: Rect,
-        size: [u32; 2],
-        goes_on: &dyn Fn() -> bool,
-    ) -> Option<Self> {
-        let depth_at = |point| surface.depth_at(point);
-        Self::of(depth_at, (surface.deepest(), 0.0), domain, (bounds, size), goes_on)
+    /// Begins the relief of a surface of depths over `bounds` in world units; `size` is [columns, rows].
+    /// `domain` is all that the relief could be drawn of: it says how steep the ground is drawn.
+    pub fn of_depths(surface: &DepthSurface, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
+        ReliefSampling::new((surface.deepest(), 0.0), domain, pixels, 1.0)
     }
 
-    /// Returns the relief of a surface of heights, as [`Self::new`]: depths are minus the heights, and
+    /// Begins the relief of a surface of heights, as [`Self::of_depths`]: depths are minus the heights, and
     /// isobaths are contour lines. `rise` is the difference of the greatest and the least height.
-    pub fn of_heights(
-        height_at: impl Fn(DVec2) -> Option<f64>,
-        rise: f64,
-        domain: Rect,
-        pixels: (Rect, [u32; 2]),
-        goes_on: &dyn Fn() -> bool,
-    ) -> Option<Self> {
-        let depth_at = |point| height_at(point).map(|height| -height);
-        Self::of(depth_at, (rise, f64::NEG_INFINITY), domain, pixels, goes_on)
+    pub fn of_heights(rise: f64, domain: Rect, pixels: (Rect, [u32; 2])) -> ReliefSampling {
+        ReliefSampling::new((rise, f64::NEG_INFINITY), domain, pixels, -1.0)
     }
 
-    fn of(
-        depth_at: impl Fn(DVec2) -> Option<f64>,
-        (deepest, first_isobath): (f64, f64),
-        domain: Rect,
-        (bounds, size): (Rect, [u32; 2]),
-        goes_on: &dyn Fn() -> bool,
-    ) -> Option<Self> {
-        let grid = Raster::filled(bounds, size, 0_u8);
-        let centers = grid.pixel_centers();
-        let depth = |(x, y)| depth_at(centers(x, y)).map_or(f32::NAN, |depth| depth as f32);
-        let depths = grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| depth((x, y))));
-        let deepest = deepest.max(f64::MIN_POSITIVE);
-        Some(Self {
-            depths: Raster::from_values(bounds, size, depths.collect::<Option<_>>()?),
-            interval: isobath_interval(deepest),
-            first_isobath,
-            exaggeration: RELIEF * domain.size().max_element() / deepest,
-        })
-    }
-
-    /// Returns the pixels row by row from the lowest; `None` for those without a depth.
-    pub fn pixels(&self) -> impl Iterator<Item = Option<ReliefPixel>> + '_ {
-        self.depths.all().pixels().map(|(x, y)| {
+    /// Returns the pixels of some rows, row by row from the lowest; `None` for those without a depth.
+    pub fn rows(&self, rows: Range<u32>) -> impl Iterator<Item = Option<ReliefPixel>> + '_ {
+        let [columns, all] = self.depths.size();
+        let rows = PixelRect { min: [0, rows.start], max: [columns, rows.end.min(all)] };
+        rows.pixels().map(|(x, y)| {
             let depth = self.depths.get(x, y);
             (!depth.is_nan()).then(|| ReliefPixel {
                 depth,
@@ -249,7 +264,19 @@ mod tests {
 
     fn relief(layers: &[Layer]) -> Relief {
         let surface = DepthSurface::of(layers).unwrap();
-        Relief::new(&surface, Rect::UNIT, Rect::UNIT, [200, 200], &|| true).unwrap()
+        let sampling = Relief::of_depths(&surface, Rect::UNIT, (Rect::UNIT, [200; 2]));
+        sampled(sampling, |point| surface.depth_at(point))
+    }
+
+    /// Returns a relief that is sampled in steps of different sizes.
+    fn sampled(mut sampling: ReliefSampling, value_at: impl Fn(DVec2) -> Option<f64>) -> Relief {
+        let steps = (0..).take_while(|&rows| sampling.advance(rows, &value_at) == Progress::More).count();
+        assert!(steps > 4, "{steps}");
+        sampling.finish()
+    }
+
+    fn pixels(relief: &Relief) -> Vec<Option<ReliefPixel>> {
+        [0..7, 7..8, 8..u32::MAX].into_iter().flat_map(|rows| relief.rows(rows)).collect()
     }
 
     #[test]
@@ -257,7 +284,7 @@ mod tests {
         // A hill in a sea of 100 m.
         let layers = depths(|at| 100.0 * (1.0 - (1.0 - 2.5 * at.distance(dvec2(0.5, 0.5))).max(0.0)));
         let relief = relief(&layers);
-        let pixels: Vec<ReliefPixel> = relief.pixels().map(Option::unwrap).collect();
+        let pixels: Vec<ReliefPixel> = pixels(&relief).into_iter().map(Option::unwrap).collect();
         let at = |x: usize, y: usize| pixels[200 * y + x];
         assert!(at(70, 130).light > 1.05 && at(130, 70).light < 0.95, "{:?} {:?}", at(70, 130), at(130, 70));
         assert_eq!(at(5, 5), ReliefPixel { depth: 100.0, light: 1.0, is_isobath: false });
@@ -265,10 +292,6 @@ mod tests {
         assert_eq!(isobath_interval(100.0), 10.0);
         let crossed = (20..=100).filter(|&x| at(x, 100).is_isobath).count();
         assert!((9..=22).contains(&crossed), "{crossed}");
-        assert!(
-            Relief::new(&DepthSurface::of(&layers).unwrap(), Rect::UNIT, Rect::UNIT, [9, 9], &|| false)
-                .is_none()
-        );
     }
 
     #[test]
@@ -276,9 +299,8 @@ mod tests {
         // A hill of 100 from 30 below zero, and nothing in the east.
         let height = |at: DVec2| 100.0 * (1.0 - 2.5 * at.distance(dvec2(0.5, 0.5))).max(0.0) - 30.0;
         let height_at = |at: DVec2| (at.x < 0.9).then(|| height(at));
-        let pixels = (Rect::UNIT, [200, 200]);
-        let relief = Relief::of_heights(height_at, 100.0, Rect::UNIT, pixels, &|| true).unwrap();
-        let pixels: Vec<Option<ReliefPixel>> = relief.pixels().collect();
+        let relief = sampled(Relief::of_heights(100.0, Rect::UNIT, (Rect::UNIT, [200; 2])), height_at);
+        let pixels = pixels(&relief);
         let at = |x: usize, y: usize| pixels[200 * y + x].unwrap();
         assert!(pixels[199].is_none() && pixels[200 * 100 + 190].is_none());
         assert!(at(70, 130).light > 1.05 && at(130, 70).light < 0.95, "{:?} {:?}", at(70, 130), at(130, 70));
@@ -293,13 +315,12 @@ mod tests {
     #[test]
     fn a_plane_is_lit_by_its_slope() {
         for slope in [dvec2(0.0, 0.0), dvec2(9.0, 0.0), dvec2(0.0, 9.0), dvec2(-4.0, 7.0), dvec2(8.0, -8.0)] {
-            let pixels = (Rect::UNIT, [20, 20]);
-            let relief =
-                Relief::of_heights(|at| Some(slope.dot(at)), 10.0, Rect::UNIT, pixels, &|| true).unwrap();
+            let sampling = Relief::of_heights(10.0, Rect::UNIT, (Rect::UNIT, [20; 2]));
+            let relief = sampled(sampling, |at| Some(slope.dot(at)));
             let slope = relief.exaggeration * slope;
             let [east, north, up] = LIGHT;
             let light = (up - slope.x * east - slope.y * north) / (1.0 + slope.length_squared()).sqrt() / up;
-            let seen = f64::from(relief.pixels().nth(20 * 7 + 9).unwrap().unwrap().light);
+            let seen = f64::from(pixels(&relief)[20 * 7 + 9].unwrap().light);
             assert!((seen - light.max(0.0)).abs() < 1e-4, "{slope}: {seen} {light}");
         }
     }
@@ -308,9 +329,8 @@ mod tests {
     fn an_isobath_is_drawn_below_it_and_to_its_left() {
         for axis in 0..2 {
             let height = |at: DVec2| Some(if at[axis] < 0.5 { -5.0 } else { -15.0 });
-            let relief = Relief::of_heights(height, 100.0, Rect::UNIT, (Rect::UNIT, [20, 20]), &|| true);
-            let pixels: Vec<ReliefPixel> = relief.unwrap().pixels().map(Option::unwrap).collect();
-            for (number, pixel) in pixels.iter().enumerate() {
+            let relief = sampled(Relief::of_heights(100.0, Rect::UNIT, (Rect::UNIT, [20; 2])), height);
+            for (number, pixel) in pixels(&relief).into_iter().map(Option::unwrap).enumerate() {
                 assert_eq!(pixel.is_isobath, [number % 20, number / 20][axis] == 9, "{axis} {number}");
             }
         }

@@ -12,6 +12,7 @@ mod overlay;
 mod overlay_palette;
 mod press;
 mod price;
+mod relief_colors;
 mod space;
 mod toast;
 mod way_back;

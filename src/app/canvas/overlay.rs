@@ -8,7 +8,8 @@ use super::super::derivation::Derived;
 use super::super::jobs::{Jobs, Slot, Wanted};
 use super::super::session::Session;
 use super::super::view::FieldOverlay;
-use super::overlay_palette::{OverlayPalette, lit};
+use super::overlay_palette::OverlayPalette;
+use super::relief_colors::ReliefColors;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::layers::{DepthSurface, Layer, PaintLayers, SettledSquares, SizeField};
 use meshbrush_core::raster::Raster;
@@ -17,28 +18,24 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::Extract;
 use meshbrush_render::scene::{Camera, Overlay};
 use meshbrush_study::pixels::PixelTriangles;
-use meshbrush_study::relief::{Relief, ReliefPixel, depth_differences, surface_differences};
-
-/// The light on an isobath, and the most on any ground.
-const ISOBATH: f32 = 0.72;
-const MOST_LIGHT: f32 = 1.25;
+use meshbrush_study::relief::{depth_differences, surface_differences};
 
 /// The data from which colours are made.
 #[derive(Clone, Debug, PartialEq)]
-struct OverlayState {
-    kind: FieldOverlay,
-    document: u64,
+pub(super) struct OverlayState {
+    pub kind: FieldOverlay,
+    pub document: u64,
     /// The revision of the mesh; 0 for the depths, which do not depend on it.
-    mesh: u64,
+    pub mesh: u64,
     /// Whether the nodes along the outline of this mesh are known, where they are compared with depths.
-    is_derived: bool,
+    pub is_derived: bool,
     /// The rectangle of the domain, in world units.
-    domain: Rect,
+    pub domain: Rect,
     /// The rectangle of the pixels, in world units.
-    bounds: Rect,
+    pub bounds: Rect,
     /// [columns, rows] of the pixels.
-    size: [u32; 2],
-    palette: OverlayPalette,
+    pub size: [u32; 2],
+    pub palette: OverlayPalette,
 }
 
 impl OverlayState {
@@ -77,8 +74,8 @@ impl OverlayState {
 }
 
 /// Colours by pixel, row by row from the lowest.
-struct Pixels {
-    rgba: Vec<[u8; 4]>,
+pub(super) struct Pixels {
+    pub rgba: Vec<[u8; 4]>,
 }
 
 /// The colours of an overlay, computed again only when what they show has changed.
@@ -116,8 +113,7 @@ impl OverlayColors {
             (found.kind, found.domain, &found.palette) == (kind, state.domain, &state.palette)
         });
         if !self.latest.is_running() && !self.latest.has(&state) {
-            let compute = colors_of(state.clone(), session);
-            self.latest.start_wanted(state, compute, jobs);
+            self.start(state, session, jobs);
             let has_ended = self.latest.is_running() && !self.latest.take(jobs);
             self.note(has_ended);
         }
@@ -130,6 +126,17 @@ impl OverlayColors {
             None => (domain, [1, 1], &self.neutral[..]),
         };
         Some(Overlay { bounds, columns, rows, rgba, beyond, revision: self.revision })
+    }
+
+    fn start(&mut self, state: OverlayState, session: &Session, jobs: &Jobs) {
+        if matches!(state.kind, FieldOverlay::Depth | FieldOverlay::Surface) {
+            let layers = session.document().settings().layers.clone();
+            let colors = ReliefColors::new(state.clone(), layers, session.follower().surface().cloned());
+            self.latest.start_in_slices(state, || Some(colors), ReliefColors::advance, jobs);
+        } else {
+            let compute = colors_of(state.clone(), session);
+            self.latest.start_wanted(state, compute, jobs);
+        }
     }
 
     fn take_ready(&mut self, jobs: &Jobs) {
@@ -181,11 +188,9 @@ fn colors_of(
                     palette.slack(triangles.slack(id, &field, &paint, &mut squares))
                 })
             }
-            _ if state.kind == FieldOverlay::Depth => depth_colors(&layers, &state, goes_on),
             _ if state.kind == FieldOverlay::DepthError => {
                 depth_error_colors(&layers, &*extract()?, &state, goes_on)
             }
-            _ if state.kind == FieldOverlay::Surface => surface_colors(surface.as_deref(), &state, goes_on),
             _ if state.kind == FieldOverlay::SurfaceError => {
                 surface_error_colors(surface.as_deref(), &*extract()?, &state, goes_on)
             }
@@ -217,23 +222,6 @@ fn risk_colors(
     grid.all().pixels().map(|(x, y)| (x > 0 || goes_on()).then(|| color((x, y)))).collect()
 }
 
-/// Returns a shaded relief with isobaths; neutral without depths.
-fn depth_colors(
-    layers: &[Layer],
-    OverlayState { bounds, size, domain, palette, .. }: &OverlayState,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let Some(surface) = DepthSurface::of(layers) else { return Some(neutral(*size, palette)) };
-    let relief = Relief::new(&surface, *domain, *bounds, *size, goes_on)?;
-    let deepest = surface.deepest() as f32;
-    let color = |pixel: Option<ReliefPixel>| {
-        let Some(pixel) = pixel else { return palette.neutral() };
-        let color = if pixel.depth > 0.0 { palette.water(pixel.depth / deepest) } else { palette.land() };
-        lit(color, if pixel.is_isobath { ISOBATH } else { 1.0 } * pixel.light.min(MOST_LIGHT))
-    };
-    Some(relief.pixels().map(color).collect())
-}
-
 /// Returns how far the mesh is from the depths; neutral beyond it, and without depths.
 fn depth_error_colors(
     layers: &[Layer],
@@ -246,25 +234,6 @@ fn depth_error_colors(
     let Some((surface, depths)) = surface.zip(depths) else { return Some(neutral(*size, palette)) };
     let differences = depth_differences(mesh.view(), &depths, &surface, (*bounds, *size), goes_on)?;
     Some(differences.values().iter().map(|&difference| palette.depth_error(difference)).collect())
-}
-
-/// Returns a shaded relief with contour lines; neutral where there is no surface.
-fn surface_colors(
-    rule: Option<&SurfaceRule>,
-    OverlayState { bounds, size, domain, palette, .. }: &OverlayState,
-    goes_on: &dyn Fn() -> bool,
-) -> Option<Vec<[u8; 4]>> {
-    let found = rule.and_then(|rule| Some((rule, rule.samples().height_range()?)));
-    let Some((rule, [lowest, highest])) = found else { return Some(neutral(*size, palette)) };
-    let (rise, height_at) = (highest - lowest, |point| rule.allowed_at(point).map(|(height, _)| height));
-    let relief = Relief::of_heights(height_at, rise, *domain, (*bounds, *size), goes_on)?;
-    let color = |pixel: Option<ReliefPixel>| {
-        let Some(pixel) = pixel else { return palette.neutral() };
-        let share = (-f64::from(pixel.depth) - lowest) / rise.max(f64::MIN_POSITIVE);
-        let light = if pixel.is_isobath { ISOBATH } else { 1.0 } * pixel.light.min(MOST_LIGHT);
-        lit(palette.height(share as f32), light)
-    };
-    Some(relief.pixels().map(color).collect())
 }
 
 /// Returns how far the mesh is from surfaces; neutral beyond it, and without a surface.
@@ -280,7 +249,7 @@ fn surface_error_colors(
     Some(differences.values().iter().map(|&share| palette.surface_error(share)).collect())
 }
 
-fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {
+pub(super) fn neutral(size: [u32; 2], palette: &OverlayPalette) -> Vec<[u8; 4]> {
     vec![palette.neutral(); size[0] as usize * size[1] as usize]
 }
 
@@ -295,54 +264,11 @@ fn target_colors(field: &SizeField, target: &Raster, palette: &OverlayPalette) -
 mod tests {
     use eframe::egui::Context;
     use meshbrush_core::document::Example;
-    use meshbrush_core::layers::{DepthRule, DepthSizes, Depths, LayerKind, PositiveDepth, RasterSource};
-    use meshbrush_core::raster::RasterPyramid;
 
     use super::*;
     use crate::app::files::example;
     use crate::app::jobs::Kind;
     use crate::app::view::View;
-
-    #[test]
-    fn a_level_sea_has_the_colours_of_its_depths() {
-        let mut raster = Raster::filled(Rect::UNIT, [20, 20], 0.0_f32);
-        for (x, y) in raster.all().pixels() {
-            raster.set(x, y, if x < 10 { 50.0 } else { 100.0 });
-        }
-        let source = RasterSource { name: "depth".into(), raster: Arc::new(RasterPyramid::new(raster)) };
-        let sizes = DepthSizes {
-            positive: PositiveDepth::Down,
-            offset: 0.0,
-            rule: DepthRule::Nothing,
-            between: DepthSizes::ALL_WATER,
-        };
-        let layers = Layer::stack([LayerKind::Depth(Depths::new(source, sizes))]);
-        let view = View::default();
-        let session = Session::new(example(Example::ALL[0])).expect("the example has a mesh");
-        let palette = OverlayPalette::new(view.ground, view.level_colors(session.document().settings()));
-        let state = OverlayState {
-            kind: FieldOverlay::Depth,
-            document: 0,
-            mesh: 0,
-            is_derived: false,
-            domain: Rect::UNIT,
-            bounds: Rect::UNIT,
-            size: [40, 40],
-            palette,
-        };
-        let colors = depth_colors(&layers, &state, &|| true).expect("not cancelled");
-        for (x, share) in [(5, 0.5), (35, 1.0)] {
-            assert_eq!(colors[40 * 20 + x], state.palette.water(share), "column {x}");
-        }
-        // The slope between them is no brighter than a limit.
-        let most = |channel: usize| {
-            let brightest = [0.5, 1.0].map(|share| state.palette.water(share)[channel]);
-            (MOST_LIGHT * f32::from(brightest[0].max(brightest[1]))).ceil()
-        };
-        for color in &colors {
-            assert!((0..3).all(|channel| f32::from(color[channel]) <= most(channel)), "{color:?}");
-        }
-    }
 
     #[test]
     fn an_overlay_that_is_shown_and_hidden_many_times_is_computed_once_at_a_time() {

@@ -47,6 +47,11 @@ impl MeshDerivation {
 
     /// Takes one step, which takes some milliseconds on a long coast.
     pub fn advance(&mut self) -> Progress {
+        self.advance_by(AT_ONCE)
+    }
+
+    /// Takes one step, in which a follower takes in at most so many triangles.
+    pub fn advance_by(&mut self, triangles: usize) -> Progress {
         self.step = match (std::mem::replace(&mut self.step, Step::Done), self.domain.region_on_outline()) {
             (Step::Done, _) => return Progress::Done,
             (Step::Clean(changes, fitted), _) => {
@@ -80,7 +85,7 @@ impl MeshDerivation {
             (Step::Follow(corners, fitted, making), Some(region)) => {
                 let outline = Outline::with_corners(self.mesh.lattice(), region, corners.clone());
                 let begin = || Box::new(FollowerMaking::new(&self.mesh, &self.domain, &outline, &fitted));
-                match making.unwrap_or_else(begin).advance(&self.mesh, &outline, &fitted, AT_ONCE) {
+                match making.unwrap_or_else(begin).advance(&self.mesh, &outline, &fitted, triangles.max(1)) {
                     ControlFlow::Continue(making) => Step::Follow(corners, fitted, Some(Box::new(making))),
                     ControlFlow::Break(follower) => {
                         self.follower = Some(follower);

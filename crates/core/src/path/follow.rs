@@ -1,5 +1,6 @@
 //! A planner follows edits of the cost and of the mesh.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -18,6 +19,14 @@ use crate::mesh::Progress;
 const AT_ONCE: usize = 2048;
 /// More rectangles in which the cost changed are joined to one.
 const MOST_AREAS: usize = 64;
+
+/// What marches must know to follow from one mesh to another.
+struct MeshMove {
+    old: Arc<PathMesh>,
+    shared: Shared,
+    /// The triangles that are new, or whose costs or passages changed.
+    changed: Vec<u32>,
+}
 
 impl Planner {
     /// Follows a change of the cost inside rectangles in world units: paths are then those of a new planner.
@@ -69,10 +78,16 @@ impl Planner {
 
     /// Takes another mesh with its costs, and lets the marches follow.
     fn move_marches(&mut self, mesh: Arc<PathMesh>, costs: TriangleCosts) {
+        let moved = self.take_mesh(mesh, costs);
+        _ = self.let_follow(&moved, 0..usize::MAX);
+    }
+
+    /// Takes another mesh with its costs. The marches must follow.
+    fn take_mesh(&mut self, mesh: Arc<PathMesh>, costs: TriangleCosts) -> MeshMove {
         let old = std::mem::replace(&mut self.mesh, mesh);
         let before = std::mem::replace(&mut self.costs, costs);
         self.walls = Arc::new(Walls::new(&self.mesh));
-        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
+        let Self { mesh, costs, .. } = self;
         let shared = Shared::of(&old, mesh);
         let is_changed = |&t: &u32| {
             let (t, known) = (t as usize, shared.triangles[t as usize] as usize);
@@ -82,12 +97,24 @@ impl Planner {
                 || old.triangles[known].passage != mesh.triangles[t].passage
         };
         let changed: Vec<u32> = (0..mesh.triangle_count() as u32).filter(is_changed).collect();
-        let follow = |(origin, costs, least): (&mut Origin, &[f64], Passage)| {
-            origin.move_to([&old, mesh], costs, least, (&shared, &changed));
-        };
-        let open = origins.par_iter_mut().map(|origin| (origin, &*costs.mean, Passage::Open));
-        let partly = origins_for_bounds.par_iter_mut().map(|origin| (origin, &*costs.least, Passage::Partly));
-        open.chain(partly).for_each(follow);
+        MeshMove { old, shared, changed }
+    }
+
+    /// Lets the marches with these numbers follow to the mesh. Returns whether there are more.
+    fn let_follow(
+        &mut self,
+        MeshMove { old, shared, changed }: &MeshMove,
+        numbers: Range<usize>,
+    ) -> Progress {
+        let Self { mesh, costs, origins, origins_for_bounds, .. } = self;
+        let all = origins.len() + origins_for_bounds.len();
+        let open = origins.iter_mut().map(|origin| (origin, &*costs.mean, Passage::Open));
+        let partly = origins_for_bounds.iter_mut().map(|origin| (origin, &*costs.least, Passage::Partly));
+        let marches: Vec<_> = open.chain(partly).skip(numbers.start).take(numbers.len()).collect();
+        marches.into_par_iter().for_each(|(origin, costs, least)| {
+            origin.move_to([old, mesh], costs, least, (shared, changed));
+        });
+        if numbers.end < all { Progress::More } else { Progress::Done }
     }
 
     /// Follows a change of the cost as [`Self::update`] does, at once and on the mesh as it is: for paths
@@ -144,8 +171,10 @@ enum Step {
     },
     /// The mesh is bisected where the cost varies much.
     Adapt(Vec<TriangleCost>),
-    /// Marches follow.
-    March(Vec<TriangleCost>, Arc<PathMesh>, TriangleCosts),
+    /// The planner takes the mesh.
+    Take(Vec<TriangleCost>, Arc<PathMesh>, TriangleCosts),
+    /// Marches follow, from the one with this number on.
+    March(MeshMove, usize),
     Done,
 }
 
@@ -193,13 +222,19 @@ impl PlannerMove {
             Step::Adapt(known) => {
                 let mut adapted = Arc::clone(mesh);
                 let costs = TriangleCosts::on_adapted(&mut adapted, &known, density)?;
-                Step::March(known, adapted, costs)
+                Step::Take(known, adapted, costs)
             }
-            Step::March(known, adapted, costs) => {
+            Step::Take(known, adapted, costs) => {
                 let base = Arc::clone(mesh);
                 planner.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
-                planner.move_marches(adapted, costs);
-                Step::Done
+                Step::March(planner.take_mesh(adapted, costs), 0)
+            }
+            Step::March(moved, first) => {
+                let end = if rayon::current_num_threads() > 1 { usize::MAX } else { first + 1 };
+                match planner.let_follow(&moved, first..end) {
+                    Progress::More => Step::March(moved, end),
+                    Progress::Done => Step::Done,
+                }
             }
             Step::Done => Step::Done,
         };

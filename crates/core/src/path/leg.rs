@@ -9,7 +9,7 @@ use super::march::March;
 use super::obstacle::obstacle;
 use super::place::Place;
 use super::planner::{PathRequest, Planner};
-use super::refine::{Effort, refine};
+use super::refine::{Effort, Refining, refine};
 use super::shortest::{CornerSearch, Shortest};
 use super::taut::is_constant_along;
 use super::ways::Ways;
@@ -41,8 +41,14 @@ pub(super) struct LegSearch {
 /// What is done next.
 #[derive(Clone, Debug)]
 enum Step {
-    /// Follows the march from the start, and makes the path smooth.
+    /// Follows the march from the start.
     Trace,
+    /// Makes a way smooth: the first one, or another one.
+    Smooth(Box<Refining>, Option<Candidates>),
+    /// Takes the first solution.
+    Solve(Vec<DVec2>),
+    /// Takes each of these paths if it costs less, the last one first, then takes that step.
+    Better(Vec<Vec<DVec2>>, Box<Step>),
     /// Compares that with the path as it was traced: where the cost jumps, a smooth one can cost more.
     Compare,
     /// Begins to march from the goal.
@@ -59,12 +65,26 @@ enum Step {
     Shortest,
     /// Looks for it.
     Corners(Box<CornerSearch>),
-    /// Tries it.
-    Take(Vec<DVec2>),
     /// Begins with the lower bound.
     Bound,
     /// Raises the lower bound.
     Raise(Box<LowerBound>),
+}
+
+/// A smooth path is made of a way: either may cost less than the solution.
+#[derive(Clone, Debug)]
+struct Candidates {
+    way: Vec<DVec2>,
+    /// Whether the smooth one is tried first.
+    is_smooth_first: bool,
+    next: Box<Step>,
+}
+
+impl Candidates {
+    fn with(self, smooth: Vec<DVec2>) -> Step {
+        let Self { way, is_smooth_first, next } = self;
+        Step::Better(if is_smooth_first { vec![way, smooth] } else { vec![smooth, way] }, next)
+    }
 }
 
 impl LegSearch {
@@ -92,35 +112,10 @@ impl LegSearch {
                 return Ok(Some(planner.solution(points, density, request.tolerance)));
             }
             Step::Trace => {
-                self.trace(planner, density, places)?;
-                Step::Compare
+                let traced = self.trace(planner, places)?;
+                self.ways.push(traced.clone());
+                Step::Smooth(self.refining(traced), None)
             }
-            Step::Compare => {
-                self.take_better(planner, density, self.ways[0].clone());
-                if request.effort == Effort::FULL { Step::Back } else { Step::Bound }
-            }
-            Step::Back => Step::March(Box::new(planner.begin_back(ends[1]))),
-            Step::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
-                Progress::More => Step::March(march),
-                Progress::Done => Step::Ways(march),
-            },
-            Step::Ways(march) => {
-                self.find_ways(planner, &march);
-                (self.least, _) = sketch(planner, density, &self.ways[0]);
-                Step::Sketch(1)
-            }
-            Step::Sketch(number) if number < self.ways.len() => {
-                self.try_way(planner, density, number);
-                Step::Sketch(number + 1)
-            }
-            Step::Sketch(_) => Step::Lines,
-            Step::Lines => self.try_lines(planner, density),
-            Step::Shortest => match self.begin_shortest(planner, density) {
-                Some(search) => Step::Corners(Box::new(search)),
-                None => Step::Bound,
-            },
-            Step::Corners(search) => self.go_around(search, planner, density, nodes / INTERVALS),
-            Step::Take(points) => self.try_shortest(planner, density, points),
             Step::Bound => match self.begin_bound(planner)? {
                 Some(bound) => Step::Raise(Box::new(bound)),
                 None => return Ok(Some(std::mem::take(&mut self.solution))),
@@ -132,25 +127,85 @@ impl LegSearch {
                     return Ok(Some(std::mem::take(&mut self.solution)));
                 }
             },
+            step => self.improve(step, planner, density, nodes),
         };
         Ok(None)
     }
 
-    /// Follows the march from the start, and makes the path smooth.
-    fn trace(
-        &mut self,
-        planner: &Planner,
-        density: &dyn CostDensity,
-        places: usize,
-    ) -> Result<(), PathError> {
-        let Some(traced) = planner.traced(self.leg, self.ends) else {
+    /// Takes one of the steps from the traced way to the best path. Returns the next one.
+    fn improve(&mut self, step: Step, planner: &Planner, density: &dyn CostDensity, nodes: usize) -> Step {
+        let Self { ends, request, .. } = *self;
+        match step {
+            Step::Smooth(mut refining, others) => match (refining.advance(density, &planner.walls), others) {
+                (None, others) => Step::Smooth(refining, others),
+                (Some(smooth), Some(others)) => others.with(smooth),
+                (Some(smooth), None) => Step::Solve(smooth),
+            },
+            Step::Solve(points) => {
+                self.solution = planner.solution(points, density, request.tolerance);
+                Step::Compare
+            }
+            Step::Compare => {
+                self.take_better(planner, density, self.ways[0].clone());
+                if request.effort == Effort::FULL { Step::Back } else { Step::Bound }
+            }
+            Step::Better(mut paths, next) => match paths.pop() {
+                Some(path) => {
+                    self.take_better(planner, density, path);
+                    Step::Better(paths, next)
+                }
+                None => *next,
+            },
+            Step::Back => Step::March(Box::new(planner.begin_back(ends[1]))),
+            Step::March(mut march) => match planner.march_back(&mut march, ends[0], nodes) {
+                Progress::More => Step::March(march),
+                Progress::Done => Step::Ways(march),
+            },
+            Step::Ways(march) => {
+                self.find_ways(planner, &march);
+                (self.least, _) = sketch(planner, density, &self.ways[0]);
+                Step::Sketch(1)
+            }
+            Step::Sketch(number) if number < self.ways.len() => self.try_way(planner, density, number),
+            Step::Sketch(_) => Step::Lines,
+            Step::Lines => match planner.along_lines(density, ends, self.solution.cost) {
+                Some(along) => self.smooth(along, true, Step::Shortest),
+                None => Step::Shortest,
+            },
+            Step::Shortest => match self.begin_shortest(planner, density) {
+                Some(search) => Step::Corners(Box::new(search)),
+                None => Step::Bound,
+            },
+            Step::Corners(mut search) => {
+                let progress = self.look_around(&mut search, planner, density, nodes / INTERVALS);
+                if progress == Progress::More {
+                    return Step::Corners(search);
+                }
+                match search.way(&planner.mesh, &planner.walls) {
+                    Some(way) => self.smooth(way, false, Step::Bound),
+                    None => Step::Bound,
+                }
+            }
+            step @ (Step::Trace | Step::Bound | Step::Raise(_)) => step,
+        }
+    }
+
+    /// Follows the march from the start.
+    fn trace(&self, planner: &Planner, places: usize) -> Result<Vec<DVec2>, PathError> {
+        planner.traced(self.leg, self.ends).ok_or_else(|| {
             let [from, to] = [self.leg, self.leg + 1].map(|index| Waypoint::of(index, places));
-            return Err(obstacle(&planner.mesh, self.ends, [from, to]));
-        };
-        let refined = refined(planner, density, &traced, self.request);
-        self.solution = planner.solution(refined, density, self.request.tolerance);
-        self.ways.push(traced);
-        Ok(())
+            obstacle(&planner.mesh, self.ends, [from, to])
+        })
+    }
+
+    fn refining(&self, way: Vec<DVec2>) -> Box<Refining> {
+        Box::new(Refining::new(way, self.request.effort))
+    }
+
+    /// Makes a way smooth, tries both, the smooth one first or last, and goes on with a step.
+    fn smooth(&self, way: Vec<DVec2>, is_smooth_first: bool, next: Step) -> Step {
+        let next = Box::new(next);
+        Step::Smooth(self.refining(way.clone()), Some(Candidates { way, is_smooth_first, next }))
     }
 
     /// Begins with the lower bound; `None` where none is wanted, or nothing is known.
@@ -187,33 +242,15 @@ impl LegSearch {
         self.ways.extend(others);
     }
 
-    /// Takes a path along another way if it costs less.
-    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) {
+    /// Sketches the way with this number. Returns the next step.
+    fn try_way(&mut self, planner: &Planner, density: &dyn CostDensity, number: usize) -> Step {
         let (promised, sketched) = sketch(planner, density, &self.ways[number]);
+        let next = Step::Sketch(number + 1);
         if promised < self.least * (1.0 - LEAST_GAIN) {
             self.least = promised;
-            let refined = refined(planner, density, &sketched, self.request);
-            self.take_better(planner, density, refined);
-            self.take_better(planner, density, sketched);
+            return self.smooth(sketched, true, next);
         }
-    }
-
-    /// Takes a path along lines that are cheaper than the triangles around them if it costs less.
-    fn try_lines(&mut self, planner: &Planner, density: &dyn CostDensity) -> Step {
-        if let Some(along) = planner.along_lines(density, self.ends, self.solution.cost) {
-            let refined = refined(planner, density, &along, self.request);
-            self.take_better(planner, density, refined);
-            self.take_better(planner, density, along);
-        }
-        Step::Shortest
-    }
-
-    /// Takes the shortest way if it costs less.
-    fn try_shortest(&mut self, planner: &Planner, density: &dyn CostDensity, way: Vec<DVec2>) -> Step {
-        let refined = refined(planner, density, &way, self.request);
-        self.take_better(planner, density, way);
-        self.take_better(planner, density, refined);
-        Step::Bound
+        next
     }
 
     /// Begins to look for the shortest way in the plane that is shorter than the solution, if that has one
@@ -230,29 +267,21 @@ impl LegSearch {
         Some(CornerSearch::new(&planner.mesh, &planner.walls, *ends, solution.length * (greatest / least)))
     }
 
-    /// Looks at most at so many intervals for the shortest way.
-    fn go_around(
+    /// Looks at most at so many intervals for the shortest way. Returns whether there is more to do.
+    fn look_around(
         &self,
-        mut search: Box<CornerSearch>,
+        search: &mut CornerSearch,
         planner: &Planner,
         density: &dyn CostDensity,
         intervals: usize,
-    ) -> Step {
-        let Planner { mesh, costs, walls, .. } = planner;
+    ) -> Progress {
+        let Planner { mesh, costs, .. } = planner;
         let (first, means) = (self.ends[0].triangle, &costs.mean);
         let range = |triangle: u32| density.range_on_ground(&mesh.rectangle(triangle));
         let cost = range(first);
         let has_cost = |t: u32| means[t as usize] == means[first as usize] || range(t) == cost;
-        match search.advance(&Shortest { mesh, has_cost: &has_cost }, intervals.max(1)) {
-            Progress::More => Step::Corners(search),
-            Progress::Done => search.way(mesh, walls).map_or(Step::Bound, Step::Take),
-        }
+        search.advance(&Shortest { mesh, has_cost: &has_cost }, intervals.max(1))
     }
-}
-
-/// Returns a smooth path along a way.
-fn refined(planner: &Planner, density: &dyn CostDensity, way: &[DVec2], request: PathRequest) -> Vec<DVec2> {
-    refine(way, density, &planner.walls, request.effort)
 }
 
 /// Returns what a rough path along a way costs, and the path.

@@ -6,6 +6,7 @@ use super::CostDensity;
 use super::integral::mean_cost;
 use super::taut::{is_constant_along, taut};
 use super::walls::Walls;
+use crate::mesh::Progress;
 
 /// How much work goes into a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,18 +42,71 @@ pub(super) fn refine(
     walls: &Walls,
     effort: Effort,
 ) -> Vec<DVec2> {
-    let Some(&first) = effort.pieces.first() else { return points.to_vec() };
-    let mut points = taut(&thin_out(points, walls, first), density, walls);
-    if is_constant_along(&points, |rectangle| density.range(rectangle)) {
-        return points;
+    let mut refining = Refining::new(points.to_vec(), effort);
+    loop {
+        if let Some(points) = refining.advance(density, walls) {
+            return points;
+        }
     }
-    let is_geodesic = is_constant_along(&points, |rectangle| density.range_on_ground(rectangle));
-    let most = if is_geodesic { MOST_OF_GEODESIC } else { usize::MAX };
-    for &pieces in effort.pieces.iter().filter(|&&pieces| pieces <= most) {
-        divide(&mut points, walls, pieces);
-        Relaxation { points: &mut points, density, walls, damping: 1e-2 }.run(effort.steps);
+}
+
+/// The work of [`refine`], a step of Newton's method at a time.
+#[derive(Clone, Debug)]
+pub(super) struct Refining {
+    points: Vec<DVec2>,
+    effort: Effort,
+    stage: Stage,
+}
+
+/// What is done next.
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    Begin,
+    /// The first of so many rounds begins.
+    Divide(&'static [usize]),
+    /// Vertices move: so many steps, then these rounds.
+    Relax(Relaxing, usize, &'static [usize]),
+}
+
+impl Refining {
+    pub fn new(points: Vec<DVec2>, effort: Effort) -> Self {
+        Self { points, effort, stage: Stage::Begin }
     }
-    taut(&points, density, walls)
+
+    /// Takes a step. Returns the path at the end. Cost and walls are always the same.
+    pub fn advance(&mut self, density: &dyn CostDensity, walls: &Walls) -> Option<Vec<DVec2>> {
+        let Self { points, effort, stage } = self;
+        *stage = match *stage {
+            Stage::Begin => {
+                let Some(&first) = effort.pieces.first() else { return Some(std::mem::take(points)) };
+                *points = taut(&thin_out(points, walls, first), density, walls);
+                if is_constant_along(points, |rectangle| density.range(rectangle)) {
+                    return Some(std::mem::take(points));
+                }
+                let is_geodesic = is_constant_along(points, |rectangle| density.range_on_ground(rectangle));
+                let most = if is_geodesic { MOST_OF_GEODESIC } else { usize::MAX };
+                let rounds = effort.pieces.iter().take_while(|&&pieces| pieces <= most).count();
+                Stage::Divide(&effort.pieces[..rounds])
+            }
+            Stage::Divide([]) => return Some(taut(points, density, walls)),
+            Stage::Divide([pieces, rounds @ ..]) => {
+                divide(points, walls, *pieces);
+                let relaxation = Relaxation { points, density, walls };
+                match relaxation.begin() {
+                    Some(relaxing) => Stage::Relax(relaxing, effort.steps, rounds),
+                    None => Stage::Divide(rounds),
+                }
+            }
+            Stage::Relax(_, 0, rounds) => Stage::Divide(rounds),
+            Stage::Relax(mut relaxing, steps, rounds) => {
+                match (Relaxation { points, density, walls }).step(&mut relaxing) {
+                    Progress::More => Stage::Relax(relaxing, steps - 1, rounds),
+                    Progress::Done => Stage::Divide(rounds),
+                }
+            }
+        };
+        None
+    }
 }
 
 /// Chords of about equal lengths in place of many short pieces, where the walls admit them.
@@ -102,6 +156,12 @@ struct Relaxation<'a> {
     points: &'a mut Vec<DVec2>,
     density: &'a dyn CostDensity,
     walls: &'a Walls,
+}
+
+/// The state of a round.
+#[derive(Clone, Copy, Debug)]
+struct Relaxing {
+    cost: f64,
     /// The addition to the diagonal, as a share of it.
     damping: f64,
 }
@@ -122,35 +182,34 @@ const LEAST_GAIN: f64 = 1e-11;
 const SHORTEST: f64 = 0.45;
 
 impl Relaxation<'_> {
-    fn run(&mut self, steps: usize) {
-        if self.points.len() < 3 {
-            return;
+    /// Begins a round; `None` where there is nothing to move.
+    fn begin(&self) -> Option<Relaxing> {
+        (self.points.len() > 2).then(|| Relaxing { cost: self.cost(self.points), damping: 1e-2 })
+    }
+
+    /// Takes a step of Newton's method. Returns whether another one may gain more.
+    fn step(&mut self, relaxing: &mut Relaxing) -> Progress {
+        let Relaxing { cost, damping } = relaxing;
+        if self.even_out() | self.pull_to_corners() {
+            *cost = self.cost(self.points);
         }
-        let mut cost = self.cost(self.points);
-        for _ in 0..steps {
-            if self.even_out() | self.pull_to_corners() {
-                cost = self.cost(self.points);
-            }
-            let normals = self.normals();
-            let quadratic = self.quadratic(&normals);
-            let before = cost;
-            // Ends: the damping grows up to a bound.
-            while self.damping < 1e8 {
-                let moves = quadratic.solve(self.damping);
-                let moved = self.moved(&normals, moves);
-                let new = self.cost(&moved);
-                if new < cost {
-                    (*self.points, cost) = (moved, new);
-                    self.damping = (0.1 * self.damping).max(1e-9);
-                    break;
-                }
-                self.damping *= 10.0;
-            }
-            if self.points.len() < 3 || before - cost <= LEAST_GAIN * before {
+        let normals = self.normals();
+        let quadratic = self.quadratic(&normals);
+        let before = *cost;
+        // Ends: the damping grows up to a bound.
+        while *damping < 1e8 {
+            let moves = quadratic.solve(*damping);
+            let moved = self.moved(&normals, moves);
+            let new = self.cost(&moved);
+            if new < *cost {
+                (*self.points, *cost) = (moved, new);
+                *damping = (0.1 * *damping).max(1e-9);
                 break;
             }
+            *damping *= 10.0;
         }
-        self.damping = 1e-2;
+        let is_last = self.points.len() < 3 || before - *cost <= LEAST_GAIN * before;
+        if is_last { Progress::Done } else { Progress::More }
     }
 
     /// Removes vertices that came too near to others, and returns whether there were any. Pieces of very
@@ -329,8 +388,7 @@ mod tests {
             let density = FormulaCost { formula, risk: RiskField::default() };
             let mut points = path.to_vec();
             let has_moved =
-                Relaxation { points: &mut points, density: &density, walls: &walls, damping: 1.0 }
-                    .pull_to_corners();
+                Relaxation { points: &mut points, density: &density, walls: &walls }.pull_to_corners();
             assert_eq!(has_moved, points != path, "{path:?}");
             points[1]
         };

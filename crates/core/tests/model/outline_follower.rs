@@ -5,10 +5,10 @@ use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::layers::{Layer, LayerKind};
-use meshbrush_core::outline::{DerivedMesh, OutlineFollower};
+use meshbrush_core::outline::{DerivedMesh, MeshDerivation, OutlineFollower};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::geometry::LatticePoint;
-use meshbrush_mesh::mesh::{Changes, Cleaning, Mesh, PatchPieces, Triangle};
+use meshbrush_mesh::mesh::{Changes, Cleaning, Mesh, PatchPieces, Progress, Triangle};
 
 use crate::random_coast::{place, random_coast};
 use crate::runs::runs;
@@ -62,6 +62,15 @@ fn pieces_of(mesh: &Mesh, derived: &DerivedMesh) -> PatchPieces {
     PatchPieces::new(mesh, derived.patch(), &derived.extract(mesh))
 }
 
+/// Returns the nodes on the outline of a mesh, and its pieces, derived in steps of random sizes.
+fn derived_in_steps(follower: &Follower, random: &mut Rng) -> (OutlineFollower, PatchPieces) {
+    let (mesh, domain) = (follower.shared_mesh(), follower.domain().clone());
+    let mut derivation = MeshDerivation::new(mesh, domain, Cleaning::NONE, true);
+    while derivation.advance_by(random.usize(..100)) == Progress::More {}
+    let pieces = pieces_of(follower.mesh(), &derivation.take_derived().unwrap());
+    (derivation.take_follower().unwrap(), pieces)
+}
+
 /// A document with nodes on its outline.
 struct Scene {
     document: Document,
@@ -91,9 +100,7 @@ impl Scene {
         let mut document = Document::new(settings, None).unwrap();
         let mut follower = Follower::new(&mut document).unwrap();
         follower.take_change();
-        let outline = OutlineFollower::new(follower.mesh(), follower.domain()).unwrap();
-        let scratch = DerivedMesh::new(follower.mesh(), follower.domain(), &Cleaning::NONE);
-        let pieces = pieces_of(follower.mesh(), &scratch);
+        let (outline, pieces) = derived_in_steps(&follower, &mut random);
         Self { document, follower, outline, pieces, finest, name: format!("seed {seed}") }
     }
 
@@ -142,9 +149,7 @@ impl Scene {
                 true
             }
             Some(MeshChange::Replaced) => {
-                let (mesh, domain) = (self.follower.mesh(), self.follower.domain());
-                self.outline = OutlineFollower::new(mesh, domain).unwrap();
-                self.pieces = pieces_of(mesh, &DerivedMesh::new(mesh, domain, &Cleaning::NONE));
+                (self.outline, self.pieces) = derived_in_steps(&self.follower, random);
                 true
             }
         }

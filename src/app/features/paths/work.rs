@@ -317,7 +317,7 @@ impl PathWork {
                     Err(problem) => self.without_path(known, problem),
                 }
             }
-            Step::Search(known, search) => self.search_on(known, search),
+            Step::Search(known, search) => self.search(known, search),
             Step::Profile(known, solution) => {
                 let place = (EarthPlane::new(domain.projection, self.unit), self.unit);
                 self.found.push(Ok(FoundPath::new(*solution, &**density, place)));
@@ -325,15 +325,6 @@ impl PathWork {
             }
             Step::Done => return Ok(ControlFlow::Break(None)),
         }))
-    }
-
-    /// Goes on with the search for a path.
-    fn search_on(&mut self, mut known: Box<KnownPlanner>, mut search: Box<PathSearch>) -> Step {
-        match search.advance(&mut known.planner, &*self.density, PathSearch::NODES_AT_ONCE) {
-            Ok(None) => Step::Search(known, search),
-            Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
-            Err(problem) => self.without_path(known, problem),
-        }
     }
 
     /// Goes over to a mesh in the area of paths, or begins with it.
@@ -349,6 +340,15 @@ impl PathWork {
     fn begin_routes(&self, mut known: Box<KnownPlanner>) -> Step {
         (known.risk, known.domain, known.corridor) = (self.risk.clone(), self.domain.clone(), None);
         Step::Begin(known)
+    }
+
+    /// Goes on to find the path of a route.
+    fn search(&mut self, mut known: Box<KnownPlanner>, mut search: Box<PathSearch>) -> Step {
+        match search.advance(&mut known.planner, &*self.density, PathSearch::NODES_AT_ONCE) {
+            Ok(None) => Step::Search(known, search),
+            Ok(Some(solution)) => Step::Profile(known, Box::new(solution)),
+            Err(problem) => self.without_path(known, problem),
+        }
     }
 
     /// The next route has no path, for a reason.
