@@ -232,7 +232,7 @@ impl App {
         let home = left.home.clone().map(|path| Home { path, stamp: None });
         self.open_project_of(home, false);
         self.record_edits();
-        if let Some(keeper) = &self.journal {
+        if let Some(keeper) = &mut self.journal {
             keeper.forget(left);
         }
     }

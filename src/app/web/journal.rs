@@ -65,6 +65,8 @@ pub struct JournalKeeper {
     jobs: Jobs,
     /// The work that the user is asked about.
     offered: Option<Abandoned>,
+    /// Tabs whose work was restored here: it is forgotten once this tab keeps it.
+    restored: Vec<String>,
     /// The first edit that is not kept yet.
     edited: Option<Instant>,
     /// Packs the document, and the name of its file.
@@ -84,7 +86,7 @@ impl JournalKeeper {
             }
             waker.wake();
         });
-        Self { came, jobs: jobs.clone(), offered: None, edited: None, packing: None }
+        Self { came, jobs: jobs.clone(), offered: None, restored: Vec::new(), edited: None, packing: None }
     }
 
     /// Returns whether the user is being asked about the work of an earlier tab.
@@ -104,7 +106,7 @@ impl JournalKeeper {
     /// Takes the answer about the work of an earlier tab, and returns the command to run now.
     pub fn answer(&mut self, answer: Answer) -> Option<Command> {
         let (command, forgotten) = recovery::take_answer(&mut self.offered, answer);
-        forgotten.into_iter().for_each(|left| self.forget(left));
+        forget_of(forgotten.map(|left| left.tab));
         command
     }
 
@@ -113,15 +115,22 @@ impl JournalKeeper {
         self.offered.take()
     }
 
-    /// Forgets what an earlier tab left behind. What this tab keeps of it is written first.
-    pub fn forget(&self, left: Abandoned) {
-        spawn_local(async move { _ = forget(Some(left.tab)).await });
+    /// Forgets what an earlier tab left behind and this one has restored, once this tab keeps it.
+    pub fn forget(&mut self, left: Abandoned) {
+        // What is being packed is the document before.
+        self.packing = None;
+        self.restored.push(left.tab);
     }
 
     /// Forgets the work of this tab: nothing is unsaved.
     pub fn note_saved(&mut self, _: &ProjectFile) {
         (self.edited, self.packing) = (None, None);
+        self.forget_own();
+    }
+
+    fn forget_own(&mut self) {
         spawn_local(async { _ = forget(None).await });
+        forget_of(std::mem::take(&mut self.restored));
     }
 
     /// Completes what is being packed, or forgets the work of this tab.
@@ -132,7 +141,7 @@ impl JournalKeeper {
             }
             jobs.wait_for_end(&job);
         } else if remove {
-            spawn_local(async { _ = forget(None).await });
+            self.forget_own();
         }
     }
 
@@ -164,16 +173,24 @@ impl JournalKeeper {
         self.packing = Some((job, project.path().map(|path| path.to_string_lossy().into_owned())));
     }
 
-    fn write(&self, bytes: Vec<u8>, home: Option<String>) {
+    fn write(&mut self, bytes: Vec<u8>, home: Option<String>) {
         let (came, waker) = (self.came.clone(), self.jobs.expect::<()>().1);
-        let bytes = Uint8Array::from(&*bytes);
+        let (bytes, restored) = (Uint8Array::from(&*bytes), std::mem::take(&mut self.restored));
         spawn_local(async move {
-            if let Err(problem) = keep(bytes, home, now() as f64).await {
-                came.borrow_mut().fail(&problem);
-                waker.wake();
+            match keep(bytes, home, now() as f64).await {
+                Ok(_) => forget_of(restored),
+                Err(problem) => {
+                    came.borrow_mut().fail(&problem);
+                    waker.wake();
+                }
             }
         });
     }
+}
+
+/// Forgets the work of some other tabs.
+fn forget_of(tabs: impl IntoIterator<Item = String>) {
+    tabs.into_iter().for_each(|tab| spawn_local(async move { _ = forget(Some(tab)).await }));
 }
 
 impl Came {
