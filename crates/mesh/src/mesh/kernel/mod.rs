@@ -50,7 +50,7 @@ pub(in crate::mesh) use bitset::Bitset;
 pub(in crate::mesh) use element::Diameters;
 pub(in crate::mesh) use memory::{append_pieces, make_room};
 pub(in crate::mesh) use questions::{Questions, any_exceeds, ask_all};
-pub(in crate::mesh) use search::RectSearch;
+pub(in crate::mesh) use search::{RectSearch, WalkStarts};
 pub(in crate::mesh) use triangle::Kind;
 pub(in crate::mesh) use walk::WalkEnd;
 

@@ -1,7 +1,35 @@
 //! The search for the triangles that touch a rectangle, which updates and forecasts start from.
 
 use super::{Bitset, Mesh, TriangleId, WalkEnd};
-use crate::geometry::{LatticePoint, LatticeRect};
+use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
+
+/// For each coarse triangle, by number, where the last walk in it ended and the next one begins: it is often
+/// near, and the entry of the coarse triangle is not.
+#[derive(Clone, Debug, Default)]
+pub(in crate::mesh) struct WalkStarts(NumberMap<usize, TriangleId>);
+
+impl WalkStarts {
+    /// Returns the triangle that contains a point of a coarse triangle, by its number and entry.
+    #[inline]
+    pub(in crate::mesh) fn walk(
+        &mut self,
+        mesh: &Mesh,
+        (number, entry): (usize, TriangleId),
+        point: LatticePoint,
+    ) -> TriangleId {
+        let start = self.0.entry(number).or_insert(entry);
+        let WalkEnd::Found(id, _) = mesh.walk(*start, point.as_dvec2()) else {
+            unreachable!("the walk stays in the coarse triangle that it starts in");
+        };
+        *start = id;
+        id
+    }
+
+    /// Forgets all of them: entries of the mesh have moved, or it is another mesh.
+    pub(in crate::mesh) fn clear(&mut self) {
+        self.0.clear();
+    }
+}
 
 /// A search for the triangles that touch a rectangle.
 ///
@@ -54,9 +82,14 @@ impl RectSearch {
 
     /// Enters the next half cell that the area touches; false where there is none.
     #[inline]
-    pub(in crate::mesh) fn enter_next(&mut self, mesh: &Mesh, reached: &mut Bitset) -> bool {
+    pub(in crate::mesh) fn enter_next(
+        &mut self,
+        mesh: &Mesh,
+        reached: &mut Bitset,
+        starts: &mut WalkStarts,
+    ) -> bool {
         let Some((cell, upper)) = self.next_half_cell() else { return false };
-        if let Some(start) = self.start(mesh, cell, upper)
+        if let Some(start) = self.start(mesh, cell, upper, starts)
             && reached.insert(start.index())
         {
             self.found.push(start);
@@ -79,9 +112,16 @@ impl RectSearch {
 
     /// Returns a triangle in the given half of a cell that touches the area, unless the half does not or is
     /// not in the domain.
-    fn start(&self, mesh: &Mesh, [column, row]: [u32; 2], upper: bool) -> Option<TriangleId> {
-        let number = 2 * (row as usize * mesh.lattice().cells()[0] as usize + column as usize);
-        let entry = mesh.coarse.get(number + usize::from(upper))?;
+    fn start(
+        &self,
+        mesh: &Mesh,
+        [column, row]: [u32; 2],
+        upper: bool,
+        starts: &mut WalkStarts,
+    ) -> Option<TriangleId> {
+        let cell = row as usize * mesh.lattice().cells()[0] as usize + column as usize;
+        let number = 2 * cell + usize::from(upper);
+        let entry = mesh.coarse.get(number)?;
         let steps = mesh.lattice().cell_steps();
         let (left, bottom) = (column * steps, row * steps);
         // The corner of the common rectangle that lies deepest in the half.
@@ -93,12 +133,6 @@ impl RectSearch {
             let (x, y) = (self.area.min.x.max(left), self.area.min.y.max(bottom));
             (LatticePoint::new(x, y), x - left + (y - bottom) <= steps)
         };
-        if !inside {
-            return None;
-        }
-        match mesh.walk(entry, point.as_dvec2()) {
-            WalkEnd::Found(id, _) => Some(id),
-            WalkEnd::Blocked => unreachable!("the walk stays in the coarse triangle that it starts in"),
-        }
+        inside.then(|| starts.walk(mesh, (number, entry), point))
     }
 }

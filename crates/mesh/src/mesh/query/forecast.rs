@@ -19,7 +19,7 @@ use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::kernel::{
     Bitset, ChangedArea, ChangedAreas, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError,
-    SharedRule, TargetChange, TreeTriangle, TriangleId, WalkEnd, ask_all,
+    SharedRule, TargetChange, TreeTriangle, TriangleId, WalkStarts, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -71,8 +71,7 @@ pub struct Forecast {
     restored: Vec<TreeTriangle>,
     chain: Vec<TreeTriangle>,
     fates: NumberMap<LatticePoint, Fate>,
-    /// For each coarse triangle, by number, the end of the last walk in it, where the next walk begins.
-    near: NumberMap<usize, TriangleId>,
+    starts: WalkStarts,
     added: usize,
     removed: usize,
     change: i64,
@@ -87,11 +86,6 @@ enum Fate {
     Goes,
     /// A triangle that was cut there would exceed its target.
     Stays,
-}
-
-/// Returns the rectangle around some areas; `None` without one.
-fn hull_of(areas: &[ChangedArea]) -> Option<LatticeRect> {
-    areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))
 }
 
 /// Returns how many triangles of the domain come when one is bisected, or go below zero.
@@ -110,7 +104,7 @@ impl Forecast {
     /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
     /// what is known of the changes; `None` without an area.
     pub fn of_changes(mesh: &Mesh, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
-        let hull = hull_of(&areas)?;
+        let hull = areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))?;
         Some(Self {
             level_cap: limits.level_cap(),
             areas: ChangedAreas::new(areas),
@@ -123,7 +117,7 @@ impl Forecast {
             restored: Vec::new(),
             chain: Vec::new(),
             fates: NumberMap::default(),
-            near: NumberMap::default(),
+            starts: WalkStarts::default(),
             added: 0,
             removed: 0,
             change: 0,
@@ -138,28 +132,24 @@ impl Forecast {
         areas: Vec<ChangedArea>,
         limits: &Limits,
     ) -> Option<Self> {
+        let new = Self::of_changes(mesh, areas, limits)?;
         if memory.fates.capacity() > MOST_KEPT {
-            return Self::of_changes(mesh, areas, limits);
+            return Some(new);
         }
-        let hull = hull_of(&areas)?;
-        let mut forecast = Self {
-            level_cap: limits.level_cap(),
-            areas: ChangedAreas::new(areas),
-            search: RectSearch::new(mesh, hull),
-            is_searching: true,
-            added: 0,
-            removed: 0,
-            change: 0,
-            ..memory
-        };
-        [&mut forecast.reached, &mut forecast.centres].into_iter().for_each(Bitset::clear);
-        forecast.fates.clear();
-        forecast.near.clear();
-        forecast.open.clear();
-        forecast.loose.clear();
-        [&mut forecast.restored, &mut forecast.chain].into_iter().for_each(Vec::clear);
-        forecast.batch.clear();
-        Some(forecast)
+        let Self { reached, centres, open, loose, restored, chain, fates, starts, batch, .. } =
+            memory.emptied();
+        Some(Self { reached, centres, open, loose, restored, chain, fates, starts, batch, ..new })
+    }
+
+    /// Returns the forecast with nothing found, in the same memory.
+    fn emptied(mut self) -> Self {
+        [&mut self.reached, &mut self.centres].into_iter().for_each(Bitset::clear);
+        [&mut self.open, &mut self.batch].into_iter().for_each(Vec::clear);
+        [&mut self.restored, &mut self.chain].into_iter().for_each(Vec::clear);
+        self.loose.clear();
+        self.fates.clear();
+        self.starts.clear();
+        self
     }
 
     /// Returns the triangles that would come, as far as counted.
@@ -219,7 +209,7 @@ impl Forecast {
         while looked < most && self.is_searching {
             looked += 1;
             let Some(id) = self.search.found() else {
-                self.is_searching = self.search.enter_next(mesh, &mut self.reached);
+                self.is_searching = self.search.enter_next(mesh, &mut self.reached, &mut self.starts);
                 continue;
             };
             self.search.spread_from(mesh, id, &mut self.reached);
@@ -379,12 +369,8 @@ impl Forecast {
     }
 
     fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
-        let (number, entry) = of.coarse_entry(mesh).expect("triangles are made within the domain");
-        let near = self.near.entry(number).or_insert(entry);
-        let WalkEnd::Found(id, _) = mesh.walk(*near, point.as_dvec2()) else {
-            unreachable!("the walk stays in the coarse triangle that it starts in");
-        };
-        *near = id;
+        let coarse = of.coarse_entry(mesh).expect("triangles are made within the domain");
+        let id = self.starts.walk(mesh, coarse, point);
         mesh.corners(id).contains(&point)
     }
 }

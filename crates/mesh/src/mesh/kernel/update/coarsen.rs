@@ -79,7 +79,10 @@ impl Updater {
 
     /// Removes the entries that became free.
     fn remove_freed(&mut self, mesh: &mut Mesh) {
-        let Self { freed, reached, exceeding, loose, log, .. } = self;
+        let Self { freed, reached, exceeding, loose, log, starts, .. } = self;
+        if !freed.triangles.is_empty() {
+            starts.clear();
+        }
         let triangles = ranges(reached, freed.triangles.drain(..).map(TriangleId::index));
         mesh.remove_triangles(&triangles, log, |from, to| {
             exceeding.moved(from, to);

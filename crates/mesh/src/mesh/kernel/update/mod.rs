@@ -90,7 +90,7 @@ mod scan;
 mod search;
 
 use super::changes::ChangeLog;
-use super::{Bitset, Changes, Limits, Mesh, Progress, RefineError, SharedRule, TriangleId};
+use super::{Bitset, Changes, Limits, Mesh, Progress, RefineError, SharedRule, TriangleId, WalkStarts};
 use crate::geometry::LatticeRect;
 use area::Area;
 pub use area::{ChangedArea, ChangedAreas, Falloff, TargetChange};
@@ -163,6 +163,8 @@ pub struct Updater {
     log: ChangeLog,
     /// The most triangles since memory was last given back.
     most_triangles: usize,
+    /// Where searches begin to walk, as long as no entry moves.
+    starts: WalkStarts,
     /// Memory that is used again, empty between calls.
     chain: Vec<TriangleId>,
     found: Vec<Found>,
@@ -197,6 +199,7 @@ impl Updater {
             is_short: false,
             log: ChangeLog::default(),
             most_triangles: 0,
+            starts: WalkStarts::default(),
             chain: Vec::new(),
             found: Vec::new(),
             batch: Vec::new(),

@@ -105,7 +105,7 @@ impl Updater {
                 let concern = area.concern(mesh, mesh.corners(id), mesh.triangle(id).level());
                 self.note(mesh, id, concern, found);
                 flood.spread_from(mesh, id, &mut self.reached);
-            } else if !flood.enter_next(mesh, &mut self.reached) {
+            } else if !flood.enter_next(mesh, &mut self.reached, &mut self.starts) {
                 return (looked, true);
             }
         }
