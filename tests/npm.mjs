@@ -384,6 +384,10 @@ const tests = {
     mesh.update({ hMax: 0.4 });
     mesh.update({ hMax: 100 });
     assert.equal(mesh.triangleCount, kept);
+    mesh.update({ keepPinches: false });
+    assert.ok(mesh.triangleCount < kept);
+    mesh.undo();
+    assert.equal(mesh.triangleCount, kept);
     mesh.update({ parts: "largest" });
     assert.ok(mesh.triangleCount < kept);
     mesh.undo();
@@ -479,6 +483,7 @@ const tests = {
       [{ ...square, layers: [{ kind: "corridor", along: [[0, 0]], width: 0.1, atZero: 0.1, slope: 0.1 }] }, /A line needs 2 points/],
       [{ ...square, boundary: "fitted" }, /for the outline of polygons/],
       [{ ...square, boundaryDiameter: 0.1 }, /for the outline of polygons/],
+      [{ domain: [[0, 0], [2, 0], [0, 2]], spacing: 1, boundary: "report", boundaryDiameter: 0.1 }, /nothing is refined/],
       [{ ...square, layers: [{ kind: "surface", formula: "x", within: 0.1, atMost: 9 }] }, /one of within/],
       [{ domain: { bounds: [0, 0, 1, 1], inside: "x < 0.5" }, layers: [{ kind: "distance", to: "outline", atZero: 0.1, slope: 0.1 }] }, /given by a formula/],
       [{ domain: { bounds: [0, 0, 1, 1], inside: "x <" } }, /inside/],

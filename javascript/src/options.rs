@@ -17,7 +17,7 @@ use crate::values::{Table, named_polygons_of};
 const USUAL_CELLS: f64 = 20.0;
 
 /// How the mesh meets the boundary of polygons.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Treatment {
     Report,
     Fitted,
@@ -95,6 +95,12 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
     if (treatment.is_some() || diameter.is_some()) && settings.domain.region().is_none() {
         return Err(error("boundary and boundaryDiameter are for the outline of polygons: leave them out."));
     }
+    let treatment = treatment.unwrap_or(Treatment::of(settings.boundary));
+    if diameter.is_some() && treatment == Treatment::Report {
+        return Err(error(
+            "With boundary: \"report\" nothing is refined along the outline: leave boundaryDiameter out.",
+        ));
+    }
     let diameter = diameter
         .or(settings.boundary.diameter())
         .unwrap_or_else(|| BoundaryTreatment::usual_diameter(settings.domain.longest_on_earth(spacing)));
@@ -103,7 +109,7 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
     Ok(Settings {
         spacing,
         transfer,
-        boundary: treatment.unwrap_or(Treatment::of(settings.boundary)).with_diameter(diameter),
+        boundary: treatment.with_diameter(diameter),
         cleaning: kept(options)?.cleaning(settings.cleaning),
         gradation: options.number("gradation")?.or(settings.gradation),
         rule: options.word("rule", &rules)?.unwrap_or(settings.rule),
@@ -117,7 +123,7 @@ pub fn changed(options: Table<'_>, settings: Settings) -> Result<Settings, JsErr
 #[derive(Clone, Copy, Default)]
 pub struct Kept {
     parts: Option<KeptParts>,
-    pinches: bool,
+    pinches: Option<bool>,
 }
 
 impl Kept {
@@ -125,13 +131,13 @@ impl Kept {
     pub fn cleaning(self, usual: meshbrush_mesh::mesh::Cleaning) -> meshbrush_mesh::mesh::Cleaning {
         meshbrush_mesh::mesh::Cleaning {
             parts: self.parts.unwrap_or(usual.parts),
-            keeps_pinches: self.pinches || usual.keeps_pinches,
+            keeps_pinches: self.pinches.unwrap_or(usual.keeps_pinches),
         }
     }
 
     /// Returns this with what later options say.
     pub fn and(self, later: Self) -> Self {
-        Self { parts: later.parts.or(self.parts), ..later }
+        Self { parts: later.parts.or(self.parts), pinches: later.pinches.or(self.pinches) }
     }
 }
 
@@ -140,7 +146,7 @@ impl Kept {
 /// # Errors
 /// Fails for values that cannot be used.
 pub fn kept(options: Table<'_>) -> Result<Kept, JsError> {
-    let pinches = options.flag("keepPinches").unwrap_or(false);
+    let pinches = options.flag("keepPinches");
     let parts = match options.get("parts") {
         Some(value) if value.as_f64().is_some() => options
             .number_where(

@@ -77,7 +77,7 @@ class Document:
         boundary: str | None = None,
         boundary_diameter: Length | None = None,
         parts: str | float | None = None,
-        keep_pinches: bool = False,
+        keep_pinches: bool | None = None,
         unit: str | None = None,
         crs: str | None = None,
         projection: str | None = None,

@@ -219,10 +219,9 @@ impl Document {
             state.has_smallest |= saved.limits.h_min.is_some();
             state.max_level = saved.mesh.max_level.or(state.max_level);
             // What is said about parts counts for every domain.
-            if saved.domain.parts.is_some() {
-                state.parts.domain.parts = saved.domain.parts;
-            }
-            state.parts.domain.keep_pinches |= saved.domain.keep_pinches;
+            let parts = &mut state.parts.domain;
+            parts.parts = saved.domain.parts.or(parts.parts);
+            parts.keep_pinches = saved.domain.keep_pinches.or(parts.keep_pinches);
             Ok(())
         })
     }

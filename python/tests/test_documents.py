@@ -167,8 +167,14 @@ def test_parts_and_pinches_are_changed_and_undone() -> None:
             document.set(parts=parts, keep_pinches=parts == 0.2)
             meshes.append(document.mesh())
             assert round(meshes[-1].statistics["area"]) == area, (boundary, parts)
+        document.set(parts="all", keep_pinches=True)
+        kept = document.mesh()
+        document.set(keep_pinches=False)
+        assert len(document.mesh()) < len(kept), boundary
         if boundary == "report":
             continue
+        assert document.undo() and len(document.mesh()) == len(kept)
+        document.undo()
         for mesh in meshes[-2::-1]:
             assert document.undo() and len(document.mesh()) == len(mesh), boundary
         for mesh in meshes[1:]:

@@ -47,7 +47,7 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             boundary: typed.boundary.map(Into::into),
             boundary_diameter: value(&typed.boundary_diameter),
             parts: typed.parts.as_deref().map(parts).transpose()?,
-            keep_pinches: typed.keep_pinches,
+            keep_pinches: typed.keep_pinches.then_some(true),
             ..SavedDomain::default()
         },
         mesh: SavedMesh {

@@ -213,7 +213,7 @@ impl<L> SavedSettings<L> {
     pub fn cleaning(&self, usual: Cleaning) -> Cleaning {
         Cleaning {
             parts: self.domain.parts.map_or(usual.parts, Into::into),
-            keeps_pinches: self.domain.keep_pinches || usual.keeps_pinches,
+            keeps_pinches: self.domain.keep_pinches.unwrap_or(usual.keeps_pinches),
         }
     }
 }

@@ -74,7 +74,7 @@ fn domain(settings: &Settings, region_file: &str) -> SavedDomain {
             boundary: Some(SavedTreatment::of(settings.boundary)),
             boundary_diameter: settings.boundary.diameter(),
             parts: is_fitted.then(|| settings.cleaning.parts.into()),
-            keep_pinches: is_fitted && settings.cleaning.keeps_pinches,
+            keep_pinches: (is_fitted && settings.cleaning.keeps_pinches).then_some(true),
             ..rectangle
         },
     }

@@ -18,7 +18,7 @@ impl<L> SavedSettings<L> {
                 boundary: boundary.or(self.domain.boundary),
                 boundary_diameter: boundary_diameter.or(self.domain.boundary_diameter),
                 parts: parts.or(self.domain.parts),
-                keep_pinches: *keep_pinches || self.domain.keep_pinches,
+                keep_pinches: keep_pinches.or(self.domain.keep_pinches),
                 ..self.domain
             },
             mesh: SavedMesh {

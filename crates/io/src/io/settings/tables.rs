@@ -107,8 +107,8 @@ pub struct SavedDomain {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parts: Option<SavedParts>,
     /// Whether pinches stay.
-    #[serde(skip_serializing_if = "is_no")]
-    pub keep_pinches: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keep_pinches: Option<bool>,
     /// Where the boundary is split.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub splits: Vec<[f64; 2]>,
