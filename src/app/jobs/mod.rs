@@ -8,9 +8,10 @@
 //! ```
 //!
 //! Where the system starts no threads, as in a browser, each frame does some of the work before it begins: at
-//! least one slice, and for 8 ms at most where slices are short. While a button is held it pauses four times
-//! as long as it worked, so that painting stays fluent. Work that had a slice of more than 30 ms is left
-//! until there was no input for 400 ms, each slice for 10 s at most. Nothing waits then.
+//! least one slice, and for 8 ms at most where slices are short; for 14 ms where frames are slow and the hand
+//! rests. While a button is held it pauses four times as long as it worked, so that painting stays fluent.
+//! Work that had a slice of more than 30 ms is left until there was no input for 400 ms, each slice for 10 s
+//! at most. Nothing waits then.
 //!
 //! A [`Job`] belongs to the document that was open when it began, and to whoever holds it: dropped, it ends
 //! the work. So a window that is closed ends all work but the files that are being written.
@@ -48,7 +49,7 @@ use eframe::egui::Context;
 
 use inbox::Inbox;
 pub use job::{Job, Output, Taken, Wanted};
-use queue::{Queue, Ran, Turn};
+use queue::{Allowed, Queue, Ran, Turn};
 pub use slot::{Slice, Slot};
 pub use succession::Succession;
 use waker::Waker;
@@ -59,6 +60,10 @@ use meshbrush_mesh::mesh::Progress;
 
 /// How long a frame works on jobs where there are no threads for them.
 const SHARE: Duration = Duration::from_millis(8);
+/// The same for a frame that comes late, while the hand rests: where drawing takes long, frames are few.
+const SHARE_OF_SLOW_FRAMES: Duration = Duration::from_millis(14);
+/// A frame that comes so many seconds after the one before is late.
+const SLOW: f32 = 0.05;
 /// How many times as long it then pauses while a button is held.
 const PAUSE: u32 = 4;
 /// How long after the last input the hand counts as resting.
@@ -180,8 +185,10 @@ impl Jobs {
     /// Does some of the work that waits, where there are no threads.
     fn work_in_frame(&self) {
         let began = Instant::now();
-        let (draws, has_input) =
-            self.0.ctx.input(|input| (input.pointer.any_down(), !input.events.is_empty()));
+        let (draws, has_input, is_slow) = self.0.ctx.input(|input| {
+            let is_slow = input.unstable_dt > SLOW;
+            (input.pointer.any_down(), !input.events.is_empty(), is_slow)
+        });
         if draws || has_input {
             self.0.last_input.set(Some(began));
         }
@@ -193,9 +200,13 @@ impl Jobs {
         }
         let rests_from = self.0.last_input.get().map(|last| last + REST).filter(|_| !self.waits_for_all());
         let is_busy = rests_from.is_some_and(|time| time > began);
+        let allowed = if is_busy { Allowed::Short } else { Allowed::All };
         let mut ran = Ran::Slice;
         while ran == Ran::Slice && (began.elapsed() < SHARE || self.waits_for_all()) {
-            ran = self.0.queue.run_slice(&Kind::IN_FRAMES, is_busy);
+            ran = self.0.queue.run_slice(&Kind::IN_FRAMES, allowed);
+        }
+        if ran == Ran::Slice && !is_busy && is_slow {
+            self.work_on_until(began + SHARE_OF_SLOW_FRAMES);
         }
         self.0.pause_ends.set(Some(Instant::now() + PAUSE * began.elapsed()));
         match ran {
@@ -203,6 +214,12 @@ impl Jobs {
             Ran::Later => self.wake_after(REST.as_secs_f64()),
             Ran::Nothing => {}
         }
+    }
+
+    /// Does more slices, of work that is known to be done in time.
+    fn work_on_until(&self, end: Instant) {
+        let left = || end.saturating_duration_since(Instant::now());
+        while self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::Within(left())) == Ran::Slice {}
     }
 
     fn frame(&self) -> u64 {
@@ -316,7 +333,7 @@ impl Jobs {
         while !matches!(job.take_ready(), Taken::Ended) {
             if !self.is_without_threads() {
                 self.0.inbox.receive_within(Duration::MAX);
-            } else if self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice {
+            } else if self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::All) == Ran::Slice {
                 self.0.inbox.drain();
             } else {
                 return;
@@ -329,7 +346,7 @@ impl Jobs {
         if self.is_without_threads() {
             // What was requested in this frame is done in the next one, except where frames wait.
             let worked =
-                self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES, false) == Ran::Slice;
+                self.waits_for_all() && self.0.queue.run_slice(&Kind::IN_FRAMES, Allowed::All) == Ran::Slice;
             self.0.inbox.drain();
             return worked;
         }

@@ -47,6 +47,17 @@ pub enum Turn {
     GivenUp,
 }
 
+/// The work of which a slice may run.
+#[derive(Clone, Copy, Debug)]
+pub enum Allowed {
+    All,
+    /// What computes and writes only where no slice of work from the same source took long: which one will
+    /// depends on how much there is to do before it.
+    Short,
+    /// Only where no slice of work from the same source took longer, and some were run.
+    Within(Duration),
+}
+
 /// What became of a question for a slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ran {
@@ -77,11 +88,21 @@ struct State {
 }
 
 impl State {
-    /// Takes the oldest work of a kind; while the hand is `busy`, the oldest that is short.
-    fn take(&mut self, kind: Kind, busy: bool) -> Option<Work> {
-        let can_wait = busy && matches!(kind, Kind::Compute | Kind::Write);
-        let is_short = |work: &Work| self.longest.get(work.source).is_none_or(|longest| *longest < LONG);
-        let may_run = |work: &Work| !can_wait || is_short(work) || work.since.elapsed() > LONGEST_WAIT;
+    /// Takes the oldest work of a kind that is allowed.
+    fn take(&mut self, kind: Kind, allowed: Allowed) -> Option<Work> {
+        let can_wait = matches!(kind, Kind::Compute | Kind::Write);
+        let may_run = |work: &Work| {
+            let longest = self.longest.get(work.source);
+            match allowed {
+                Allowed::All => true,
+                Allowed::Short => {
+                    !can_wait
+                        || longest.is_none_or(|longest| *longest < LONG)
+                        || work.since.elapsed() > LONGEST_WAIT
+                }
+                Allowed::Within(time) => longest.is_some_and(|longest| *longest <= time),
+            }
+        };
         let at = self.waiting[kind as usize].iter().position(may_run)?;
         self.waiting[kind as usize].remove(at)
     }
@@ -129,11 +150,8 @@ impl Queue {
 
     /// Runs a slice of the oldest work of the first of these kinds that has some, on the calling thread. Work
     /// that is not done goes to the end of its row, so that others get their turn.
-    ///
-    /// While the hand is `busy`, what computes and writes is left where some slice of work from the same
-    /// source took long: which one will depends on how much there is to do before it.
-    pub fn run_slice(&self, kinds: &[Kind], busy: bool) -> Ran {
-        let next = |kind: &Kind| Some((*kind, self.0.lock().take(*kind, busy)?));
+    pub fn run_slice(&self, kinds: &[Kind], allowed: Allowed) -> Ran {
+        let next = |kind: &Kind| Some((*kind, self.0.lock().take(*kind, allowed)?));
         let Some((kind, mut work)) = kinds.iter().find_map(next) else {
             let state = self.0.lock();
             let is_left = kinds.iter().any(|&kind| !state.waiting[kind as usize].is_empty());
@@ -152,7 +170,7 @@ impl Queue {
     /// Waits until no work of a kind runs, or the time is over. Without threads it does the work.
     pub fn wait(&self, kind: Kind, longest: Duration) {
         if self.is_without_threads() {
-            while self.run_slice(&[kind], false) == Ran::Slice {}
+            while self.run_slice(&[kind], Allowed::All) == Ran::Slice {}
             return;
         }
         let deadline = Instant::now() + longest;

@@ -1,6 +1,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use eframe::egui::{Event, RawInput};
 use fastrand::Rng;
 
 use super::*;
@@ -198,12 +199,16 @@ fn values_of_each_job_come_in_their_order_whatever_the_order_of_the_jobs() {
     }
 }
 
-/// Work that takes longer than a frame has for it.
-fn long_slice() {
+fn work_for(time: Duration) {
     let began = Instant::now();
-    while began.elapsed() <= SHARE {
+    while began.elapsed() <= time {
         std::hint::spin_loop();
     }
+}
+
+/// Work that takes longer than a frame has for it.
+fn long_slice() {
+    work_for(SHARE);
 }
 
 #[test]
@@ -250,7 +255,7 @@ fn without_threads_long_work_waits_for_the_hand_to_rest_and_short_work_does_not(
             Turn::Done
         });
     };
-    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
+    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
     long();
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
     long();
@@ -279,7 +284,7 @@ fn without_threads_a_long_slice_is_expected_anywhere_in_work_that_had_one() {
             end
         });
     };
-    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, busy);
+    let run = |busy| queue.run_slice(&Kind::IN_FRAMES, if busy { Allowed::Short } else { Allowed::All });
     work(0, 60, Turn::Done);
     assert_eq!(run(true), Ran::Slice, "how long it takes is not known yet");
     work(3, 60, Turn::Done);
@@ -314,7 +319,7 @@ fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_
     let others = Jobs::new(&ctx);
     others.do_without_threads();
     for _ in 0..3 {
-        ctx.run_ui(eframe::egui::RawInput::default(), |_| {}).drop_without_applying_deltas();
+        ctx.run_ui(RawInput::default(), |_| {}).drop_without_applying_deltas();
     }
     assert!(!ctx.has_requested_repaint());
     let _job = others.start(Kind::Compute, |_: &Output<()>| {});
@@ -323,6 +328,37 @@ fn without_threads_short_work_is_done_together_files_first_and_dropped_work_not_
     let _writing = work(Kind::Write);
     jobs.wait_for_writing(Duration::ZERO);
     assert_eq!(done.lock().unwrap().len(), 4);
+}
+
+/// Unsaved work is packed in slices: where drawing is slow, it is kept after few frames.
+#[test]
+fn without_threads_a_slow_frame_does_more_slices_while_the_hand_rests() {
+    let slices_in_a_frame_after = |seconds: f64, events: Vec<Event>| {
+        let ctx = Context::default();
+        let jobs = Jobs::new(&ctx);
+        jobs.do_without_threads();
+        let done = Arc::new(AtomicUsize::new(0));
+        let count = done.clone();
+        let slice = move |_: &mut (), _: &Output<()>| {
+            work_for(Duration::from_millis(3));
+            count.fetch_add(1, Ordering::Relaxed);
+            Progress::More
+        };
+        let _job = jobs.start_in_slices(Kind::Write, || Some(()), slice);
+        let frame = |time: f64, events| {
+            let input = RawInput { time: Some(time), events, ..Default::default() };
+            let before = done.load(Ordering::Relaxed);
+            ctx.run_ui(input, |_| jobs.begin_frame(time)).drop_without_applying_deltas();
+            done.load(Ordering::Relaxed) - before
+        };
+        frame(0.0, Vec::new());
+        frame(seconds, events)
+    };
+    let moved = || vec![Event::PointerMoved(eframe::egui::pos2(5.0, 5.0))];
+    assert!(slices_in_a_frame_after(0.016, Vec::new()) <= 3);
+    assert!(slices_in_a_frame_after(0.3, moved()) <= 3);
+    // Where other work of the machine delays a slice, a frame has no time for the next one.
+    assert!((0..100).any(|_| slices_in_a_frame_after(0.3, Vec::new()) == 4));
 }
 
 #[test]
