@@ -310,7 +310,16 @@ pub struct Packing {
 impl Packing {
     /// Creates a part without bytes.
     pub fn new() -> Self {
-        Self { packed: DeflateEncoder::new(Vec::new(), Compression::new(4)), crc: Hasher::new(), size: 0 }
+        Self::by(Compression::new(4))
+    }
+
+    /// Creates a part that is packed in less time, into more bytes.
+    pub fn quick() -> Self {
+        Self::by(Compression::fast())
+    }
+
+    fn by(level: Compression) -> Self {
+        Self { packed: DeflateEncoder::new(Vec::new(), level), crc: Hasher::new(), size: 0 }
     }
 
     /// Returns the packed bytes, and the number and CRC-32 of the bytes before packing.
