@@ -109,6 +109,23 @@ async function until(what, condition) {
   throw new Error(`${what}: waited for 30 s in vain`);
 }
 
+/** Waits until the storage of the browser has unsaved work. Returns how long that took, in milliseconds. */
+async function kept(page) {
+  const began = Date.now();
+  const hasWork = () => page.evaluate(() => new Promise((done) => {
+    const request = indexedDB.open("meshbrush", 1);
+    request.onsuccess = () => {
+      const count = request.result.transaction("work").objectStore("work").count();
+      count.onsuccess = () => {
+        request.result.close();
+        done(count.result > 0);
+      };
+    };
+  }));
+  await until("the work is kept", hasWork);
+  return Date.now() - began;
+}
+
 /** Opens an example in the place of another document, and returns the fingerprint of its mesh. */
 async function openedExample(page, name) {
   const before = await settled(page);
@@ -237,7 +254,7 @@ const tests = {
     await settled(page);
     await paint(page);
     const painted = await settled(page);
-    await sleep(2000);
+    console.log(`    unsaved work is kept after ${await kept(page)} ms`);
     await page.reload();
     const fresh = await settled(page);
     assert.notEqual(fresh, painted);

@@ -45,7 +45,7 @@ export function forget(tab) {
 /** Returns whether a tab is gone. One that was just left or loaded again holds its lock a moment longer. */
 async function isGone(tab) {
   try {
-    await navigator.locks?.request(`${DATABASE} ${tab}`, { signal: AbortSignal.timeout(2000) }, () => {});
+    await navigator.locks?.request(`${DATABASE} ${tab}`, { signal: AbortSignal.timeout(5000) }, () => {});
     return true;
   } catch {
     return false;
