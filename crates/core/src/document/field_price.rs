@@ -23,7 +23,7 @@ impl FieldPrice {
     /// of the domain.
     pub(super) fn new(field: Arc<SizeField>, area: &Rect, follower: &Follower) -> Option<Self> {
         let area = follower.field().lattice().rect_around(area)?;
-        let forecast = Forecast::new(follower.mesh(), area, &follower.settings().limits());
+        let forecast = Forecast::new(area, &follower.settings().limits());
         Some(Self { field, known: SettledPool::default(), forecast })
     }
 

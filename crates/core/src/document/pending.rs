@@ -1,10 +1,10 @@
-//! The changes that the shown mesh does not have yet, as far as knowing them makes tests of triangles
-//! cheaper.
+//! The changes that the shown mesh does not have yet, or that a stroke would make, as far as knowing them
+//! makes tests of triangles cheaper.
 
 use std::sync::Arc;
 
-use crate::layers::{LayerId, PaintChange, SettledPool, SizeField};
-use crate::mesh::TargetChange;
+use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SizeField};
+use crate::mesh::{ChangedArea, TargetChange};
 
 /// The changes since the shown mesh was up to date, and the answers of the fields that decide about them.
 #[derive(Clone, Debug, Default)]
@@ -28,13 +28,18 @@ struct Alone {
 }
 
 impl Pending {
-    /// Notes that paint has changed; `was_in_step` says whether the mesh was in step before.
-    pub(super) fn paint(&mut self, was_in_step: bool, changes: &[PaintChange], field: &Arc<SizeField>) {
+    /// Forgets what fields have answered where pixels have changed.
+    pub(super) fn forget(&mut self, changes: &[PaintChange], field: &SizeField) {
         let areas = || changes.iter().map(|change| change.area);
         self.known.all_mut().iter_mut().for_each(|squares| field.forget(squares, areas()));
         if let Some(Alone { field, known, .. }) = &mut self.alone {
             known.all_mut().iter_mut().for_each(|squares| field.forget(squares, areas()));
         }
+    }
+
+    /// Notes that paint has changed; `was_in_step` says whether the mesh was in step before.
+    pub(super) fn paint(&mut self, was_in_step: bool, changes: &[PaintChange], field: &Arc<SizeField>) {
+        self.forget(changes, field);
         let is_finer = changes.iter().all(|change| change.change == TargetChange::Finer);
         let layers = is_finer.then(|| changes.iter().map(|change| change.layer).collect());
         self.finer(was_in_step, layers, field);
@@ -75,9 +80,18 @@ impl Pending {
         self.finer = self.alone.is_some().then_some(layers);
     }
 
-    /// Returns what the field of all layers has answered.
-    pub(super) fn known(&self) -> &SettledPool {
-        &self.known
+    /// Returns where and how h̄ of the field of all layers can have changed after pixels changed, which this
+    /// has noted.
+    pub(super) fn changed_areas(
+        &self,
+        changes: &[PaintChange],
+        field: &SizeField,
+        paint: &PaintLayers,
+    ) -> Vec<ChangedArea> {
+        let mut squares = self.known.take();
+        let areas = field.changes_by_paint(&mut squares, changes, paint);
+        self.known.put_back(squares);
+        areas
     }
 
     /// Returns the field that says which triangles of the shown mesh exceed their targets, and what it has

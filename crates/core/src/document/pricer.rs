@@ -1,8 +1,11 @@
+use std::sync::Arc;
+
 use super::pace::questions_per_thread;
+use super::pending::Pending;
 use super::{Document, Follower};
 use crate::build::RefinementCriterion;
 use crate::geometry::Rect;
-use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SettledSquares, SizeField};
+use crate::layers::{LayerId, PaintChange, PaintLayers, SizeField};
 use crate::mesh::{Forecast, Progress};
 use crate::paint::{Preview, Repaint, StrokePlan};
 
@@ -17,6 +20,32 @@ pub struct Pricer {
     work: Work,
     /// What the last price was counted in: its memory is used again.
     counted: Option<Forecast>,
+    answers: Answers,
+}
+
+/// What a field has answered, with the pixels that the last stroke would paint.
+#[derive(Clone, Debug, Default)]
+struct Answers {
+    planned: Pending,
+    /// What the last stroke would change.
+    changes: Vec<PaintChange>,
+    /// The field and the revision of the document.
+    of: Option<(Arc<SizeField>, u64)>,
+}
+
+impl Answers {
+    /// Keeps the answers that are the same with another stroke.
+    fn plan(&mut self, changes: Vec<PaintChange>, field: Arc<SizeField>, document: u64) {
+        let is_same =
+            |(of, revision): &(Arc<SizeField>, u64)| Arc::ptr_eq(of, &field) && *revision == document;
+        if self.of.as_ref().is_some_and(is_same) {
+            self.planned.forget(&self.changes, &field);
+        } else {
+            self.planned.anything();
+        }
+        self.planned.paint(true, &changes, &field);
+        (self.changes, self.of) = (changes, Some((field, document)));
+    }
 }
 
 /// A planned stroke, and what its price depends on: the price is valid as long as none of this changes.
@@ -43,8 +72,6 @@ enum Work {
 struct Counting {
     forecast: Forecast,
     paint: PaintLayers,
-    /// What the field has answered with this paint.
-    known: SettledPool,
 }
 
 /// The effect of a stroke on the number of triangles.
@@ -168,20 +195,20 @@ impl Pricer {
             .iter()
             .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
             .collect();
-        let affected = field.changes_by_paint(&mut SettledSquares::default(), &painted, &paint);
+        self.answers.plan(painted, follower.shared_field(), question.document);
+        let Answers { planned, changes, .. } = &self.answers;
+        let affected = planned.changed_areas(changes, field, &paint);
         let limits = follower.settings().limits();
         let forecast = match self.counted.take() {
-            Some(memory) => Forecast::of_changes_in(memory, follower.mesh(), affected, &limits),
-            None => Forecast::of_changes(follower.mesh(), affected, &limits),
+            Some(memory) => Forecast::of_changes_in(memory, affected, &limits),
+            None => Forecast::of_changes(affected, &limits),
         };
         match forecast {
             None if changed.iter().all(|repaint| !meets(&repaint.area, field)) => {
                 Work::Known(Price::Nothing(NoChange::OutsideField))
             }
             None => Work::Known(Price::Nothing(why_nothing(question, &paint, follower))),
-            Some(forecast) => {
-                Work::Counting(Box::new(Counting { forecast, paint, known: SettledPool::default() }))
-            }
+            Some(forecast) => Work::Counting(Box::new(Counting { forecast, paint })),
         }
     }
 
@@ -192,11 +219,12 @@ impl Pricer {
         follower: &Follower,
         budget: usize,
     ) -> Work {
-        let Counting { forecast, paint, known } = &mut *counting;
+        let Counting { forecast, paint } = &mut *counting;
         let domain = follower.domain();
-        let criterion = RefinementCriterion::by_area(domain, follower.field(), paint);
+        let (field, known) = self.answers.planned.field(follower.field());
+        let criterion = RefinementCriterion::by_area(domain, field, paint);
         let is_in_domain = |corners, _| !domain.excludes_at(corners);
-        let fewest = questions_per_thread(budget, follower.field());
+        let fewest = questions_per_thread(budget, field);
         let progress =
             forecast.advance(follower.mesh(), &criterion.shared_with(known, fewest), is_in_domain, budget);
         let price = match price_of(progress, forecast) {

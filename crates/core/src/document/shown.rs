@@ -11,10 +11,11 @@ use super::{Document, Settings};
 use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
 use crate::domain::DomainOnLattice;
 use crate::field::RefinementRule;
+use crate::geometry::LatticePoint;
 use crate::layers::{PaintChange, PaintLayers, SizeField};
 use crate::mesh::{
-    ChangedArea, ChangedAreas, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule,
-    TreeTriangle, TriangleId, Updater,
+    ChangedArea, Changes, Mesh, MeshCopy, Progress, RefineError, RuleAnswers, SharedRule, TreeTriangle,
+    TriangleId, Updater,
 };
 use crate::surface::{SurfaceRule, SurfaceSamples};
 
@@ -63,14 +64,13 @@ const DEARER: usize = 8;
 fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &RefinementCriterion<'_>) -> bool {
     let rule = criterion.shared();
     let mut answers = rule.answers();
-    let mut areas = ChangedAreas::new(areas.to_vec());
     let mut exceeds = |corners, level| answers.exceeds(corners, level).unwrap_or(false);
     let count = mesh.raw_triangle_count();
     let (mut asked, mut loose, mut changed) = (0, 0, 0);
     for index in (0..count).step_by(count.div_ceil(SAMPLE).max(1)) {
         let triangle = TreeTriangle::of(mesh, TriangleId::from_index(index));
         let (corners, level) = (triangle.corners(), triangle.level());
-        let [asks, loosens] = areas.concerns(mesh, corners, level);
+        let [asks, loosens] = concerns(areas, mesh, corners, level);
         let parent = triangle.parent(mesh.lattice()).filter(|_| loosens);
         asked += usize::from(asks);
         loose += usize::from(loosens);
@@ -80,6 +80,15 @@ fn is_dearer_than_another(areas: &[ChangedArea], mesh: &Mesh, criterion: &Refine
         );
     }
     2 * asked + loose > SAMPLE || DEARER * changed > SAMPLE
+}
+
+/// Returns what [`ChangedArea::concerns`] does, for the changes of all areas together.
+fn concerns(areas: &[ChangedArea], mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
+    let touched = areas.iter().filter(|area| area.rect.touches(corners));
+    touched.fold([false; 2], |found, area| {
+        let [asks, loosens] = area.concerns(mesh, corners, level);
+        [found[0] || asks, found[1] || loosens]
+    })
 }
 
 impl Shown {
@@ -108,9 +117,7 @@ impl Shown {
             _ if self.settings.has_surface() => self.upkeep = Upkeep::NewMesh,
             RefinementRule::Area => {
                 self.pending.paint(self.updater.is_done(), changes, &self.field);
-                let mut squares = self.pending.known().take();
-                let areas = self.field.changes_by_paint(&mut squares, changes, paint);
-                self.pending.known().put_back(squares);
+                let areas = self.pending.changed_areas(changes, &self.field, paint);
                 areas.into_iter().for_each(|area| self.updater.add_area(area));
             }
             RefinementRule::Vertex => self.upkeep = Upkeep::NewMesh,

@@ -1,19 +1,19 @@
 //! The areas of the lattice in which the mesh must be checked again after an edit.
 
 use super::difference::Circumstances;
-use super::engine::KnownParts;
+use super::engine::asked::Share;
 use super::engine::cells::Cells;
+use super::engine::counting::Counting;
 use super::extent::joined;
+use super::paint_reach::Repainted;
 use super::reach::Reach;
 use super::{Combine, Layer, LayerId, PaintLayers, Quantity, SettledSquares, SizeField};
 use crate::geometry::{LatticeRect, Rect};
 use crate::mesh::{ChangedArea, Falloff, TargetChange};
 use crate::raster::ValueRange;
 
-/// Most rectangles of one step of an edit, where gradation carries each of them farther.
-const MOST_GRADED: usize = 8;
-/// Rectangles are joined to one where it is at most so many times as large as they are together.
-const MOST_EMPTY: f64 = 2.0;
+/// How often a rectangle is divided in quarters to leave out parts that other layers decide.
+const DEEPEST: u32 = 2;
 
 /// A part of a paint layer that was painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,35 +28,53 @@ pub struct PaintChange {
     pub change: TargetChange,
 }
 
-/// Few rectangles that cover others: those whose reaches overlap would be searched several times.
-fn near_joined(rects: Vec<Rect>) -> Vec<Rect> {
-    let area = |rect: &Rect| rect.size().element_product();
-    let covered: f64 = rects.iter().map(area).sum();
-    match rects.iter().copied().reduce(|a, b| a.union(&b)) {
-        Some(around) if area(&around) <= MOST_EMPTY * covered => vec![around],
-        _ => joined(rects, MOST_GRADED),
-    }
+/// How rectangles are joined.
+#[derive(Clone, Copy)]
+struct Joining {
+    /// One takes the place of all where it is at most so many times as large as they are together.
+    most_empty: f64,
+    /// The most rectangles that are left.
+    most: usize,
 }
 
-/// Few changes that cover others, each of one layer and in one direction.
-fn near_changes_joined(painted: &[PaintChange]) -> Vec<PaintChange> {
-    let mut groups: Vec<Vec<PaintChange>> = Vec::new();
-    for one in painted {
-        let is_alike = |group: &&mut Vec<PaintChange>| {
-            group.first().is_some_and(|first| first.layer == one.layer && first.change == one.change)
-        };
-        match groups.iter_mut().find(is_alike) {
-            Some(group) => group.push(*one),
-            None => groups.push(vec![*one]),
+/// Without gradation, only rectangles that overlap are joined.
+const OVERLAPPING: Joining = Joining { most_empty: 1.0 + 1e-9, most: usize::MAX };
+
+/// With gradation, the reaches of near rectangles overlap, and would be searched several times.
+const NEAR: Joining = Joining { most_empty: 2.0, most: 8 };
+
+impl Joining {
+    /// Returns few rectangles that cover others.
+    fn of(self, rects: Vec<Rect>) -> Vec<Rect> {
+        let area = |rect: &Rect| rect.size().element_product();
+        let covered: f64 = rects.iter().map(area).sum();
+        match rects.iter().copied().reduce(|a, b| a.union(&b)) {
+            Some(around) if area(&around) <= self.most_empty * covered => vec![around],
+            _ => joined(rects, self.most),
         }
     }
-    let of_group = |group: Vec<PaintChange>| {
-        let all = group.iter().copied().reduce(|a, b| PaintChange { before: a.before.union(b.before), ..a });
-        let rects = near_joined(group.iter().map(|one| one.area).collect());
-        all.into_iter()
-            .flat_map(move |all| rects.clone().into_iter().map(move |area| PaintChange { area, ..all }))
-    };
-    groups.into_iter().flat_map(of_group).collect()
+
+    /// Returns few changes that cover others, each of one layer and in one direction.
+    fn of_changes(self, painted: &[PaintChange]) -> Vec<PaintChange> {
+        let mut groups: Vec<Vec<PaintChange>> = Vec::new();
+        for one in painted {
+            let is_alike = |group: &&mut Vec<PaintChange>| {
+                group.first().is_some_and(|first| first.layer == one.layer && first.change == one.change)
+            };
+            match groups.iter_mut().find(is_alike) {
+                Some(group) => group.push(*one),
+                None => groups.push(vec![*one]),
+            }
+        }
+        let of_group = |group: Vec<PaintChange>| {
+            let all =
+                group.iter().copied().reduce(|a, b| PaintChange { before: a.before.union(b.before), ..a });
+            let rects = self.of(group.iter().map(|one| one.area).collect());
+            all.into_iter()
+                .flat_map(move |all| rects.clone().into_iter().map(move |area| PaintChange { area, ..all }))
+        };
+        groups.into_iter().flat_map(of_group).collect()
+    }
 }
 
 /// Returns whether diameters follow from what is painted on a layer.
@@ -80,12 +98,12 @@ impl SizeField {
         let mut changes = Vec::new();
         for step in self.spec().difference(old.spec(), &circumstances) {
             let rects = step.area.rects_within(self.lattice().bounds());
-            let rects = if old.slope().is_some() { near_joined(rects) } else { rects };
+            let rects = if old.slope().is_some() { NEAR.of(rects) } else { rects };
             for core in rects.iter().filter_map(|rect| self.core(rect)) {
                 let asked = [old, self].map(|field| field.least_asked(step.layer, core, paint));
                 let least = self.least_diameter(asked[0].min(asked[1]), old);
                 // Another limit of the slope is a step of its own, which changes h̄ everywhere.
-                changes.extend(old.reached(core, least, [old, self], (paint, None), step.change));
+                changes.extend(old.reached(core, least, [old, self], paint, step.change));
             }
         }
         changes.dedup();
@@ -122,38 +140,79 @@ impl SizeField {
         painted: &[PaintChange],
         paint: &PaintLayers,
     ) -> Vec<ChangedArea> {
-        let changes = match self.slope() {
-            Some(_) => near_changes_joined(painted),
-            None => painted.to_vec(),
-        };
+        let joining = if self.slope().is_some() { NEAR } else { OVERLAPPING };
+        let changes = joining.of_changes(painted);
         squares.make_room();
         let cores: Vec<Cells> = changes.iter().filter_map(|painted| self.core(&painted.area)).collect();
-        let changed = |painted| self.changes_by_one(painted, paint, (&cores, &mut squares.known));
-        changes.iter().flat_map(changed).collect()
+        let others = self.all_but(changes.iter().map(|painted| painted.layer));
+        let known = &mut squares.known;
+        let mut areas = Vec::new();
+        for painted in &changes {
+            let Some((core, least, change)) = self.changed_core(painted, paint) else { continue };
+            let cells = match self.slope() {
+                _ if least >= self.longest() => Vec::new(),
+                None => self.parts_above(core, least, (others, paint)),
+                Some(slope) => {
+                    Repainted { field: self, paint, slope, cores: &cores, others, known }.reach(core, least)
+                }
+            };
+            areas.extend(self.changed_areas(cells, (core, least), change));
+        }
+        areas
     }
 
-    /// Returns the areas of [`Self::changes_by_paint`] for one change; none if the field has no such layer.
+    /// Returns the layers without some; `None` if h̄ can be greater than with the others alone, or they
+    /// cannot be counted.
+    fn all_but(&self, layers: impl Iterator<Item = LayerId>) -> Option<Counting> {
+        let mut others = Counting::ALL;
+        for id in layers {
+            let number = self.compiled().iter().position(|compiled| compiled.id == id);
+            // A hidden layer never counts.
+            let Some(number) = number else { continue };
+            others = others.without(number);
+            if others.has(number) || !self.compiled()[number].is_plain() {
+                return None;
+            }
+        }
+        self.spec().is_ordered(self.longest()).then_some(others)
+    }
+
+    /// Returns the parts of some cells in which layers that have not changed can ask for more than a
+    /// diameter: elsewhere it does not matter if another layer asks for that.
+    fn parts_above(
+        &self,
+        cells: Cells,
+        diameter: f64,
+        (others, paint): (Option<Counting>, &PaintLayers),
+    ) -> Vec<Cells> {
+        let Some(others) = others.filter(|&others| self.counting(others).next().is_some()) else {
+            return vec![cells];
+        };
+        let mut parts = Vec::new();
+        let above = |cells: &Cells| match self.diameters(paint, cells, others).0 {
+            [_, greatest] if greatest <= diameter => Share::None,
+            [least, _] if least > diameter => Share::All,
+            _ => Share::Some,
+        };
+        cells.add_parts(DEEPEST, &above, &mut parts);
+        parts
+    }
+
+    /// Returns the cells in which pixels have changed, the least diameter before and after, and how diameters
+    /// have changed; `None` if the field has no such layer.
     ///
     /// A change to smaller diameters ends, and one to larger diameters begins, with what is asked for now and
     /// before.
-    fn changes_by_one(
-        &self,
-        painted: &PaintChange,
-        paint: &PaintLayers,
-        repainted: (&[Cells], &mut KnownParts),
-    ) -> Vec<ChangedArea> {
+    fn changed_core(&self, painted: &PaintChange, paint: &PaintLayers) -> Option<(Cells, f64, TargetChange)> {
         let PaintChange { layer, area, before, change } = painted;
         let stack = self.spec().layers.iter();
-        let Some(layer) =
-            stack.filter(|other| other.visible && asks_for_diameters(other)).find(|l| l.id == *layer)
-        else {
-            return Vec::new();
-        };
+        let layer =
+            stack.filter(|other| other.visible && asks_for_diameters(other)).find(|l| l.id == *layer)?;
         let area = match &layer.mask {
             Some(mask) => area.intersection(&mask.bounds()),
             None => Some(*area),
         };
-        let Some(core) = area.and_then(|area| self.core(&area)) else { return Vec::new() };
+        let core = self.core(&area?)?;
         let is_ordered = layer.combine == Combine::Finest && self.spec().is_ordered(self.longest());
         let (asked, change) = match change {
             _ if !is_ordered => (0.0, TargetChange::Any),
@@ -169,8 +228,7 @@ impl SizeField {
                 (asked, *change)
             }
         };
-        let least = self.least_diameter(asked, self);
-        self.reached(core, least, [self, self], (paint, Some(repainted)), change).collect()
+        Some((core, self.least_diameter(asked, self), change))
     }
 
     /// Returns the least diameter that a layer asks for in some cells, in world units; 0 without a layer, and
@@ -194,25 +252,31 @@ impl SizeField {
         core: Cells,
         least: f64,
         fields: [&Self; 2],
-        (paint, repainted): (&PaintLayers, Option<(&[Cells], &mut KnownParts)>),
+        paint: &PaintLayers,
         change: TargetChange,
     ) -> impl Iterator<Item = ChangedArea> + use<> {
-        let extent = self.lattice().extent();
         let cells = match self.slope() {
             _ if least >= self.longest() => Vec::new(),
             None => vec![core],
-            Some(slope) => Reach { fields, paint, slope, repainted }.of(core, least),
+            Some(slope) => Reach { fields, paint, slope }.of(core, least),
         };
+        self.changed_areas(cells, (core, least), change)
+    }
+
+    /// Returns cells that a change of a core affects, as areas of the mesh.
+    fn changed_areas(
+        &self,
+        cells: Vec<Cells>,
+        (core, least): (Cells, f64),
+        change: TargetChange,
+    ) -> impl Iterator<Item = ChangedArea> + use<> {
+        let extent = self.lattice().extent();
         let closed = move |cells: Cells| LatticeRect::from(cells).expanded(1, extent);
         // The updater compares it with diameters in the plane.
         let scale = self.edge_lengths().least_scale();
         let slope = scale * self.slope().unwrap_or(0.0);
-        let falloff = Falloff { core: closed(core), least: scale * least, slope };
-        cells.into_iter().map(move |cells| ChangedArea {
-            rect: closed(cells),
-            change,
-            falloff: Some(falloff),
-        })
+        let falloff = Some(Falloff { core: closed(core), least: scale * least, slope });
+        cells.into_iter().map(move |cells| ChangedArea { rect: closed(cells), change, falloff })
     }
 
     /// Returns the cells that are told what is at some point of a rectangle in world units.
@@ -275,7 +339,7 @@ mod tests {
                 SizeFieldSpec { layers, transfer, unasked: 0.07, outline: None, gradation, projection: None };
             let field = SizeField::new(spec, &lattice);
             let (core, change) = (field.core(&edited).unwrap(), TargetChange::Any);
-            let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], (&paint, None), change).collect();
+            let areas: Vec<_> = field.reached(core, 0.01, [&field, &field], &paint, change).collect();
             let least = areas.iter().map(|area| area.rect.min.x).min();
             let most = areas.iter().map(|area| area.rect.max.x).max();
             f64::from(most.unwrap() - least.unwrap()) * lattice.step().x

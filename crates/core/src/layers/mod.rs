@@ -18,6 +18,7 @@ mod model_tests;
 mod models;
 mod node_depths;
 mod paint_layers;
+mod paint_reach;
 mod reach;
 mod risk;
 mod risk_model;

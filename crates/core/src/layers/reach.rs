@@ -17,11 +17,9 @@
 //!
 //! A rectangle around the core is divided, and the parts without such points are left out.
 
-use super::engine::KnownParts;
+use super::engine::asked::Share;
 use super::engine::cells::Cells;
 use super::engine::counting::Counting;
-use super::engine::gradation::{Elsewhere, most_from_elsewhere};
-use super::engine::parts::PartId;
 use super::{PaintLayers, SizeField};
 use crate::geometry::Lattice;
 
@@ -32,30 +30,21 @@ pub struct Reach<'a> {
     pub paint: &'a PaintLayers,
     /// Largest change of h̄ per unit of length.
     pub slope: f64,
-    /// Where only pixels have changed: all cores, and what is known of the one field.
-    pub repainted: Option<(&'a [Cells], &'a mut KnownParts)>,
 }
 
 /// How often the rectangle around the core is made smaller as a whole.
 const MOST_ROUNDS: usize = 8;
-/// How often the rectangle is divided in quarters where two fields are compared.
+/// How often the rectangle is divided in quarters.
 const DEEPEST: u32 = 4;
-/// How often it is divided where what is carried from elsewhere is known.
-const DEEPEST_REPAINTED: u32 = 5;
 
 impl Reach<'_> {
     /// Returns the cells that an edit of a core can affect. `least` is the least diameter within the core
     /// before and after, in world units.
-    pub fn of(&mut self, core: Cells, least: f64) -> Vec<Cells> {
+    pub fn of(&self, core: Cells, least: f64) -> Vec<Cells> {
         let Some(around) = self.around(&core, least) else { return vec![core] };
-        let mut parts = vec![core];
-        if around != core {
-            let (depth, sources) = match &mut self.repainted {
-                None => (DEEPEST, Vec::new()),
-                Some((_, known)) => (DEEPEST_REPAINTED, vec![known.whole(self.fields[0])]),
-            };
-            self.divide(&around, (&core, least), &sources, depth, &mut parts);
-        }
+        let mut parts = Vec::new();
+        let affected = |cells: &Cells| self.affected(cells, (&core, least));
+        around.add_parts(DEEPEST, &affected, &mut parts);
         parts
     }
 
@@ -79,63 +68,16 @@ impl Reach<'_> {
         (greatest.min(self.longest()) * (1.0 + 1e-9) - least).max(0.0) / self.slope
     }
 
-    /// Adds the parts of a rectangle that can have affected cells. Returns whether it added the whole.
-    /// `sources` hold what is carried to the rectangle from elsewhere.
-    fn divide(
-        &mut self,
-        cells: &Cells,
-        edit: (&Cells, f64),
-        sources: &[PartId],
-        depth: u32,
-        parts: &mut Vec<Cells>,
-    ) -> bool {
-        let Some(sources) = self.affects(cells, edit, sources) else { return false };
-        let middle = [0, 1].map(|axis: usize| cells.min[axis].midpoint(cells.max[axis]));
-        let can_divide = [0, 1].iter().all(|&axis| cells.min[axis] < middle[axis]);
-        if depth == 0 || !can_divide {
-            parts.push(*cells);
-            return true;
-        }
-        let first = parts.len();
-        let quarters = [[false, false], [true, false], [false, true], [true, true]];
-        let whole = quarters
-            .map(|upper| self.divide(&cells.quarter(middle, upper), edit, &sources, depth - 1, parts));
-        if whole == [true; 4] {
-            parts.truncate(first);
-            parts.push(*cells);
-        }
-        whole == [true; 4]
-    }
-
-    /// Returns the parts from which the same is carried to a rectangle before and after an edit of a core;
-    /// `None` if the edit affects no cell of the rectangle.
-    fn affects(
-        &mut self,
-        cells: &Cells,
-        (core, least): (&Cells, f64),
-        sources: &[PartId],
-    ) -> Option<Vec<PartId>> {
+    /// Returns the share of some cells that an edit of a core can affect.
+    fn affected(&self, cells: &Cells, (core, least): (&Cells, f64)) -> Share {
         let distance = distance_between(cells, core, self.lattice());
-        let Some((changed, known)) = &mut self.repainted else {
-            let is_near = distance <= self.farthest(least, self.bounds(cells)[1]);
-            return is_near.then(Vec::new);
-        };
-        let ([field, _], slope) = (self.fields, self.slope);
-        // A little less, for rounding errors.
-        let limit = (least + slope * distance) * (1.0 - 1e-9);
-        let elsewhere = Elsewhere { field, paint: self.paint, slope, changed };
-        (limit < field.longest())
-            .then(|| most_from_elsewhere(&elsewhere, known, (cells, sources), limit))
-            .flatten()
+        Share::of(distance <= self.farthest(least, self.bounds(cells)[1])).masked()
     }
 
     /// Returns the least and the greatest diameter before gradation in some cells, in world units.
     fn bounds(&self, cells: &Cells) -> [f64; 2] {
         let [old, new] = self.fields;
         let [low, high] = old.diameters(self.paint, cells, Counting::ALL).0;
-        if std::ptr::eq(old, new) {
-            return [low, high];
-        }
         // Other limits are a step of their own, which changes h̄ everywhere.
         let [new_low, new_high] = old.limited_diameters(new.asked_diameters(self.paint, cells).0);
         [low.min(new_low), high.max(new_high)]
@@ -160,7 +102,7 @@ fn cells_within(core: &Cells, distance: f64, lattice: &Lattice) -> Option<Cells>
 }
 
 /// Returns the distance between two closed rectangles of cells, in world units.
-fn distance_between(a: &Cells, b: &Cells, lattice: &Lattice) -> f64 {
+pub(super) fn distance_between(a: &Cells, b: &Cells, lattice: &Lattice) -> f64 {
     let gap =
         [0, 1].map(|axis: usize| (a.min[axis] - b.max[axis]).max(b.min[axis] - a.max[axis]).max(0) as f64);
     (glam::DVec2::from(gap) * lattice.step()).length()

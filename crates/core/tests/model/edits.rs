@@ -31,6 +31,7 @@ struct Seen {
     edits: usize,
     changes_within: usize,
     compared: usize,
+    priced: usize,
 }
 
 /// Edits a document: one to three edits between two slices of the follower, which is stopped anywhere.
@@ -68,6 +69,7 @@ fn edit(seed: u64, scale: Scale, seen: &mut Seen) -> Vec<(Settings, Fingerprint)
     seen.edits += edits;
     seen.changes_within += driver.changes_within;
     seen.compared += driver.compared;
+    seen.priced += driver.priced;
     driver.rests
 }
 
@@ -106,11 +108,12 @@ fn run(scale: Scale, usual: u64) {
             break;
         }
     }
-    let Seen { edits, changes_within, compared } = seen;
+    let Seen { edits, changes_within, compared, priced } = seen;
     assert!(
         changes_within > edits / 10 && compared > edits / 8,
         "of {edits} edits, {changes_within} slices changed the mesh in place, and {compared} meshes were compared"
     );
+    assert!(2 * priced > compared, "of {compared} meshes, {priced} prices were compared");
 }
 
 #[test]

@@ -27,6 +27,7 @@ mod open_boundary;
 mod operations;
 mod outline;
 mod outline_follower;
+mod paint_areas;
 mod path;
 mod path_bounds;
 mod path_choices;

@@ -30,10 +30,10 @@ pub use extract::{
     PatchTriangle, Replacement,
 };
 pub use kernel::{
-    Answer, BlockRefiner, ChangedArea, ChangedAreas, Changes, CoarseError, Element, Falloff, InvalidTarget,
-    LevelsWithin, Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation,
-    ProgramAllocator, Progress, RefineError, Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle,
-    Triangle, TriangleId, Updater, bisection_edge_length, level_for_diameter,
+    Answer, BlockRefiner, ChangedArea, Changes, CoarseError, Element, Falloff, InvalidTarget, LevelsWithin,
+    Limits, MOST_TRIANGLES, MemoryLimit, Mesh, MeshCopy, Neighbour, NodeId, Orientation, ProgramAllocator,
+    Progress, RefineError, Refiner, RuleAnswers, SharedRule, TargetChange, TreeTriangle, Triangle,
+    TriangleId, Updater, bisection_edge_length, level_for_diameter,
 };
 pub use query::{
     Adjacency, Cause, Census, Cleaning, Fingerprint, Forecast, KeptParts, Location, Locator, PatchedLocator,

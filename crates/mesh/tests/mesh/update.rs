@@ -341,13 +341,10 @@ fn a_forecast_is_what_the_update_then_does() {
             let changes = edit(&mut random, &mut spots, &mesh);
             let before = mesh.raw_triangle_count();
             let mut forecast = match (random.u8(..3), memory.take()) {
-                (0, _) => Forecast::new(&mesh, hull(&areas_of(&changes)), &Limits::default()),
-                (1, Some(memory)) => {
-                    Forecast::of_changes_in(memory, &mesh, changes.clone(), &Limits::default())
-                        .expect("there is an area")
-                }
-                _ => Forecast::of_changes(&mesh, changes.clone(), &Limits::default())
+                (0, _) => Forecast::new(hull(&areas_of(&changes)), &Limits::default()),
+                (1, Some(memory)) => Forecast::of_changes_in(memory, changes.clone(), &Limits::default())
                     .expect("there is an area"),
+                _ => Forecast::of_changes(changes.clone(), &Limits::default()).expect("there is an area"),
             };
             let asks = |corners, level| spots.iter().any(|spot| level < spot.level && spot.meets(corners));
             let slice = 1 << random.u32(..12);
@@ -375,13 +372,13 @@ fn a_forecast_is_what_the_update_then_does() {
 fn a_forecast_says_when_a_target_is_finer_than_the_lattice() {
     let (mesh, ..) = with_a_far_corner(3);
     let corner = LatticeRect { min: LatticePoint::new(0, 0), max: LatticePoint::new(0, 0) };
-    let mut forecast = Forecast::new(&mesh, corner, &Limits::default());
+    let mut forecast = Forecast::new(corner, &Limits::default());
     let error = forecast
         .advance(&mesh, &|| |corners, _| corner.touches(corners), |_, _| true, usize::MAX)
         .unwrap_err();
     assert!(matches!(error, RefineError::TooFine { .. }), "{error}");
     let limits = Limits { max_level: Some(9), ..Limits::default() };
-    let mut forecast = Forecast::new(&mesh, corner, &limits);
+    let mut forecast = Forecast::new(corner, &limits);
     assert_eq!(
         forecast.advance(&mesh, &|| |corners, _| corner.touches(corners), |_, _| true, usize::MAX),
         Ok(Progress::Done)

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::asked::Share;
 use crate::geometry::{Lattice, LatticePoint, LatticeRect, Octagon, Rect};
 use crate::raster::{PixelGrid, ValueRange, ValueRanges, exponent, power_of_two};
 
@@ -67,6 +68,29 @@ impl Cells {
             min: [0, 1].map(|axis: usize| if upper[axis] { lines[axis] } else { self.min[axis] }),
             max: [0, 1].map(|axis: usize| if upper[axis] { self.max[axis] } else { lines[axis] }),
         }
+    }
+
+    /// Divides the cells in quarters up to `depth` times, and adds those parts of which some cells matter, as
+    /// far as `share` says. Returns whether it added the whole.
+    pub fn add_parts(&self, depth: u32, share: &impl Fn(&Self) -> Share, parts: &mut Vec<Self>) -> bool {
+        let middle = [0, 1].map(|axis: usize| self.min[axis].midpoint(self.max[axis]));
+        let can_divide = depth > 0 && [0, 1].iter().all(|&axis| self.min[axis] < middle[axis]);
+        match share(self) {
+            Share::None => return false,
+            Share::Some if can_divide => {}
+            Share::Some | Share::All => {
+                parts.push(*self);
+                return true;
+            }
+        }
+        let first = parts.len();
+        let quarters = [[false, false], [true, false], [false, true], [true, true]];
+        let whole = quarters.map(|upper| self.quarter(middle, upper).add_parts(depth - 1, share, parts));
+        if whole == [true; 4] {
+            parts.truncate(first);
+            parts.push(*self);
+        }
+        whole == [true; 4]
     }
 
     /// Returns whether a cut has cells on both sides.

@@ -5,13 +5,14 @@ use std::ops::Range;
 
 use glam::dvec2;
 use meshbrush_core::build::BuildError;
-use meshbrush_core::document::{Document, Follower, MeshChange, Readings, Settings, Stage};
+use meshbrush_core::document::{Document, Follower, MeshChange, Pricer, Readings, Settings, Stage};
 use meshbrush_core::layers::SettledSquares;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Fingerprint, Mesh, NodeId, Progress, Triangle, TriangleId};
 
 use super::Operation;
+use super::prices::check_price;
 
 /// A document and its follower, with a copy of the mesh that only hears of changed ranges, as the GPU does.
 pub struct Driver {
@@ -19,6 +20,7 @@ pub struct Driver {
     pub follower: Follower,
     /// Kept from edit to edit, as under the pointer.
     readings: Readings,
+    pricer: Pricer,
     nodes: Vec<LatticePoint>,
     triangles: Vec<Triangle>,
     /// The document's revision when work was last given up: until the next the mesh may lag behind.
@@ -27,6 +29,8 @@ pub struct Driver {
     pub changes_within: usize,
     /// How often the mesh was compared with one made from scratch.
     pub compared: usize,
+    /// How often a price was compared with what the stroke costs.
+    pub priced: usize,
     /// The settings and the mesh at each rest.
     pub rests: Vec<(Settings, Fingerprint)>,
 }
@@ -41,11 +45,13 @@ impl Driver {
             document,
             follower,
             readings,
+            pricer: Pricer::default(),
             nodes,
             triangles,
             given_up: None,
             changes_within: 0,
             compared: 0,
+            priced: 0,
             rests: Vec::new(),
         }
     }
@@ -154,6 +160,8 @@ impl Driver {
                 difference(self.follower.mesh(), rebuilt.mesh())
             );
             assert!(derived(&self.follower) == derived(&rebuilt), "the derived mesh is another");
+            let Self { document, follower, pricer, compared, .. } = self;
+            self.priced += usize::from(check_price(pricer, *compared, document, follower));
             self.compared += 1;
             self.rests.push((self.document.settings().clone(), rebuilt.mesh().fingerprint()));
         }

@@ -6,6 +6,7 @@
 mod driver;
 mod kinds;
 mod layers;
+mod prices;
 mod settings;
 
 use std::path::Path;

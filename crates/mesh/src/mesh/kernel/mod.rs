@@ -42,7 +42,7 @@ pub use memory::ProgramAllocator;
 pub use refine::Refiner;
 pub use tree::TreeTriangle;
 pub use triangle::{Orientation, Triangle};
-pub use update::{ChangedArea, ChangedAreas, Falloff, TargetChange, Updater};
+pub use update::{ChangedArea, Falloff, TargetChange, Updater};
 
 use coarse::CoarseIndex;
 

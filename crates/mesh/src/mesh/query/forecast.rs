@@ -18,8 +18,8 @@
 use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
 use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
 use crate::mesh::kernel::{
-    Bitset, ChangedArea, ChangedAreas, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError,
-    SharedRule, TargetChange, TreeTriangle, TriangleId, WalkStarts, ask_all,
+    Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
+    TargetChange, TreeTriangle, TriangleId, WalkStarts, ask_all,
 };
 
 /// Triangles of a batch, unless a slice is smaller.
@@ -41,7 +41,7 @@ const MOST_KEPT: usize = 1 << 16;
 /// let lattice = Lattice::covering(Rect::UNIT, 0.5, 1_000_000)?;
 /// let mut mesh = Mesh::coarse_grid(&lattice, |_| true, &Limits::default())?;
 /// let square = mesh.lattice().rect_around(&Rect::around(glam::dvec2(0.3, 0.4), 0.1)).unwrap();
-/// let mut forecast = Forecast::new(&mesh, square, &Limits::default());
+/// let mut forecast = Forecast::new(square, &Limits::default());
 /// let exceeds = |corners, level| level < 2 && square.touches(corners);
 /// assert_eq!(forecast.advance(&mesh, &|| exceeds, |_, _| true, usize::MAX)?, Progress::Done);
 ///
@@ -53,12 +53,13 @@ const MOST_KEPT: usize = 1 << 16;
 #[derive(Clone, Debug)]
 pub struct Forecast {
     level_cap: u32,
-    /// Where the rule has changed, and how.
-    areas: ChangedAreas,
-    search: RectSearch,
-    is_searching: bool,
-    /// Triangles found by the search.
+    /// Where the rule has changed, and how, as far as that is still to be searched.
+    areas: Vec<ChangedArea>,
+    search: Option<Search>,
+    /// Triangles found by the search of this area.
     reached: Bitset,
+    /// Triangles that were asked about: one touches several areas.
+    asked: Bitset,
     /// Newest vertices of triangles found by the search: all triangles around one give the same star, or
     /// none.
     centres: Bitset,
@@ -79,6 +80,21 @@ pub struct Forecast {
     batch: Vec<Asked>,
 }
 
+/// A search in one area.
+#[derive(Clone, Debug)]
+struct Search {
+    area: ChangedArea,
+    /// The area concerns no triangle of this level or a finer one.
+    levels: u32,
+    triangles: RectSearch,
+}
+
+impl Search {
+    fn new(mesh: &Mesh, area: ChangedArea) -> Self {
+        Self { area, levels: area.levels(mesh), triangles: RectSearch::new(mesh, area.rect) }
+    }
+}
+
 /// The change of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
@@ -96,21 +112,20 @@ fn gain(triangle: &TreeTriangle, is_in_domain: &impl Fn([LatticePoint; 3], u32) 
 
 impl Forecast {
     /// Creates a forecast without counts. `area` contains all points where the rule has changed.
-    pub fn new(mesh: &Mesh, area: LatticeRect, limits: &Limits) -> Self {
+    pub fn new(area: LatticeRect, limits: &Limits) -> Self {
         let area = ChangedArea { rect: area, change: TargetChange::Any, falloff: None };
-        Self::of_changes(mesh, vec![area], limits).expect("there is an area")
+        Self::of_changes(vec![area], limits).expect("there is an area")
     }
 
     /// Creates a forecast without counts for areas that contain all points where the rule has changed, with
     /// what is known of the changes; `None` without an area.
-    pub fn of_changes(mesh: &Mesh, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
-        let hull = areas.iter().map(|area| area.rect).reduce(|a, b| a.union(&b))?;
-        Some(Self {
+    pub fn of_changes(areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+        (!areas.is_empty()).then(|| Self {
             level_cap: limits.level_cap(),
-            areas: ChangedAreas::new(areas),
-            search: RectSearch::new(mesh, hull),
-            is_searching: true,
+            areas,
+            search: None,
             reached: Bitset::default(),
+            asked: Bitset::default(),
             centres: Bitset::default(),
             open: Vec::new(),
             loose: Vec::new(),
@@ -126,24 +141,19 @@ impl Forecast {
     }
 
     /// [`Self::of_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
-    pub fn of_changes_in(
-        memory: Self,
-        mesh: &Mesh,
-        areas: Vec<ChangedArea>,
-        limits: &Limits,
-    ) -> Option<Self> {
-        let new = Self::of_changes(mesh, areas, limits)?;
+    pub fn of_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
+        let new = Self::of_changes(areas, limits)?;
         if memory.fates.capacity() > MOST_KEPT {
             return Some(new);
         }
-        let Self { reached, centres, open, loose, restored, chain, fates, starts, batch, .. } =
+        let Self { reached, asked, centres, open, loose, restored, chain, fates, starts, batch, .. } =
             memory.emptied();
-        Some(Self { reached, centres, open, loose, restored, chain, fates, starts, batch, ..new })
+        Some(Self { reached, asked, centres, open, loose, restored, chain, fates, starts, batch, ..new })
     }
 
     /// Returns the forecast with nothing found, in the same memory.
     fn emptied(mut self) -> Self {
-        [&mut self.reached, &mut self.centres].into_iter().for_each(Bitset::clear);
+        [&mut self.reached, &mut self.asked, &mut self.centres].into_iter().for_each(Bitset::clear);
         [&mut self.open, &mut self.batch].into_iter().for_each(Vec::clear);
         [&mut self.restored, &mut self.chain].into_iter().for_each(Vec::clear);
         self.loose.clear();
@@ -190,7 +200,7 @@ impl Forecast {
             let most = left.min(BATCH);
             let looked = if !self.open.is_empty() {
                 self.bisect_on(mesh, rule, gain, most)?
-            } else if self.is_searching {
+            } else if self.search.is_some() || !self.areas.is_empty() {
                 self.search_on(mesh, rule, most).map_err(RefineError::Rule)?
             } else if !self.restored.is_empty() || !self.loose.is_empty() {
                 self.coarsen_on(mesh, rule, gain, most).map_err(RefineError::Rule)?
@@ -202,32 +212,31 @@ impl Forecast {
         Ok(Progress::More)
     }
 
-    /// Looks at up to `most` triangles of the area. Returns how many.
+    /// Looks at up to `most` triangles of the areas. Returns how many.
     fn search_on<R: SharedRule>(&mut self, mesh: &Mesh, rule: &R, most: usize) -> Result<usize, R::Error> {
         let mut found = std::mem::take(&mut self.batch);
+        let mut search = self.search.take();
         let mut looked = 0;
-        while looked < most && self.is_searching {
-            looked += 1;
-            let Some(id) = self.search.found() else {
-                self.is_searching = self.search.enter_next(mesh, &mut self.reached, &mut self.starts);
+        while looked < most {
+            let Some(Search { area, levels, triangles }) = &mut search else {
+                search = self.areas.pop().map(|area| Search::new(mesh, area));
+                if search.is_none() {
+                    break;
+                }
                 continue;
             };
-            self.search.spread_from(mesh, id, &mut self.reached);
-            let (corners, level) = (mesh.corners(id), mesh.triangle(id).level());
-            let [asks, loosens] = self.areas.concerns(mesh, corners, level);
-            if asks {
-                found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
-            }
-            // Where a triangle around it was bisected, the newest vertex is looked at once that one is
-            // restored.
-            if loosens
-                && let Some(centre) = mesh.triangle(id).newest_vertex()
-                && self.centres.insert(centre.index())
-                && mesh.star_of(id).is_some()
-            {
-                self.loose.push(id);
+            looked += 1;
+            if let Some(id) = triangles.found() {
+                if mesh.triangle(id).level() < *levels {
+                    self.look_at(mesh, id, area, &mut found);
+                }
+                triangles.spread_from(mesh, id, &mut self.reached);
+            } else if !triangles.enter_next(mesh, &mut self.reached, &mut self.starts) {
+                self.reached.clear();
+                search = None;
             }
         }
+        self.search = search;
         let asked = ask_all(&OfMesh { level_cap: self.level_cap }, &mut found, rule);
         if asked.is_ok() {
             self.open.extend(found.iter().filter(|asked| asked.exceeds()));
@@ -235,6 +244,23 @@ impl Forecast {
         found.clear();
         self.batch = found;
         asked.map(|()| looked)
+    }
+
+    /// Notes what a change can have done to a triangle that touches its area.
+    #[inline]
+    fn look_at(&mut self, mesh: &Mesh, id: TriangleId, area: &ChangedArea, found: &mut Vec<Asked>) {
+        let [asks, loosens] = area.concerns(mesh, mesh.corners(id), mesh.triangle(id).level());
+        if asks && self.asked.insert(id.index()) {
+            found.push(Asked { triangle: TreeTriangle::of(mesh, id), known: LevelsWithin::UNKNOWN });
+        }
+        // Where a triangle around it was bisected, the newest vertex is looked at once that one is restored.
+        if loosens
+            && let Some(centre) = mesh.triangle(id).newest_vertex()
+            && self.centres.insert(centre.index())
+            && mesh.star_of(id).is_some()
+        {
+            self.loose.push(id);
+        }
     }
 
     /// Asks about up to `most` triangles, and notes that those are bisected that exceed their target.

@@ -35,14 +35,7 @@ impl Area {
 
     /// Returns the first level from which on it concerns no triangle.
     pub(super) fn levels(&self, mesh: &Mesh) -> u32 {
-        if self.reports_all {
-            return u32::MAX;
-        }
-        let least = self.changed.falloff.map_or(0.0, |falloff| falloff.least * ROUNDED_DOWN);
-        let deepest = mesh.lattice().deepest_level();
-        let exceeding = (0..=deepest).take_while(|&level| mesh.diameter(level) > least).count() as u32;
-        // A triangle is also concerned where its parent exceeds the least diameter.
-        exceeding + u32::from(self.changed.change != TargetChange::Finer)
+        if self.reports_all { u32::MAX } else { self.changed.levels(mesh) }
     }
 }
 
@@ -73,6 +66,15 @@ pub struct Falloff {
 const ROUNDED_DOWN: f64 = 1.0 - 1e-9;
 
 impl ChangedArea {
+    /// Returns the first level from which on it concerns no triangle.
+    pub(in crate::mesh) fn levels(&self, mesh: &Mesh) -> u32 {
+        let least = self.falloff.map_or(0.0, |falloff| falloff.least * ROUNDED_DOWN);
+        let deepest = mesh.lattice().deepest_level();
+        let exceeding = (0..=deepest).take_while(|&level| mesh.diameter(level) > least).count() as u32;
+        // A triangle is also concerned where its parent exceeds the least diameter.
+        exceeding + u32::from(self.change != TargetChange::Finer)
+    }
+
     /// Returns whether a triangle can have begun to exceed its target, and whether its parent can have ceased
     /// to.
     #[inline]
@@ -84,45 +86,6 @@ impl ChangedArea {
         // A triangle without a parent has no node that could go.
         let loosens = self.change != TargetChange::Finer && level > 0 && exceeds(level - 1);
         [asks, loosens]
-    }
-}
-
-/// Several changed areas, which are asked about triangles that follow one another from neighbour to
-/// neighbour.
-#[derive(Clone, Debug)]
-pub struct ChangedAreas {
-    areas: Vec<ChangedArea>,
-    /// What any of them can answer.
-    possible: [bool; 2],
-    /// The area that touched the last triangle: mostly it touches the next one, too.
-    last: usize,
-}
-
-impl ChangedAreas {
-    /// Gathers areas.
-    pub fn new(areas: Vec<ChangedArea>) -> Self {
-        let has = |other: TargetChange| areas.iter().any(|area| area.change != other);
-        let possible = [has(TargetChange::Coarser), has(TargetChange::Finer)];
-        Self { areas, possible, last: 0 }
-    }
-
-    /// Returns what [`ChangedArea::concerns`] does, for the changes of all areas together.
-    #[inline]
-    pub fn concerns(&mut self, mesh: &Mesh, corners: [LatticePoint; 3], level: u32) -> [bool; 2] {
-        let mut found = [false; 2];
-        for number in std::iter::once(self.last).chain(0..self.areas.len()) {
-            if let Some(area) = self.areas.get(number)
-                && area.rect.touches(corners)
-            {
-                let [asks, loosens] = area.concerns(mesh, corners, level);
-                found = [found[0] || asks, found[1] || loosens];
-                self.last = number;
-                if found == self.possible {
-                    break;
-                }
-            }
-        }
-        found
     }
 }
 

@@ -93,7 +93,7 @@ use super::changes::ChangeLog;
 use super::{Bitset, Changes, Limits, Mesh, Progress, RefineError, SharedRule, TriangleId, WalkStarts};
 use crate::geometry::LatticeRect;
 use area::Area;
-pub use area::{ChangedArea, ChangedAreas, Falloff, TargetChange};
+pub use area::{ChangedArea, Falloff, TargetChange};
 use coarsen::Freed;
 use known::KnownLevels;
 use questions::{Found, Loose, Open};
@@ -270,7 +270,7 @@ impl Updater {
 
     fn next_work(&self) -> Work {
         let is_searching = match &self.search {
-            Some(Search::Flood(..)) => true,
+            Some(Search::Flood(_)) => true,
             Some(Search::Scan(scan)) => !scan.has_part(),
             None => false,
         };
