@@ -1,7 +1,7 @@
 //! The changes that the shown mesh does not have yet, or that a stroke would make, as far as knowing them
 //! makes tests of triangles cheaper.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use crate::layers::{LayerId, PaintChange, PaintLayers, SettledPool, SizeField};
 use crate::mesh::{ChangedArea, TargetChange};
@@ -22,7 +22,8 @@ pub(super) struct Pending {
 #[derive(Clone, Debug)]
 struct Alone {
     layers: Vec<LayerId>,
-    whole: Arc<SizeField>,
+    /// Not kept longer than its document.
+    whole: Weak<SizeField>,
     field: SizeField,
     known: SettledPool,
 }
@@ -71,10 +72,10 @@ impl Pending {
                 layers.push(layer);
             }
         }
-        let is_known = |alone: &Alone| alone.layers == layers && Arc::ptr_eq(&alone.whole, whole);
+        let is_known = |alone: &Alone| alone.layers == layers && alone.whole.ptr_eq(&Arc::downgrade(whole));
         if !self.alone.as_ref().is_some_and(is_known) {
             let field = whole.of_layers_alone(&layers);
-            let (whole, layers) = (whole.clone(), layers.clone());
+            let (whole, layers) = (Arc::downgrade(whole), layers.clone());
             self.alone = field.map(|field| Alone { layers, whole, field, known: SettledPool::default() });
         }
         self.finer = self.alone.is_some().then_some(layers);

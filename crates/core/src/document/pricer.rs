@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use super::pace::questions_per_thread;
 use super::pending::Pending;
@@ -29,22 +29,21 @@ struct Answers {
     planned: Pending,
     /// What the last stroke would change.
     changes: Vec<PaintChange>,
-    /// The field and the revision of the document.
-    of: Option<(Arc<SizeField>, u64)>,
+    /// The field, which is not kept longer than its document, and the revision of the document.
+    of: (Weak<SizeField>, u64),
 }
 
 impl Answers {
     /// Keeps the answers that are the same with another stroke.
-    fn plan(&mut self, changes: Vec<PaintChange>, field: Arc<SizeField>, document: u64) {
-        let is_same =
-            |(of, revision): &(Arc<SizeField>, u64)| Arc::ptr_eq(of, &field) && *revision == document;
-        if self.of.as_ref().is_some_and(is_same) {
-            self.planned.forget(&self.changes, &field);
+    fn plan(&mut self, changes: Vec<PaintChange>, field: &Arc<SizeField>, document: u64) {
+        let (of, revision) = &self.of;
+        if of.ptr_eq(&Arc::downgrade(field)) && *revision == document {
+            self.planned.forget(&self.changes, field);
         } else {
             self.planned.anything();
         }
-        self.planned.paint(true, &changes, &field);
-        (self.changes, self.of) = (changes, Some((field, document)));
+        self.planned.paint(true, &changes, field);
+        (self.changes, self.of) = (changes, (Arc::downgrade(field), document));
     }
 }
 
@@ -195,7 +194,7 @@ impl Pricer {
             .iter()
             .map(|&Repaint { area, before, change }| PaintChange { layer, area, before, change })
             .collect();
-        self.answers.plan(painted, follower.shared_field(), question.document);
+        self.answers.plan(painted, &follower.shared_field(), question.document);
         let Answers { planned, changes, .. } = &self.answers;
         let affected = planned.changed_areas(changes, field, &paint);
         let limits = follower.settings().limits();

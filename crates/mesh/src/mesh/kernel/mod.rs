@@ -190,6 +190,7 @@ impl Mesh {
     }
 
     /// Returns the length of the bisection edge of a triangle at `level`, in world units (Eq. 1).
+    #[inline]
     pub fn diameter(&self, level: u32) -> f64 {
         bisection_edge_length(self.lattice.spacing(), level)
     }

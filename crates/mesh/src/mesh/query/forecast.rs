@@ -364,8 +364,12 @@ impl Forecast {
         let parents = [Some(parent), parent.across(mesh)];
         // An entry of the mesh is bisected only if a node comes.
         if !are_entries || self.added > 0 {
-            let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
-            if children.any(|child| self.is_bisected(mesh, &child, are_entries)) {
+            let children = parents.iter().flatten().flat_map(TreeTriangle::children);
+            // What was restored is whole.
+            if children
+                .filter(|child| are_entries || child != triangle)
+                .any(|child| self.is_bisected(mesh, &child, are_entries))
+            {
                 return None;
             }
         }
