@@ -381,6 +381,28 @@ fn any_plan(brush: Brush, random: &mut fastrand::Rng) -> StrokePlan {
     StrokePlan { brush, mirror: Mirror { x: line(), y: line() }, from, to }
 }
 
+/// With gradation, what the pointer would have painted elsewhere reaches far. It must be forgotten.
+#[test]
+fn a_price_does_not_depend_on_where_the_pointer_was_before() {
+    let mut document =
+        Document::new(Settings { spacing: 0.1, ..with_base(LayerKind::constant(0.2)) }, None).unwrap();
+    document.set(Setting::Gradation(Some(0.2))).unwrap();
+    let follower = Follower::new(&mut document).unwrap();
+    let price = |pricer: &mut Pricer, diameter, x| {
+        let medium = Medium::Diameter(diameter, DiameterChange::Finer);
+        let brush = Brush { medium, radius: 0.04, hardness: 1.0, strength: 1.0 };
+        pricer.ask(Some(StrokePlan::click(brush, dvec2(x, 0.5))), &document, &follower);
+        while pricer.advance(&document, &follower, 1000) == Progress::More {}
+        pricer.price().unwrap()
+    };
+    let mut kept = Pricer::default();
+    for (diameter, x) in [(0.01, 0.3), (0.05, 0.5), (0.02, 0.6), (0.04, 0.4)] {
+        let alone = price(&mut Pricer::default(), diameter, x);
+        assert!(alone.change() > 0, "{alone:?}");
+        assert_eq!(price(&mut kept, diameter, x), alone, "{diameter} at {x}");
+    }
+}
+
 #[test]
 fn the_price_of_a_stroke_that_changes_nothing_says_why() {
     let risk = |aim, radius| Brush { medium: Medium::Risk(aim), radius, hardness: 1.0, strength: 1.0 };

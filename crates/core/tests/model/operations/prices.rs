@@ -27,10 +27,15 @@ fn plan(number: usize) -> StrokePlan {
 /// document and of the follower that is in step with it. Returns whether the price could be compared.
 pub fn check_price(pricer: &mut Pricer, number: usize, document: &Document, follower: &Follower) -> bool {
     let plan = plan(number);
-    // The pointer moves on, perhaps before the first price is known.
-    let beside = StrokePlan { from: plan.from + 0.02, to: plan.from + 0.02, ..plan };
-    pricer.ask(Some(beside), document, follower);
-    pricer.advance(document, follower, 1 << (number % 14));
+    // The pointer was elsewhere before, perhaps not until the price was known.
+    let before = plan.from + [0.02, 0.12, -0.2][number % 3];
+    let brush = Brush { medium: Medium::Diameter(0.02, DiameterChange::Finer), ..plan.brush };
+    pricer.ask(Some(StrokePlan::click(brush, before)), document, follower);
+    for _ in 0..[1, 3, 1_000][number / 3 % 3] {
+        if pricer.advance(document, follower, 1 << (4 + number % 10)) == Progress::Done {
+            break;
+        }
+    }
     pricer.ask(Some(plan), document, follower);
     while pricer.advance(document, follower, 1 << (5 + number % 9)) == Progress::More {}
     let expected = match pricer.price() {
