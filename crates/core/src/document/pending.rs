@@ -81,8 +81,8 @@ impl Pending {
         self.finer = self.alone.is_some().then_some(layers);
     }
 
-    /// Returns where and how h̄ of the field of all layers can have changed after pixels changed, which this
-    /// has noted.
+    /// Returns where and how h̄ of the field of all layers can have changed after changes of pixels.
+    /// [`Self::paint`] must have noted them.
     pub(super) fn changed_areas(
         &self,
         changes: &[PaintChange],

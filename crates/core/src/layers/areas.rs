@@ -177,8 +177,8 @@ impl SizeField {
         self.spec().is_ordered(self.longest()).then_some(others)
     }
 
-    /// Returns the parts of some cells in which layers that have not changed can ask for more than a
-    /// diameter: elsewhere it does not matter if another layer asks for that.
+    /// Returns some cells without the parts in which the layers that have not changed ask for at most a
+    /// diameter: there it has no effect if another layer asks for this diameter or a larger one.
     fn parts_above(
         &self,
         cells: Cells,

@@ -47,11 +47,11 @@ struct Core {
     least: f64,
 }
 
-/// Parts are not divided if they have at most about so many triangles: to look at these takes no longer.
+/// Parts with at most about so many triangles are not divided: looking at these takes no longer.
 const FEW_TRIANGLES: f64 = 128.0;
 
-/// Nor are they if so many of them reach across the core, or from the core to them: where very small
-/// diameters are painted, there would be no end.
+/// Nor are parts divided of which at least so many, side by side, fit across the core, or between the core
+/// and the part. Where very small diameters are painted, the division would otherwise not end.
 const PARTS_ACROSS: f64 = 8.0;
 
 /// A little less than one, for rounding errors of what is carried.

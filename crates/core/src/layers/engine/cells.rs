@@ -70,8 +70,8 @@ impl Cells {
         }
     }
 
-    /// Divides the cells in quarters up to `depth` times, and adds those parts of which some cells matter, as
-    /// far as `share` says. Returns whether it added the whole.
+    /// Divides the cells in quarters up to `depth` times, and adds the parts in which some cells matter;
+    /// `share` returns the share of those that do. Returns whether it added the whole.
     pub fn add_parts(&self, depth: u32, share: &impl Fn(&Self) -> Share, parts: &mut Vec<Self>) -> bool {
         let middle = [0, 1].map(|axis: usize| self.min[axis].midpoint(self.max[axis]));
         let can_divide = depth > 0 && [0, 1].iter().all(|&axis| self.min[axis] < middle[axis]);

@@ -41,6 +41,8 @@ impl WalkStarts {
 #[derive(Clone, Debug)]
 pub(in crate::mesh) struct RectSearch {
     area: LatticeRect,
+    /// Triangles of this level or a finer one are passed by.
+    levels: u32,
     /// The cells that the area touches: the first and last column, and the first and last row.
     columns: [u32; 2],
     rows: [u32; 2],
@@ -51,7 +53,7 @@ pub(in crate::mesh) struct RectSearch {
 }
 
 impl RectSearch {
-    pub(in crate::mesh) fn new(mesh: &Mesh, area: LatticeRect) -> Self {
+    pub(in crate::mesh) fn new(mesh: &Mesh, area: LatticeRect, levels: u32) -> Self {
         let steps = mesh.lattice().cell_steps();
         let [columns, rows] = mesh.lattice().cells();
         // Closed cells: a line between two cells belongs to both.
@@ -60,12 +62,18 @@ impl RectSearch {
         };
         let columns = touched(area.min.x, area.max.x, columns);
         let rows = touched(area.min.y, area.max.y, rows);
-        Self { area, columns, rows, next: 0, found: Vec::new() }
+        Self { area, levels, columns, rows, next: 0, found: Vec::new() }
     }
 
     /// Returns a triangle found that the search has not gone on from, if there is one.
     pub(in crate::mesh) fn found(&self) -> Option<TriangleId> {
         self.found.last().copied()
+    }
+
+    /// Returns whether triangles of a level are searched for, and not only passed by.
+    #[inline]
+    pub(in crate::mesh) fn has_level(&self, level: u32) -> bool {
+        level < self.levels
     }
 
     /// Goes on from the triangle that [`Self::found`] gave, to its neighbours.

@@ -55,7 +55,8 @@ pub struct Forecast {
     level_cap: u32,
     /// Where the rule has changed, and how, as far as that is still to be searched.
     areas: Vec<ChangedArea>,
-    search: Option<Search>,
+    /// The area that is searched.
+    search: Option<(ChangedArea, RectSearch)>,
     /// Triangles found by the search of this area.
     reached: Bitset,
     /// Triangles that were asked about: one touches several areas.
@@ -78,21 +79,6 @@ pub struct Forecast {
     change: i64,
     /// Memory that is used again, empty between calls.
     batch: Vec<Asked>,
-}
-
-/// A search in one area.
-#[derive(Clone, Debug)]
-struct Search {
-    area: ChangedArea,
-    /// The area concerns no triangle of this level or a finer one.
-    levels: u32,
-    triangles: RectSearch,
-}
-
-impl Search {
-    fn new(mesh: &Mesh, area: ChangedArea) -> Self {
-        Self { area, levels: area.levels(mesh), triangles: RectSearch::new(mesh, area.rect) }
-    }
 }
 
 /// The change of a node.
@@ -218,8 +204,9 @@ impl Forecast {
         let mut search = self.search.take();
         let mut looked = 0;
         while looked < most {
-            let Some(Search { area, levels, triangles }) = &mut search else {
-                search = self.areas.pop().map(|area| Search::new(mesh, area));
+            let Some((area, triangles)) = &mut search else {
+                let begin = |area: ChangedArea| (area, RectSearch::new(mesh, area.rect, area.levels(mesh)));
+                search = self.areas.pop().map(begin);
                 if search.is_none() {
                     break;
                 }
@@ -227,7 +214,7 @@ impl Forecast {
             };
             looked += 1;
             if let Some(id) = triangles.found() {
-                if mesh.triangle(id).level() < *levels {
+                if triangles.has_level(mesh.triangle(id).level()) {
                     self.look_at(mesh, id, area, &mut found);
                 }
                 triangles.spread_from(mesh, id, &mut self.reached);

@@ -270,7 +270,7 @@ impl Updater {
 
     fn next_work(&self) -> Work {
         let is_searching = match &self.search {
-            Some(Search::Flood(_)) => true,
+            Some(Search::Flood(..)) => true,
             Some(Search::Scan(scan)) => !scan.has_part(),
             None => false,
         };

@@ -14,30 +14,15 @@ const LARGE_SHARE: f64 = 1.0 / 8.0;
 #[derive(Clone, Debug)]
 pub(super) enum Search {
     /// In one area, from neighbour to neighbour. Nothing may move meanwhile.
-    Flood(Flood),
+    Flood(Area, RectSearch),
     /// In all areas that there were, down the array.
     Scan(Scan),
-}
-
-/// A search in one area.
-#[derive(Clone, Debug)]
-pub(super) struct Flood {
-    area: Area,
-    /// The area concerns no triangle of this level or a finer one.
-    levels: u32,
-    triangles: RectSearch,
-}
-
-impl Flood {
-    fn new(mesh: &Mesh, area: Area) -> Self {
-        Self { area, levels: area.levels(mesh), triangles: RectSearch::new(mesh, area.changed.rect) }
-    }
 }
 
 impl Search {
     fn into_areas(self) -> Vec<Area> {
         match self {
-            Self::Flood(flood) => vec![flood.area],
+            Self::Flood(area, _) => vec![area],
             Self::Scan(scan) => scan.into_areas(),
         }
     }
@@ -61,7 +46,7 @@ impl Updater {
         let Some(mut search) = self.search.take().or_else(|| self.next_search(mesh)) else { return Ok(0) };
         let mut found = std::mem::take(&mut self.found);
         let (looked, is_done) = match &mut search {
-            Search::Flood(flood) => self.flood(mesh, flood, &mut found, most),
+            Search::Flood(area, flood) => self.flood(mesh, area, flood, &mut found, most),
             Search::Scan(scan) => self.scan(mesh, scan, &mut found, most),
         };
         let asked = ask_all(&OfEntries { mesh }, &mut found, rule);
@@ -97,7 +82,7 @@ impl Updater {
         } else {
             let area = self.areas.swap_remove(self.area_beside().unwrap_or(last));
             self.note_searched(area.changed.rect);
-            Search::Flood(Flood::new(mesh, area))
+            Search::Flood(area, RectSearch::new(mesh, area.changed.rect, area.levels(mesh)))
         };
         Some(search)
     }
@@ -110,19 +95,19 @@ impl Updater {
     fn flood(
         &mut self,
         mesh: &Mesh,
-        flood: &mut Flood,
+        area: &Area,
+        flood: &mut RectSearch,
         found: &mut Vec<Found>,
         most: usize,
     ) -> (usize, bool) {
-        let Flood { area, levels, triangles } = flood;
         for looked in 0..most {
-            if let Some(id) = triangles.found() {
+            if let Some(id) = flood.found() {
                 let level = mesh.triangle(id).level();
-                if level < *levels {
+                if flood.has_level(level) {
                     self.note(mesh, id, area.concern(mesh, mesh.corners(id), level), found);
                 }
-                triangles.spread_from(mesh, id, &mut self.reached);
-            } else if !triangles.enter_next(mesh, &mut self.reached, &mut self.starts) {
+                flood.spread_from(mesh, id, &mut self.reached);
+            } else if !flood.enter_next(mesh, &mut self.reached, &mut self.starts) {
                 return (looked, true);
             }
         }
