@@ -87,10 +87,15 @@ pub struct Brush {
 }
 
 impl Brush {
+    /// Returns the radius of the core, in world units.
+    pub(super) fn core_radius(&self) -> f64 {
+        self.radius * self.hardness.clamp(0.0, 1.0)
+    }
+
     /// Returns the coverage at a distance from the brush's centre, in world units: 1 in the core, 0 at the
     /// rim and beyond.
     pub fn coverage(&self, distance: f64) -> f64 {
-        let core = self.radius * self.hardness.clamp(0.0, 1.0);
+        let core = self.core_radius();
         if distance <= core {
             1.0
         } else if distance >= self.radius {

@@ -104,9 +104,12 @@ fn change_of_pixels(before: &Tile, after: &Tile, blank: f32) -> Option<(ValueRan
 
 /// Returns the range of the values of a tile.
 pub(super) fn range_of(tile: &Tile) -> ValueRange {
-    tile.values()
-        .iter()
-        .map(|&value| ValueRange::one(value))
-        .reduce(ValueRange::union)
-        .unwrap_or(ValueRange::one(0.0))
+    const LANES: usize = 8;
+    let (chunks, _) = tile.values().as_chunks::<LANES>();
+    // Each lane by itself, so that none waits for the one before.
+    let ranges = chunks.iter().fold(chunks[0].map(ValueRange::one), |mut ranges, chunk| {
+        ranges.iter_mut().zip(chunk).for_each(|(range, &value)| *range = range.union(ValueRange::one(value)));
+        ranges
+    });
+    ranges.into_iter().reduce(ValueRange::union).expect("there are lanes")
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::brush::nearest_on_path;
 use super::{Brush, PathPoint};
 use crate::geometry::Rect;
-use crate::raster::{PixelGrid, TILE, TilePlace, power_of_two};
+use crate::raster::{PixelGrid, TILE, Tile, TilePlace, power_of_two};
 
 /// Smallest radius of a brush in pixels of the tiles that it paints on.
 const LEAST_RADIUS_PX: f64 = 32.0;
@@ -60,9 +60,23 @@ impl Segment {
         Some(segment)
     }
 
-    /// Returns the coverage of a pixel at a point in world units, 0 to 1.
-    pub fn coverage(&self, point: DVec2) -> f64 {
-        self.brush.coverage_of_segment(point, self.ends)
+    /// Returns the coverage of each pixel of a tile, 0 to 1; `None` if it is 0 everywhere.
+    pub fn coverage_of(&self, place: TilePlace, grid: &PixelGrid) -> Option<Box<Tile>> {
+        let pixels = self.pixels(place, grid);
+        let [from, to] = self.ends;
+        if from.size != to.size || from.strength != to.strength {
+            return coverage_by(place, grid, pixels, |point| {
+                self.brush.coverage_of_segment(point, self.ends)
+            });
+        }
+        let brush = Brush { radius: self.brush.radius * from.size, ..self.brush };
+        let path = [from.at, to.at];
+        if pixels == [[0; 2], [TILE; 2]] && is_in_core(&brush, path, &place.area(grid)) {
+            return Some(Box::new(Tile::filled(from.strength as f32))).filter(|_| from.strength > 0.0);
+        }
+        coverage_by(place, grid, pixels, |point| {
+            from.strength * brush.coverage(nearest_on_path(point, path).1)
+        })
     }
 
     /// Returns the columns and rows of the pixels of a tile that the segment may change, counted within the
@@ -90,6 +104,38 @@ impl Segment {
         // Rounding does not matter: at the rim the coverage is 0.
         distance <= self.radius + 0.5 * tile.size().length() && tile.intersection(&self.area).is_some()
     }
+}
+
+/// Returns whether the core of a brush of one width covers a tile.
+fn is_in_core(brush: &Brush, path: [DVec2; 2], tile: &Rect) -> bool {
+    // The distance from a segment is convex, so it is largest at a corner. Corners are farther from the path
+    // than centres of pixels, by more than rounding.
+    let corners =
+        [tile.min, DVec2::new(tile.max.x, tile.min.y), tile.max, DVec2::new(tile.min.x, tile.max.y)];
+    corners.iter().all(|&corner| nearest_on_path(corner, path).1 <= brush.core_radius())
+}
+
+/// Returns the coverage of the pixels of a tile from that of a point; `None` if it is 0 everywhere. `pixels`
+/// are those that may be covered, as [`Segment::pixels`] returns them.
+#[inline]
+fn coverage_by(
+    place: TilePlace,
+    grid: &PixelGrid,
+    [[left, lowest], [right, top]]: [[i32; 2]; 2],
+    coverage: impl Fn(DVec2) -> f64,
+) -> Option<Box<Tile>> {
+    let pixel = grid.pixel * power_of_two(-i32::from(place.depth));
+    let first = DVec2::new(f64::from(place.x), f64::from(place.y)) * f64::from(TILE) + 0.5;
+    let mut tile = Box::new(Tile::filled(0.0));
+    let mut greatest = 0.0f32;
+    for y in lowest..top {
+        for (x, value) in (left..).zip(tile.row_mut([left, y], (right - left).max(0) as usize)) {
+            let center = grid.origin + (first + DVec2::new(f64::from(x), f64::from(y))) * pixel;
+            *value = coverage(center) as f32;
+            greatest = greatest.max(*value);
+        }
+    }
+    (greatest > 0.0).then_some(tile)
 }
 
 /// Returns the smallest depth at which the brush is wide enough all along a segment, within

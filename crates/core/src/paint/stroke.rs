@@ -1,14 +1,13 @@
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
-
-use glam::DVec2;
 
 use super::patch::range_of;
 use super::resolution::Segment;
 use super::{Brush, Mirror, Patch, PathPoint, Repaint};
 use crate::geometry::Rect;
-use crate::raster::{TILE, Tile, TilePlace, TiledRaster, ValueRange, ValueRanges, power_of_two};
+use crate::raster::{TILE, Tile, TilePlace, TiledRaster, ValueRange, ValueRanges};
 
 /// One gesture with a brush, from press to release.
 ///
@@ -48,10 +47,30 @@ pub struct Stroke {
 /// A tile that the stroke covers.
 #[derive(Clone, Debug)]
 struct Covered {
-    /// The pixels of the tile before the stroke.
+    /// The pixels of the tile before the stroke, and the range of their values.
     before: Arc<Tile>,
+    range: ValueRange,
     /// The largest coverage of each pixel so far, 0 to 1.
-    coverage: Tile,
+    coverage: Box<Tile>,
+}
+
+impl Covered {
+    fn new(before: Arc<Tile>, coverage: Box<Tile>) -> Self {
+        Self { range: range_of(&before), before, coverage }
+    }
+
+    /// Takes over the coverage of another segment where it is larger, and sets it to 0 elsewhere. Returns
+    /// whether it is larger anywhere.
+    fn grow(&mut self, coverage: &mut Tile) -> bool {
+        let mut has_grown = false;
+        for (so_far, coverage) in self.coverage.values_mut().iter_mut().zip(coverage.values_mut()) {
+            let is_larger = *coverage > *so_far;
+            has_grown |= is_larger;
+            *so_far = coverage.max(*so_far);
+            *coverage = if is_larger { *coverage } else { 0.0 };
+        }
+        has_grown
+    }
 }
 
 impl Stroke {
@@ -82,10 +101,10 @@ impl Stroke {
     }
 
     /// Extends the path to a point; [`Self::advance`] draws the new segment. A point that is not finite is
-    /// ignored.
+    /// ignored, and so is one that equals the last.
     pub fn extend(&mut self, raster: &TiledRaster, point: impl Into<PathPoint>) {
         let point = point.into();
-        if point.is_finite() {
+        if point.is_finite() && self.last != Some(point) {
             if self.last.is_none() {
                 self.tiles = raster.tile_count();
             }
@@ -124,7 +143,7 @@ impl Stroke {
     }
 
     /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the area where
-    /// pixels may have changed; `None` if the segment covers no pixel of the tile.
+    /// pixels may have changed; `None` if the segment covers no pixel of the tile more than those before.
     fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Repaint> {
         // Children hide the tile, so they are drawn on as well.
         for child in place.children().into_iter().filter(|child| raster.tile(*child).is_some()) {
@@ -132,9 +151,9 @@ impl Stroke {
                 segment.places.push(child);
             }
         }
-        let coverage = coverage_of_tile(segment, place, raster)?;
+        let coverage = segment.coverage_of(place, raster.grid())?;
         self.deepen(raster, place);
-        let before = self.stamp(raster, place, &coverage)?;
+        let before = self.stamp(raster, place, coverage)?;
         let change = self.brush.medium.change(self.h_max);
         Some(Repaint { area: segment.area_on(place, raster.grid()), before, change })
     }
@@ -169,9 +188,9 @@ impl Stroke {
             self.before.keep(raster, place);
             let covered = place.parent().and_then(|parent| self.covered.get(&parent));
             // The effect of the stroke on the parent is applied to the new tile as well.
-            let covered = covered.map(|parent| Covered {
-                before: Arc::new(parent.before.enlarged(&place)),
-                coverage: parent.coverage.enlarged(&place),
+            let covered = covered.map(|parent| {
+                let before = Arc::new(parent.before.enlarged(&place));
+                Covered::new(before, Box::new(parent.coverage.enlarged(&place)))
             });
             self.covered.extend(covered.map(|covered| (place, covered)));
             raster.exchange(place, Some(Arc::new(raster.inherited(place))));
@@ -179,26 +198,50 @@ impl Stroke {
     }
 
     /// Applies the brush to the pixels of a tile, with the coverage of one segment. Returns the range of the
-    /// values of the tile before the stroke.
-    fn stamp(&mut self, raster: &mut TiledRaster, place: TilePlace, coverage: &Tile) -> Option<ValueRange> {
+    /// values of the tile before the stroke; `None` if all pixels were covered as much before.
+    fn stamp(
+        &mut self,
+        raster: &mut TiledRaster,
+        place: TilePlace,
+        mut coverage: Box<Tile>,
+    ) -> Option<ValueRange> {
         self.before.keep(raster, place);
         let tile = raster.tile(place)?;
-        let touched = self
-            .covered
-            .entry(place)
-            .or_insert_with(|| Covered { before: tile.clone(), coverage: Tile::filled(0.0) });
-        let (brush, blank, h_max) = (self.brush, raster.blank(), self.h_max);
-        raster.change(place, |tile| {
-            for (index, &coverage) in coverage.values().iter().enumerate() {
-                if coverage > touched.coverage[index] {
-                    // The new value follows from the pixel before the stroke, not from its present value, so
-                    // the order of the segments does not matter.
-                    touched.coverage[index] = coverage;
-                    tile[index] = brush.painted_value(coverage, touched.before[index], blank, h_max);
-                }
+        let (covered, grown) = match self.covered.entry(place) {
+            Entry::Vacant(entry) => {
+                let covered = &*entry.insert(Covered::new(tile.clone(), coverage));
+                (covered, &covered.coverage)
             }
-        });
-        Some(range_of(&touched.before))
+            Entry::Occupied(entry) => {
+                let covered = entry.into_mut();
+                if !covered.grow(&mut coverage) {
+                    return None;
+                }
+                (&*covered, &coverage)
+            }
+        };
+        let (brush, blank, h_max) = (self.brush, raster.blank(), self.h_max);
+        // The new value follows from the pixel before the stroke, not from its present value, so the order of
+        // the segments does not matter.
+        let paint = |coverage, old| brush.painted_value(coverage, old, blank, h_max);
+        raster.change(place, |tile| paint_tile(tile, &covered.before, grown, paint));
+        Some(covered.range)
+    }
+}
+
+/// Paints the pixels of a tile whose coverage is not 0. `paint` returns the value for a coverage and the
+/// value before.
+fn paint_tile(tile: &mut Tile, before: &Tile, coverage: &Tile, paint: impl Fn(f32, f32) -> f32) {
+    // Most pixels have the coverage and the value of the one before.
+    let (mut last, mut painted) = ((0.0, f32::NAN), f32::NAN);
+    let pixels = coverage.values().iter().zip(before.values());
+    for (value, (&coverage, &old)) in tile.values_mut().iter_mut().zip(pixels) {
+        if coverage > 0.0 {
+            if last != (coverage, old) {
+                (last, painted) = ((coverage, old), paint(coverage, old));
+            }
+            *value = painted;
+        }
     }
 }
 
@@ -212,23 +255,6 @@ fn most_tiles_beside(tiles: usize) -> usize {
     const MANY: usize = 65_536;
     const OF_A_SEGMENT: RangeInclusive<usize> = 16..=4096;
     (MANY.saturating_sub(tiles) / 16).clamp(*OF_A_SEGMENT.start(), *OF_A_SEGMENT.end())
-}
-
-/// Returns the coverage of each pixel of a tile by a segment; `None` if it is 0 everywhere.
-fn coverage_of_tile(segment: &Segment, place: TilePlace, raster: &TiledRaster) -> Option<Tile> {
-    let grid = raster.grid();
-    let pixel = grid.pixel * power_of_two(-i32::from(place.depth));
-    let first = DVec2::new(f64::from(place.x), f64::from(place.y)) * f64::from(TILE) + 0.5;
-    let mut tile = Tile::filled(0.0);
-    let [[left, lowest], [right, top]] = segment.pixels(place, grid);
-    let mut is_covered = false;
-    for (y, x) in (lowest..top).flat_map(|y| (left..right).map(move |x| (y, x))) {
-        let center = grid.origin + (first + DVec2::new(f64::from(x), f64::from(y))) * pixel;
-        let coverage = segment.coverage(center) as f32;
-        is_covered |= coverage > 0.0;
-        tile.set(x, y, coverage);
-    }
-    is_covered.then_some(tile)
 }
 
 #[cfg(test)]

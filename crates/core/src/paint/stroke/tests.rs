@@ -141,6 +141,51 @@ fn strokes_give_the_values_of_the_formula_at_every_depth() {
 }
 
 #[test]
+fn each_pixel_is_that_of_the_largest_coverage_by_a_segment() {
+    let mut random = fastrand::Rng::with_seed(29);
+    let grid = PixelGrid::filling(&Rect::UNIT, [300, 200]);
+    let (mut whole, mut partly) = (0, 0);
+    for round in 0..40 {
+        let medium = [FINER, COARSER, ANY, Medium::Eraser, Medium::Risk(1.0), Medium::Risk(0.0)][round % 6];
+        let blank = if round % 6 < 4 { f32::INFINITY } else { 0.0 };
+        let mut raster = TiledRaster::new(grid, blank);
+        let first = if blank == 0.0 { RISK } else { Brush { medium: ANY, ..RISK } };
+        painted(&mut raster, Brush { radius: 0.4, ..first }, &random_points(&mut random, 2));
+        let before = raster.clone();
+        let hardness = [0.0, 0.7, 1.0][random.usize(..3)];
+        let brush = Brush { medium, radius: 0.25 + 0.3 * random.f64(), hardness, strength: 1.0 };
+        let steady = random.bool();
+        let points: Vec<PathPoint> = (0..random.usize(1..4))
+            .map(|_| PathPoint {
+                at: dvec2(random.f64(), random.f64()),
+                size: if steady { 1.0 } else { 0.7 + 0.3 * random.f64() },
+                strength: if steady { 0.9 } else { random.f64() },
+            })
+            .collect();
+        let mut gesture = stroke(&raster, brush, &[]);
+        for &point in &points {
+            gesture.extend(&raster, point);
+            gesture.extend(&raster, point);
+        }
+        finished(gesture, &mut raster);
+        assert_eq!(raster.tiles().map(|(place, _)| place.depth).max(), Some(0));
+        for (x, y) in (0..200).flat_map(|y| (0..300).map(move |x| (x, y))) {
+            let center = grid.origin + (dvec2(f64::from(x), f64::from(y)) + 0.5) * grid.pixel;
+            let ends = points.windows(2).map(|ends| [ends[0], ends[1]]).chain([[points[0]; 2]]);
+            let coverages = ends.map(|ends| brush.coverage_of_segment(center, ends) as f32);
+            let coverage = coverages.fold(0.0, f32::max);
+            let old = before.sample(center);
+            let expected =
+                if coverage > 0.0 { brush.painted_value(coverage, old, blank, H_MAX) } else { old };
+            assert_eq!(raster.sample(center).to_bits(), expected.to_bits(), "{round}: {x}, {y}");
+            whole += usize::from(coverage == 0.9);
+            partly += usize::from(coverage > 0.0 && coverage < 0.9);
+        }
+    }
+    assert!(whole > 100_000 && partly > 100_000, "{whole} {partly}");
+}
+
+#[test]
 fn a_stroke_at_4096_times_zoom_has_the_same_pixels_as_at_depth_0() {
     let grid = PixelGrid { origin: DVec2::ZERO, pixel: DVec2::splat(1.0 / 2048.0) };
     let points = [dvec2(0.11, 0.12), dvec2(0.16, 0.14), dvec2(0.15, 0.08)];

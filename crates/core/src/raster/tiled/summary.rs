@@ -89,14 +89,23 @@ impl SquareRange {
         (self.y..self.y + self.side).flat_map(move |y| columns.clone().map(move |x| (x, y)))
     }
 
-    /// Returns the ranges of these squares from those of their quarters, in the order of [`Self::squares`].
+    /// Returns the ranges of these squares, in the order of [`Self::squares`], from those of their quarters:
+    /// `quarters` has them, or values, for a block of 32 × 32.
     #[inline]
-    fn joined(self, quarter: impl Fn(i32, i32) -> ValueRange) -> Vec<ValueRange> {
+    fn joined<T: Copy>(
+        self,
+        quarters: &[T; TILE_PIXELS],
+        range: impl Fn(T) -> ValueRange,
+    ) -> Vec<ValueRange> {
         let mut ranges = Vec::with_capacity((self.side * self.side) as usize);
         for y in self.y..self.y + self.side {
-            ranges.extend((self.x..self.x + self.side).map(|x| {
-                let row = |y| quarter(2 * x, y).union(quarter(2 * x + 1, y));
-                row(2 * y).union(row(2 * y + 1))
+            let pairs = |y| {
+                let first = index(2 * self.x, y);
+                quarters[first..first + 2 * self.side as usize].as_chunks().0.iter()
+            };
+            ranges.extend(pairs(2 * y).zip(pairs(2 * y + 1)).map(|(&[a, b], &[c, d])| {
+                let [a, b, c, d] = [a, b, c, d].map(&range);
+                a.union(b).union(c.union(d))
             }));
         }
         ranges
@@ -258,11 +267,9 @@ impl TiledRaster {
         let parent = if scale < 0 { at(-scale - 1, x >> 1, y >> 1) } else { None };
         let blank = ValueRange::one(self.blank);
         match (node, summary) {
-            (Some(Node { tile, summary: None }), _) => {
-                coarser.joined(|x, y| ValueRange::one(tile[index(x, y)]))
-            }
+            (Some(Node { tile, summary: None }), _) => coarser.joined(tile.array(), ValueRange::one),
             (Some(Node { summary: Some(summary), .. }), _) | (None, Some(summary)) => {
-                coarser.joined(|x, y| summary[index(x, y)])
+                coarser.joined(&summary.0, |range| range)
             }
             (None, None) => {
                 let without = |(x, y)| parent.map_or(blank, |node| ValueRange::one(node.tile[index(x, y)]));

@@ -91,6 +91,13 @@ impl Tile {
         &self.0[first..first + count]
     }
 
+    /// Returns the values of `count` pixels from one to the right, to be changed.
+    #[inline]
+    pub fn row_mut(&mut self, [x, y]: [i32; 2], count: usize) -> &mut [f32] {
+        let first = index(x, y);
+        &mut self.0[first..first + count]
+    }
+
     /// Returns a tile with the given values; `None` if they are not 32 × 32.
     pub fn from_values(values: &[f32]) -> Option<Self> {
         values.try_into().ok().map(Self)
@@ -99,6 +106,16 @@ impl Tile {
     /// Returns all values, row by row from the lowest.
     pub fn values(&self) -> &[f32] {
         &self.0
+    }
+
+    /// Returns all values as an array.
+    pub(super) fn array(&self) -> &[f32; TILE_PIXELS] {
+        &self.0
+    }
+
+    /// Returns all values, to be changed.
+    pub fn values_mut(&mut self) -> &mut [f32] {
+        &mut self.0
     }
 
     /// Returns the value of the pixel in column `x` and row `y` of the tile.
