@@ -289,7 +289,8 @@ impl Clone for Mesh {
 /// ```
 #[inline]
 pub fn bisection_edge_length(spacing: f64, level: u32) -> f64 {
-    let halved = spacing / (1u64 << (level / 2).min(63)) as f64;
+    // 1 / 2ⁿ by its exponent: exact, and faster than a division.
+    let halved = spacing * f64::from_bits(u64::from(1023 - (level / 2).min(63)) << 52);
     if level.is_multiple_of(2) { SQRT_2 * halved } else { halved }
 }
 

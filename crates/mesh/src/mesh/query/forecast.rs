@@ -11,12 +11,12 @@
 //!          o                 m comes: both triangles are bisected, so one node gained is two triangles gained
 //!        /   \               (one at the boundary); m goes: the two are put back
 //!      o---m---o
-//!        \   /               fates: m → comes | goes | stays
+//!        \   /
 //!          o
 //! ```
 
 use super::forecast_questions::{Asked, Loose, OfMesh, OfParents, OfTree};
-use crate::geometry::{LatticePoint, LatticeRect, NumberMap};
+use crate::geometry::{LatticePoint, LatticeRect, NumberMap, NumberSet};
 use crate::mesh::kernel::{
     Bitset, ChangedArea, LevelsWithin, Limits, Mesh, Progress, RectSearch, RefineError, SharedRule,
     TargetChange, TreeTriangle, TriangleId, WalkStarts, ask_all,
@@ -66,13 +66,12 @@ pub struct Forecast {
     centres: Bitset,
     /// Triangles that may exceed their target: entries of the mesh, or parts of such.
     open: Vec<Asked>,
-    /// Entries whose newest vertex can perhaps be removed, one for each of those, to be examined when all
-    /// triangles are satisfied.
-    loose: Vec<TriangleId>,
-    /// Triangles that coarsening would restore and whose newest vertex can perhaps be removed.
-    restored: Vec<TreeTriangle>,
-    chain: Vec<TreeTriangle>,
-    fates: NumberMap<LatticePoint, Fate>,
+    /// Triangles whose newest vertex can perhaps be removed, to be examined when all triangles are satisfied.
+    loose: ByLevel,
+    /// The nodes that come.
+    coming: NumberSet<LatticePoint>,
+    /// The place in its level of the restored triangle that stands for all with this newest vertex.
+    restored: NumberMap<LatticePoint, usize>,
     starts: WalkStarts,
     added: usize,
     removed: usize,
@@ -81,13 +80,44 @@ pub struct Forecast {
     batch: Vec<Asked>,
 }
 
-/// The change of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fate {
-    Comes,
-    Goes,
-    /// A triangle that was cut there would exceed its target.
-    Stays,
+/// A triangle that is not bisected, as far as counted. It stands for all around its newest vertex.
+#[derive(Clone, Copy, Debug)]
+struct Whole {
+    triangle: TreeTriangle,
+    /// How many of them were restored; 0 where all are entries of the mesh.
+    restored: usize,
+}
+
+/// Triangles, of which the finest are taken first.
+#[derive(Clone, Debug, Default)]
+struct ByLevel {
+    levels: Vec<Vec<Whole>>,
+    /// No finer level has any.
+    finest: usize,
+}
+
+impl ByLevel {
+    fn level_mut(&mut self, level: u32) -> &mut Vec<Whole> {
+        let level = level as usize;
+        if level >= self.levels.len() {
+            self.levels.resize_with(level + 1, Vec::new);
+        }
+        self.finest = self.finest.max(level);
+        &mut self.levels[level]
+    }
+
+    /// Returns the finest triangles.
+    fn finest_mut(&mut self) -> Option<&mut Vec<Whole>> {
+        while self.levels.get(self.finest)?.is_empty() {
+            self.finest = self.finest.checked_sub(1)?;
+        }
+        self.levels.get_mut(self.finest)
+    }
+
+    fn clear(&mut self) {
+        self.levels.iter_mut().for_each(Vec::clear);
+        self.finest = 0;
+    }
 }
 
 /// Returns how many triangles of the domain come when one is bisected, or go below zero.
@@ -114,10 +144,9 @@ impl Forecast {
             asked: Bitset::default(),
             centres: Bitset::default(),
             open: Vec::new(),
-            loose: Vec::new(),
-            restored: Vec::new(),
-            chain: Vec::new(),
-            fates: NumberMap::default(),
+            loose: ByLevel::default(),
+            coming: NumberSet::default(),
+            restored: NumberMap::default(),
             starts: WalkStarts::default(),
             added: 0,
             removed: 0,
@@ -129,21 +158,21 @@ impl Forecast {
     /// [`Self::of_changes`] in the memory of another forecast, perhaps of another mesh, which is faster.
     pub fn of_changes_in(memory: Self, areas: Vec<ChangedArea>, limits: &Limits) -> Option<Self> {
         let new = Self::of_changes(areas, limits)?;
-        if memory.fates.capacity() > MOST_KEPT {
+        if memory.coming.capacity().max(memory.restored.capacity()) > MOST_KEPT {
             return Some(new);
         }
-        let Self { reached, asked, centres, open, loose, restored, chain, fates, starts, batch, .. } =
-            memory.emptied();
-        Some(Self { reached, asked, centres, open, loose, restored, chain, fates, starts, batch, ..new })
+        let Self { level_cap, areas, .. } = new;
+        Some(Self { level_cap, areas, ..memory.emptied() })
     }
 
     /// Returns the forecast with nothing found, in the same memory.
     fn emptied(mut self) -> Self {
+        (self.search, self.added, self.removed, self.change) = (None, 0, 0, 0);
         [&mut self.reached, &mut self.asked, &mut self.centres].into_iter().for_each(Bitset::clear);
         [&mut self.open, &mut self.batch].into_iter().for_each(Vec::clear);
-        [&mut self.restored, &mut self.chain].into_iter().for_each(Vec::clear);
         self.loose.clear();
-        self.fates.clear();
+        self.coming.clear();
+        self.restored.clear();
         self.starts.clear();
         self
     }
@@ -188,7 +217,7 @@ impl Forecast {
                 self.bisect_on(mesh, rule, gain, most)?
             } else if self.search.is_some() || !self.areas.is_empty() {
                 self.search_on(mesh, rule, most).map_err(RefineError::Rule)?
-            } else if !self.restored.is_empty() || !self.loose.is_empty() {
+            } else if self.loose.finest_mut().is_some() {
                 self.coarsen_on(mesh, rule, gain, most).map_err(RefineError::Rule)?
             } else {
                 return Ok(Progress::Done);
@@ -246,7 +275,8 @@ impl Forecast {
             && self.centres.insert(centre.index())
             && mesh.star_of(id).is_some()
         {
-            self.loose.push(id);
+            let triangle = TreeTriangle::of(mesh, id);
+            self.loose.level_mut(triangle.level()).push(Whole { triangle, restored: 0 });
         }
     }
 
@@ -280,36 +310,28 @@ impl Forecast {
         Ok(looked)
     }
 
-    /// Notes that a triangle is bisected, and before it those that must be to keep the mesh compatible. Each
-    /// of the chain is one level above the one before.
+    /// Notes that a triangle is bisected, and those that must be to keep the mesh compatible: each is one
+    /// level coarser than the one before.
     ///
     /// The triangle is an entry of the mesh, or part of one: no node of the mesh lies in the middle of its
     /// edges.
-    fn bisect(&mut self, mesh: &Mesh, triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
-        self.chain.push(triangle);
-        while let Some(&triangle) = self.chain.last() {
-            let midpoint = triangle.midpoint();
-            // Those that are pushed below had no node there, either.
-            if self.fate(midpoint) == Some(true) {
-                self.chain.pop();
-                continue;
-            }
+    fn bisect(&mut self, mesh: &Mesh, mut triangle: TreeTriangle, gain: impl Fn(&TreeTriangle) -> i64) {
+        while self.coming.insert(triangle.midpoint()) {
             let across = triangle.across(mesh);
-            if let Some(across) = across
-                && let Some(parent) = across.parent(mesh.lattice())
-                && !self.is_node(mesh, across.apex(), &across)
-            {
-                self.chain.push(parent);
-                continue;
-            }
-            self.chain.pop();
-            self.fates.insert(midpoint, Fate::Comes);
             self.added += 1 + usize::from(across.is_some());
             self.change += gain(&triangle) + across.as_ref().map_or(0, &gain);
+            let half = across.filter(|across| !self.is_node(mesh, across.apex(), across));
+            match half.and_then(|half| half.parent(mesh.lattice())) {
+                Some(parent) => triangle = parent,
+                None => break,
+            }
         }
     }
 
-    /// Looks at up to `most` triangles, and notes that the newest vertices go that can.
+    /// Looks at up to `most` triangles of the finest level, and notes that the newest vertices go that can.
+    ///
+    /// Whether a vertex can go depends on the vertices of the next finer level around it, and on none of its
+    /// own: from the finest level down, once is enough.
     fn coarsen_on<R: SharedRule>(
         &mut self,
         mesh: &Mesh,
@@ -317,72 +339,58 @@ impl Forecast {
         gain: impl Fn(&TreeTriangle) -> i64,
         most: usize,
     ) -> Result<usize, R::Error> {
-        let mut stars = Vec::new();
-        let mut looked = 0;
-        while looked < most {
-            looked += 1;
-            if let Some(triangle) = self.restored.pop() {
-                stars.extend(self.star(mesh, &triangle, false));
-            } else if let Some(id) = self.loose.pop() {
-                stars.extend(self.star(mesh, &TreeTriangle::of(mesh, id), true));
-            } else {
-                break;
-            }
-        }
+        let Some(finest) = self.loose.finest_mut() else { return Ok(0) };
+        let batch = finest.split_off(finest.len().saturating_sub(most));
+        let mut stars: Vec<Loose> = batch.iter().filter_map(|whole| self.star(mesh, whole)).collect();
         ask_all(&OfParents { level_cap: self.level_cap }, &mut stars, rule)?;
-        for Loose { at, parents, .. } in stars.into_iter().filter(|loose| !loose.is_needed) {
-            self.fates.insert(at, Fate::Goes);
-            self.removed += parents.iter().flatten().count();
-            self.change -= parents.iter().flatten().map(&gain).sum::<i64>();
-            self.restored.extend(parents.into_iter().flatten());
+        for parent in stars.iter().filter(|loose| !loose.is_needed).flat_map(Loose::parents) {
+            self.removed += 1;
+            self.change -= gain(parent);
+            self.restore(*parent);
         }
-        Ok(looked)
+        Ok(batch.len())
     }
 
-    /// Returns the newest vertex of a triangle and the parents around it, if all of them could be restored;
-    /// `None` where its fate is known. Until the parents are asked about, it stays. `are_entries` says that
-    /// all triangles around the vertex are entries of the mesh.
-    fn star(&mut self, mesh: &Mesh, triangle: &TreeTriangle, are_entries: bool) -> Option<Loose> {
-        let at = triangle.apex();
-        if self.fates.contains_key(&at) {
-            return None;
+    /// Notes a triangle that is put back.
+    fn restore(&mut self, triangle: TreeTriangle) {
+        let level = self.loose.level_mut(triangle.level());
+        let place = *self.restored.entry(triangle.apex()).or_insert(level.len());
+        match level.get_mut(place) {
+            Some(whole) => whole.restored += 1,
+            None => level.push(Whole { triangle, restored: 1 }),
         }
-        let parent = triangle.parent(mesh.lattice())?;
+    }
+
+    /// Returns the parents around the newest vertex of a triangle, if no triangle around it is bisected.
+    fn star(&mut self, mesh: &Mesh, whole: &Whole) -> Option<Loose> {
+        let parent = whole.triangle.parent(mesh.lattice())?;
         let parents = [Some(parent), parent.across(mesh)];
-        // An entry of the mesh is bisected only if a node comes.
-        if !are_entries || self.added > 0 {
-            let children = parents.iter().flatten().flat_map(TreeTriangle::children);
-            // What was restored is whole.
-            if children
-                .filter(|child| are_entries || child != triangle)
-                .any(|child| self.is_bisected(mesh, &child, are_entries))
-            {
-                return None;
-            }
-        }
-        self.fates.insert(at, Fate::Stays);
-        Some(Loose { at, parents, is_needed: false })
+        let mut children = parents.iter().flatten().flat_map(TreeTriangle::children);
+        let count = 2 * parents.iter().flatten().count();
+        let is_whole = match whole.restored {
+            // An entry of the mesh is bisected only if a node comes.
+            0 => self.added == 0 || children.all(|child| !self.is_coming(mesh, &child)),
+            all if all == count => true,
+            some => some + children.filter(|child| self.is_entry(mesh, child)).count() == count,
+        };
+        is_whole.then_some(Loose { parents, is_needed: false })
     }
 
-    fn is_bisected(&mut self, mesh: &Mesh, triangle: &TreeTriangle, is_entry: bool) -> bool {
-        if triangle.level() >= mesh.lattice().deepest_level() {
-            return false;
-        }
-        let midpoint = triangle.midpoint();
-        self.fate(midpoint).unwrap_or_else(|| !is_entry && self.was_node(mesh, midpoint, triangle))
+    /// Returns whether a triangle is an entry of the mesh that no node cuts.
+    fn is_entry(&mut self, mesh: &Mesh, triangle: &TreeTriangle) -> bool {
+        let is_deepest = triangle.level() >= mesh.lattice().deepest_level();
+        is_deepest || !self.is_coming(mesh, triangle) && !self.was_node(mesh, triangle.midpoint(), triangle)
     }
 
-    /// Returns whether a point of a triangle, which may lie on its rim, is a node as far as counted.
+    /// Returns whether a node comes that cuts a triangle.
+    fn is_coming(&self, mesh: &Mesh, triangle: &TreeTriangle) -> bool {
+        triangle.level() < mesh.lattice().deepest_level() && self.coming.contains(&triangle.midpoint())
+    }
+
+    /// Returns whether a point of a triangle, which may lie on its rim, is a node, or comes.
     #[inline]
     fn is_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {
-        self.fate(point).unwrap_or_else(|| self.was_node(mesh, point, of))
-    }
-
-    /// Returns whether a point is a node as far as counted, where that differs from the mesh or was found
-    /// out.
-    #[inline]
-    fn fate(&self, point: LatticePoint) -> Option<bool> {
-        self.fates.get(&point).map(|fate| *fate != Fate::Goes)
+        self.coming.contains(&point) || self.was_node(mesh, point, of)
     }
 
     fn was_node(&mut self, mesh: &Mesh, point: LatticePoint, of: &TreeTriangle) -> bool {

@@ -1,6 +1,5 @@
 //! What forecasts ask a rule.
 
-use crate::geometry::LatticePoint;
 use crate::mesh::kernel::{LevelsWithin, Questions, RuleAnswers, TreeTriangle, any_exceeds};
 
 /// A triangle that may exceed its target.
@@ -24,10 +23,15 @@ impl Asked {
 
 /// The newest vertex of triangles that coarsening would remove.
 pub(super) struct Loose {
-    pub(super) at: LatticePoint,
     pub(super) parents: [Option<TreeTriangle>; 2],
     /// Whether a parent exceeds its target.
     pub(super) is_needed: bool,
+}
+
+impl Loose {
+    pub(super) fn parents(&self) -> impl Iterator<Item = &TreeTriangle> {
+        self.parents.iter().flatten()
+    }
 }
 
 /// Asks about triangles of the tree, and about those within them.
@@ -75,7 +79,7 @@ impl Questions for OfParents {
 
     #[inline]
     fn ask<A: RuleAnswers>(&self, loose: &mut Loose, answers: &mut A) -> Result<(), A::Error> {
-        let parents = loose.parents.iter().flatten().map(|parent| (parent.corners(), parent.level()));
+        let parents = loose.parents().map(|parent| (parent.corners(), parent.level()));
         loose.is_needed = any_exceeds(answers, self.level_cap, parents)?;
         Ok(())
     }
