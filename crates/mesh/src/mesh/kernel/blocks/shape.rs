@@ -40,6 +40,12 @@ impl Shape {
         u32::from(self.0) & ((1 << FORM) - 1)
     }
 
+    /// Returns whether the block is one triangle.
+    #[inline]
+    pub fn is_one(self) -> bool {
+        self.depth() == 0
+    }
+
     #[inline]
     pub fn template(self) -> &'static Template {
         Template::of_form(usize::from(self.0) >> FORM & 3, self.depth())

@@ -9,6 +9,7 @@
 //! by one. Nodes within an edge belong to the block with the lower number.
 
 use std::ops::Range;
+use std::slice;
 
 use rayon::prelude::*;
 
@@ -204,9 +205,18 @@ impl Writer {
 
     /// Returns a triangle around a node of the skeleton, which has this block.
     fn triangle_at_corner(&self, skeleton: &[Triangle], block: TriangleId, node: NodeId) -> TriangleId {
+        let shape = self.shapes[block.index()];
+        if shape.is_one() {
+            return block;
+        }
         let vertices = skeleton[block.index()].vertices;
         let corner = vertices.iter().position(|&vertex| vertex == node).expect("the triangle has the node");
-        self.triangle(block, self.shapes[block.index()].template().triangle_at[corner])
+        self.triangle(block, shape.template().triangle_at[corner])
+    }
+
+    /// Returns the blocks of a chunk that have more than one triangle: the others have no nodes of their own.
+    fn divided_blocks(&self, chunk: &Chunk) -> impl Iterator<Item = (usize, Shape)> {
+        chunk.blocks.clone().map(|block| (block, self.shapes[block])).filter(|(_, shape)| !shape.is_one())
     }
 
     fn write_nodes(
@@ -216,8 +226,7 @@ impl Writer {
         corners: &[LatticePoint],
         nodes: &mut Piece<LatticePoint>,
     ) {
-        for block in chunk.blocks.clone() {
-            let shape = self.shapes[block];
+        for (block, shape) in self.divided_blocks(chunk) {
             let corners = skeleton[block].vertices.map(|vertex| corners[vertex.index()]);
             for slots in own_slots(shape) {
                 nodes.extend(slots.map(|slot| shape.template().point(slot, corners)));
@@ -226,8 +235,8 @@ impl Writer {
     }
 
     fn write_triangles_at(&self, chunk: &Chunk, triangle_at: &mut Piece<TriangleId>) {
-        for block in chunk.blocks.clone() {
-            let (shape, id) = (self.shapes[block], TriangleId::from_index(block));
+        for (block, shape) in self.divided_blocks(chunk) {
+            let id = TriangleId::from_index(block);
             for slots in own_slots(shape) {
                 triangle_at.extend(slots.map(|slot| self.triangle(id, shape.template().triangle_at[slot])));
             }
@@ -238,6 +247,11 @@ impl Writer {
     fn write_triangles(&self, chunk: &Chunk, blocks: &mut [Triangle], piece: &mut Piece<Triangle>) {
         let (mut nodes, mut triangles) = (Vec::new(), Vec::new());
         for (block, number) in blocks.iter_mut().zip(chunk.blocks.clone()) {
+            let shape = self.shapes[number];
+            if shape.is_one() {
+                self.link_one(shape, block);
+                continue;
+            }
             self.node_ids(number, block, &mut nodes);
             self.triangles(number, block, &nodes, &mut triangles);
             *block = triangles[0];
@@ -285,6 +299,16 @@ impl Writer {
         }
         for edge in 0..3 {
             self.link(shape, edge, block.raw_neighbours[edge], triangles);
+        }
+    }
+
+    /// Sets what lies across the edges of a block of one triangle: another triangle only where the block there
+    /// is divided.
+    fn link_one(&self, shape: Shape, block: &mut Triangle) {
+        for (edge, across) in block.raw_neighbours.into_iter().enumerate() {
+            if across.triangle().is_some_and(|across| !self.shapes[across.index()].is_one()) {
+                self.link(shape, edge, across, slice::from_mut(block));
+            }
         }
     }
 
