@@ -4,13 +4,15 @@
     cargo build --release
     python3 tests/frame_times.py [PROGRAM [TRIANGLES...]]
 
-PROGRAM is target/release/meshbrush if none is named. TRIANGLES choose among the meshes below, as in `34k 2.4M`.
+PROGRAM is target/release/meshbrush if none is named. TRIANGLES choose among the meshes below, as in `34k 2.4M`;
+`layers` has eight layers, the last one painted, and `coast` nodes on an outline of 40,000 corners.
 Needs Xvfb and xdotool. A frame takes the time from the end of one frame's drawing to the end of the next while the
 pointer reports 250 positions a second (120 while painting). Printed: the median and the 95th percentile in
 milliseconds; for a fast stroke the time from its end until the mesh is at rest, and that of the frames meanwhile.
 """
 
 import json
+import math
 import os
 import shutil
 import statistics
@@ -21,25 +23,123 @@ import threading
 import time
 import zipfile
 
-# Diameter and height of the fine part; a stroke asks for less.
-MESHES = {"34k": (0.00625, 0.3), "1.5M": (0.00125, 0.45), "2.4M": (0.00088, 0.36)}
 
-
-def write_project(path, fine, height):
+def wave(fine, height):
     """A square that is fine below a wave, so that strokes cross fine and coarse parts."""
+    return f"if(y < {height} + 0.1 * sin(7 * x), {fine}, 0.2)"
+
+
+def write_project(folder, fine, height):
     settings = {
         "format": "Meshbrush project", "version": 1, "written_by": "tests/frame_times.py", "name": "",
         "domain": {"bounds": [0.0, 0.0, 1.0, 1.0], "shape": "whole"},
         "boundary": "report", "spacing": 0.05, "resolution": 1024,
         "transfer": {"h_min": 0.7 * fine, "h_max": 0.2, "shape": 1.0},
-        "base": {"formula": f"if(y < {height} + 0.1 * sin(7 * x), {fine}, 0.2)"},
+        "base": {"formula": wave(fine, height)},
         "rule": "area", "max_triangles": 20_000_000, "max_memory": 4_000_000_000,
     }
+    path = os.path.join(folder, "mesh.meshbrush")
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("settings.json", json.dumps(settings))
         archive.writestr("paint.tiles", b"")
+    return path
 
 
+def write_recipe(folder, text):
+    path = os.path.join(folder, "mesh.toml")
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def write_layers(folder):
+    """A recipe of seven layers: painting adds the eighth."""
+    side = 512
+    shares = [(n + 0.5) / side for n in range(side)]
+    rows = [" ".join(f"{0.5 + 0.5 * math.sin(9 * x) * math.cos(11 * y):.4f}" for x in shares) for y in shares]
+    with open(os.path.join(folder, "hills.asc"), "w") as file:
+        header = f"ncols {side}\nnrows {side}\nxllcorner 0\nyllcorner 0\ncellsize {1 / side}\n"
+        file.write(header + "\n".join(rows) + "\n")
+    threats = ", ".join(
+        "{ x = %.3f, y = %.3f, range = 0.02, peak = 0.7 }" % (n * 0.618 % 1, n * 0.414 % 1) for n in range(1, 100))
+    return write_recipe(folder, f"""
+[mesh]
+spacing = 0.05
+[limits]
+h_min = 0.00077
+h_risk = 0.0011
+h_max = 0.2
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "{wave(0.0011, 0.45)}"
+[[layer]]
+kind = "raster"
+file = "hills.asc"
+curve = [[0.5, 0.2], [1.0, 0.01]]
+[[layer]]
+kind = "band"
+file = "hills.asc"
+between = [0.9, 0.95]
+diameter = 0.02
+[[layer]]
+kind = "distance"
+shapes = [{{ line = [[0.05, 0.9], [0.4, 0.7], [0.95, 0.85]] }}]
+at_zero = 0.005
+slope = 0.3
+range = 0.2
+[[layer]]
+kind = "threats"
+threats = [{threats}]
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "0.01"
+combine = "floor"
+mask = [[[[0.7, 0.1], [0.9, 0.12], [0.85, 0.3], [0.72, 0.25]]]]
+[[layer]]
+kind = "formula"
+quantity = "risk"
+formula = "0.5 * exp(-40 * ((x - 0.5)^2 + (y - 0.8)^2))"
+""")
+
+
+def write_coast(folder):
+    """A lake with an island, and bays of several sizes."""
+    def ring(radius):
+        angles = [n / 20_000 * math.tau for n in range(20_000)]
+        radii = [radius + 0.01 * math.sin(99 * a) + 0.0005 * math.sin(4999 * a) for a in angles]
+        ring = [[0.5 + r * math.cos(a), 0.5 + r * math.sin(a)] for a, r in zip(angles, radii)]
+        return [*ring, ring[0]]
+
+    with open(os.path.join(folder, "lake.geojson"), "w") as file:
+        json.dump({"type": "Polygon", "coordinates": [ring(0.48), ring(0.25)]}, file)
+    return write_recipe(folder, f"""
+[domain]
+region = "lake.geojson"
+boundary = "outline"
+boundary_diameter = 0.0011
+[mesh]
+spacing = 0.05
+[limits]
+h_min = 0.00077
+h_risk = 0.0011
+h_max = 0.2
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "{wave(0.0011, 0.65)}"
+""")
+
+
+# Diameter and height of the fine part; a stroke asks for less.
+MESHES = {
+    "34k": lambda folder: write_project(folder, 0.00625, 0.3),
+    "1.5M": lambda folder: write_project(folder, 0.00125, 0.45),
+    "2.4M": lambda folder: write_project(folder, 0.00088, 0.36),
+    "layers": write_layers,
+    "coast": write_coast,
+}
 SIZE = (1440, 900)
 # Within the canvas, whatever the exact sizes of the panels.
 LEFT, RIGHT, TOP, BOTTOM = 250, 950, 130, 770
@@ -200,13 +300,11 @@ def main():
     program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else "target/release/meshbrush")
     for name in sys.argv[2:] or MESHES:
         with tempfile.TemporaryDirectory() as scratch:
-            project = os.path.join(scratch, "mesh.meshbrush")
-            write_project(project, *MESHES[name])
-            window = Window(program, project, scratch)
+            window = Window(program, MESHES[name](scratch), scratch)
             try:
                 window.focus()
                 window.settle()
-                print(f"{window.frames[-1][1]} triangles", flush=True)
+                print(f"{name}: {window.frames[-1][1]} triangles", flush=True)
                 measure(window)
             finally:
                 window.close()
