@@ -2,10 +2,10 @@
 //!
 //! A bisection makes one node, and the node identifies the bisection: it is the middle of the edge that the
 //! one or two bisected triangles share. So a coarse grid and a set of nodes determine a mesh, and an update
-//! adds some nodes and removes others. The work is the same as in [`Updater`](crate::mesh::Updater), in the
-//! same order; but the updater changes entries, and the forecast notes nodes. Triangles that are not in the
-//! array are known by their corners alone: parent, children and the mirror image across the bisection edge
-//! follow from the lattice, as the head of `coarsen.rs` shows.
+//! adds some nodes and removes others. The work is the same as in [`Updater`](crate::mesh::Updater); but the
+//! updater changes entries, and the forecast notes nodes. Triangles that are not in the array are known by
+//! their corners alone: parent, children and the mirror image across the bisection edge follow from the
+//! lattice, as the head of `coarsen.rs` shows.
 //!
 //! ```text
 //!          o                 m comes: both triangles are bisected, so one node gained is two triangles gained
