@@ -52,6 +52,22 @@ def write_recipe(folder, text):
     return path
 
 
+def fine_below(height):
+    """The part of a recipe that decides how large the mesh is."""
+    return f"""
+[mesh]
+spacing = 0.05
+[limits]
+h_min = 0.00077
+h_risk = 0.0011
+h_max = 0.2
+[[layer]]
+kind = "formula"
+quantity = "diameter"
+formula = "{wave(0.0011, height)}"
+"""
+
+
 def write_layers(folder):
     """A recipe of seven layers: painting adds the eighth."""
     side = 512
@@ -62,17 +78,7 @@ def write_layers(folder):
         file.write(header + "\n".join(rows) + "\n")
     threats = ", ".join(
         "{ x = %.3f, y = %.3f, range = 0.02, peak = 0.7 }" % (n * 0.618 % 1, n * 0.414 % 1) for n in range(1, 100))
-    return write_recipe(folder, f"""
-[mesh]
-spacing = 0.05
-[limits]
-h_min = 0.00077
-h_risk = 0.0011
-h_max = 0.2
-[[layer]]
-kind = "formula"
-quantity = "diameter"
-formula = "{wave(0.0011, 0.45)}"
+    return write_recipe(folder, fine_below(0.45) + f"""
 [[layer]]
 kind = "raster"
 file = "hills.asc"
@@ -114,21 +120,11 @@ def write_coast(folder):
 
     with open(os.path.join(folder, "lake.geojson"), "w") as file:
         json.dump({"type": "Polygon", "coordinates": [ring(0.48), ring(0.25)]}, file)
-    return write_recipe(folder, f"""
+    return write_recipe(folder, fine_below(0.65) + """
 [domain]
 region = "lake.geojson"
 boundary = "outline"
 boundary_diameter = 0.0011
-[mesh]
-spacing = 0.05
-[limits]
-h_min = 0.00077
-h_risk = 0.0011
-h_max = 0.2
-[[layer]]
-kind = "formula"
-quantity = "diameter"
-formula = "{wave(0.0011, 0.65)}"
 """)
 
 
@@ -140,6 +136,7 @@ MESHES = {
     "layers": write_layers,
     "coast": write_coast,
 }
+
 SIZE = (1440, 900)
 # Within the canvas, whatever the exact sizes of the panels.
 LEFT, RIGHT, TOP, BOTTOM = 250, 950, 130, 770
