@@ -68,8 +68,20 @@ formula = "{wave(0.0011, height)}"
 """
 
 
+def painted(folder):
+    """The part of a recipe with a layer to paint on: a project has the paint, which is none."""
+    write_project(folder, 0.1, 0.5)
+    return """
+[[layer]]
+kind = "paint"
+quantity = "risk"
+name = "Painted risk"
+file = "mesh.meshbrush"
+"""
+
+
 def write_layers(folder):
-    """A recipe of seven layers: painting adds the eighth."""
+    """A recipe of eight layers, of which the last is painted on."""
     side = 512
     shares = [(n + 0.5) / side for n in range(side)]
     rows = [" ".join(f"{0.5 + 0.5 * math.sin(9 * x) * math.cos(11 * y):.4f}" for x in shares) for y in shares]
@@ -107,7 +119,7 @@ mask = [[[[0.7, 0.1], [0.9, 0.12], [0.85, 0.3], [0.72, 0.25]]]]
 kind = "formula"
 quantity = "risk"
 formula = "0.5 * exp(-40 * ((x - 0.5)^2 + (y - 0.8)^2))"
-""")
+{painted(folder)}""")
 
 
 def write_coast(folder):
@@ -125,7 +137,7 @@ def write_coast(folder):
 region = "lake.geojson"
 boundary = "outline"
 boundary_diameter = 0.0011
-""")
+""" + painted(folder))
 
 
 # Diameter and height of the fine part; a stroke asks for less.
@@ -265,8 +277,11 @@ def measure(window):
     window.settle()
     stroke = list(zigzag(240, 3))
     window.xdotool("mousemove", *map(round, stroke[0]))
+    triangles = window.frames[-1][1]
     measured("paint", intervals_ms(window.during("mousedown", 1, *moves(stroke, 0.008), "mouseup", 1)))
     window.settle()
+    if window.frames[-1][1] == triangles:
+        sys.exit("the stroke painted nothing")
     undo(window)
     measure_fast_strokes(window)
 
