@@ -93,7 +93,7 @@ impl Tile {
 
     /// Returns the values of `count` pixels from one to the right, to be changed.
     #[inline]
-    pub fn row_mut(&mut self, [x, y]: [i32; 2], count: usize) -> &mut [f32] {
+    pub(crate) fn row_mut(&mut self, [x, y]: [i32; 2], count: usize) -> &mut [f32] {
         let first = index(x, y);
         &mut self.0[first..first + count]
     }
@@ -114,7 +114,7 @@ impl Tile {
     }
 
     /// Returns all values, to be changed.
-    pub fn values_mut(&mut self) -> &mut [f32] {
+    pub(crate) fn values_mut(&mut self) -> &mut [f32] {
         &mut self.0
     }
 

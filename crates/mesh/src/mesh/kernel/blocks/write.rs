@@ -302,8 +302,8 @@ impl Writer {
         }
     }
 
-    /// Sets what lies across the edges of a block of one triangle: another triangle only where the block there
-    /// is divided.
+    /// Sets what lies across the edges of a block of one triangle. That is another triangle only where the
+    /// block there is divided.
     fn link_one(&self, shape: Shape, block: &mut Triangle) {
         for (edge, across) in block.raw_neighbours.into_iter().enumerate() {
             if across.triangle().is_some_and(|across| !self.shapes[across.index()].is_one()) {
