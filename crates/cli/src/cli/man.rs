@@ -36,7 +36,10 @@ fn write_page(command: clap::Command, folder: &Path) -> Result<(), Failure> {
 }
 
 fn render(page: &Man, examples: Option<&str>, out: &mut dyn Write) -> io::Result<()> {
-    page.render(out)?;
+    let mut text = Vec::new();
+    page.render(&mut text)?;
+    // Where the language is not set, man has no ellipsis.
+    out.write_all(String::from_utf8_lossy(&text).replace('…', "...").as_bytes())?;
     let Some(examples) = examples else { return Ok(()) };
     writeln!(out, ".SH EXAMPLES\n.nf")?;
     let lines = examples.lines().filter(|line| !line.starts_with("Example"));
