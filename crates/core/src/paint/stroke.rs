@@ -143,7 +143,7 @@ impl Stroke {
     }
 
     /// Draws a segment on a tile, and lists the tile's children to be drawn next. Returns the area where
-    /// pixels may have changed; `None` if the segment covers no pixel of the tile more than those before.
+    /// pixels may have changed; `None` if the segment covers no pixel of the tile.
     fn draw(&mut self, raster: &mut TiledRaster, segment: &mut Segment, place: TilePlace) -> Option<Repaint> {
         // Children hide the tile, so they are drawn on as well.
         for child in place.children().into_iter().filter(|child| raster.tile(*child).is_some()) {
@@ -198,7 +198,7 @@ impl Stroke {
     }
 
     /// Applies the brush to the pixels of a tile, with the coverage of one segment. Returns the range of the
-    /// values of the tile before the stroke; `None` if all pixels were covered as much before.
+    /// values of the tile before the stroke.
     fn stamp(
         &mut self,
         raster: &mut TiledRaster,
@@ -215,7 +215,8 @@ impl Stroke {
             Entry::Occupied(entry) => {
                 let covered = entry.into_mut();
                 if !covered.grow(&mut coverage) {
-                    return None;
+                    // Nothing to paint, but the tile counts as drawn: a slice ends after so many tiles.
+                    return Some(covered.range);
                 }
                 (&*covered, &coverage)
             }

@@ -241,6 +241,20 @@ fn slices_do_not_change_a_stroke_and_distant_tiles_are_not_touched() {
 }
 
 #[test]
+fn a_slice_over_what_is_painted_ends_after_its_tiles() {
+    let mut raster = TiledRaster::new(PixelGrid::filling(&Rect::UNIT, [1000, 900]), 0.0);
+    let [a, b] = [dvec2(0.2, 0.5), dvec2(0.8, 0.5)];
+    // The way back covers nothing more.
+    let mut stroke = stroke(&raster, Brush { radius: 0.1, ..RISK }, &[a, b, a]);
+    let mut slices = 0;
+    while stroke.advance(&mut raster, 1).is_some() {
+        slices += 1;
+    }
+    let tiles = raster.tile_count();
+    assert!(slices >= 2 * tiles - 1, "{slices} slices for {tiles} tiles, twice");
+}
+
+#[test]
 fn passing_over_a_place_twice_in_one_stroke_does_no_more_than_once() {
     let (a, b) = (dvec2(0.2, 0.5), dvec2(0.8, 0.5));
     let (mut once, mut twice) = (risks(), risks());
