@@ -28,7 +28,8 @@ impl PartialOrd for Waiting {
     }
 }
 
-/// The work of [`PathMesh::bisect`], in slices. Its mesh must be [connected](PathMesh::connect) afterwards.
+/// The work of [`PathMesh::bisect`], in slices. What was derived from its mesh must be
+/// [forgotten](PathMesh::clear_indices) afterwards.
 pub(super) struct Bisection {
     waiting: BinaryHeap<Waiting>,
     /// How often each triangle was bisected.
@@ -108,7 +109,7 @@ impl PathMesh {
             return Ok(());
         }
         Bisection::new(self, wanted, most).advance(self, usize::MAX, &mut importance)?;
-        self.connect();
+        self.clear_indices();
         Ok(())
     }
 

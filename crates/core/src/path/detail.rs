@@ -106,7 +106,6 @@ impl PathMesh {
         if mesh.triangle_count() > self.triangle_count() {
             let mesh = Arc::make_mut(&mut mesh);
             mesh.sort_along_curve();
-            mesh.connect();
         }
         mesh
     }

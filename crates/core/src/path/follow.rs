@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::adaptation::{Adaptation, Adapted};
 use super::origin::Origin;
 use super::path_mesh::{NONE, PathMesh};
-use super::planner::Adaptation;
 use super::shared::Shared;
-use super::triangle_costs::{TriangleCost, TriangleCosts};
+use super::triangle_costs::{TriangleCost, TriangleCosts, coarsest};
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Planner};
 use crate::geometry::Rect;
@@ -35,26 +35,30 @@ impl Planner {
     /// # Errors
     /// Fails when the new cost is zero, negative, NaN or infinite somewhere; then nothing changes.
     pub fn update(&mut self, density: &dyn CostDensity, areas: &[Rect]) -> Result<(), PathError> {
-        let Some(Adaptation { base, costs: known, changed }) = &self.adaptation else {
+        let Some(adaptation) = &self.adaptation else {
             return self.change_costs(density, areas);
         };
-        let meeting = base.meeting(&[changed, areas].concat());
+        let areas = [&adaptation.changed, areas].concat();
+        if areas.is_empty() {
+            return Ok(());
+        }
+        let base = adaptation.base(&self.mesh);
+        let meeting = base.meeting(&areas);
         if meeting.is_empty() {
             return Ok(());
         }
-        let mut known = known.clone();
+        let mut known = adaptation.known_costs(&self.costs);
         for (&triangle, cost) in meeting.iter().zip(base.costs_of(&meeting, density)?) {
             known[triangle as usize] = cost;
         }
-        let (base, mut mesh) = (Arc::clone(base), Arc::clone(base));
-        let costs = TriangleCosts::on_adapted(&mut mesh, &known, density)?;
+        let Adapted { mesh, costs, adaptation } = Adapted::new(base, &known, density)?;
         if mesh.is_same_as(&self.mesh) {
             let changed = self.costs.exchange(costs);
             self.follow_costs(&changed);
         } else {
             self.move_marches(mesh, costs);
         }
-        self.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
+        self.adaptation = Some(adaptation);
         Ok(())
     }
 
@@ -172,7 +176,7 @@ enum Step {
     /// The mesh is bisected where the cost varies much.
     Adapt(Vec<TriangleCost>),
     /// The planner takes the mesh.
-    Take(Vec<TriangleCost>, Arc<PathMesh>, TriangleCosts),
+    Take(Adapted),
     /// Marches follow, from the one with this number on.
     March(MeshMove, usize),
     Done,
@@ -200,11 +204,7 @@ impl PlannerMove {
                     *planner = Planner::on_mesh(Arc::clone(mesh), density)?;
                     Step::Done
                 }
-                Some(Adaptation { base, .. }) if Arc::ptr_eq(base, mesh) => {
-                    planner.update(density, areas)?;
-                    Step::Done
-                }
-                Some(adaptation) => known_costs(adaptation, mesh, areas),
+                Some(adaptation) => known_costs(planner, adaptation, mesh, areas),
             },
             Step::Costs { mut known, unknown, next } => {
                 let most = if rayon::current_num_threads() > 1 { unknown.len() } else { AT_ONCE };
@@ -219,15 +219,10 @@ impl PlannerMove {
                     Step::Adapt(known)
                 }
             }
-            Step::Adapt(known) => {
-                let mut adapted = Arc::clone(mesh);
-                let costs = TriangleCosts::on_adapted(&mut adapted, &known, density)?;
-                Step::Take(known, adapted, costs)
-            }
-            Step::Take(known, adapted, costs) => {
-                let base = Arc::clone(mesh);
-                planner.adaptation = Some(Adaptation { base, costs: known, changed: Vec::new() });
-                Step::March(planner.take_mesh(adapted, costs), 0)
+            Step::Adapt(known) => Step::Take(Adapted::new(Arc::clone(mesh), &known, density)?),
+            Step::Take(Adapted { mesh, costs, adaptation }) => {
+                planner.adaptation = Some(adaptation);
+                Step::March(planner.take_mesh(mesh, costs), 0)
             }
             Step::March(moved, first) => {
                 let end = if rayon::current_num_threads() > 1 { usize::MAX } else { first + 1 };
@@ -242,14 +237,19 @@ impl PlannerMove {
     }
 }
 
-/// Takes the costs that are known of a mesh, and finds the triangles whose costs are not.
-fn known_costs(adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> Step {
-    let Adaptation { base, costs, changed } = adaptation;
-    let shared = Shared::of(base, new);
-    let without = (0..).zip(&shared.triangles).filter(|&(_, &t)| t == NONE).map(|(t, _)| t);
-    let mut unknown: Vec<u32> = new.meeting(&[changed, areas].concat()).into_iter().chain(without).collect();
+/// Takes the costs that a planner knows of a new mesh, and finds the triangles whose costs it does not.
+fn known_costs(planner: &Planner, adaptation: &Adaptation, new: &PathMesh, areas: &[Rect]) -> Step {
+    let base = adaptation.base(&planner.mesh);
+    let shared = Shared::of(&base, new);
+    // Triangles that need not be bisected have no greatest cost, and another extent may ask for it.
+    let is_known = coarsest(&base) == coarsest(new);
+    let is_unknown = |&(_, &t): &(u32, &u32)| t == NONE || !is_known;
+    let without = (0..).zip(&shared.triangles).filter(is_unknown).map(|(t, _)| t);
+    let in_areas = new.meeting(&[&adaptation.changed, areas].concat());
+    let mut unknown: Vec<u32> = in_areas.into_iter().chain(without).collect();
     unknown.sort_unstable();
     unknown.dedup();
+    let costs = adaptation.known_costs(&planner.costs);
     let of_old = |&t: &u32| costs.get(t as usize).copied().unwrap_or(TriangleCost::CLOSED);
     let known = shared.triangles.iter().map(of_old).collect();
     Step::Costs { known, unknown, next: 0 }

@@ -21,8 +21,8 @@ pub struct PathMeshing {
 enum Step {
     /// Triangles from this one on are compared with the area.
     Compare(usize, Vec<Passage>),
-    /// The rows of triangles around nodes are made.
-    Connect,
+    /// Triangles to bisect are looked for.
+    Find,
     /// Triangles through which the rim of the area passes are bisected.
     Divide(RimDivision),
     /// Triangles are sorted along a curve.
@@ -34,9 +34,9 @@ impl PathMeshing {
     /// Begins with a mesh.
     pub fn new(view: MeshView, area: &PathArea) -> Self {
         let passage = |_: &[DVec2; 3], is_outside| if is_outside { Passage::Closed } else { Passage::Open };
-        let mut mesh = PathMesh::unconnected(view, passage);
+        let mut mesh = PathMesh::with_passages(view, passage);
         mesh.area = area.clone();
-        let step = if area.is_everything() { Step::Connect } else { Step::Compare(0, Vec::new()) };
+        let step = if area.is_everything() { Step::Find } else { Step::Compare(0, Vec::new()) };
         Self { mesh, step }
     }
 
@@ -53,16 +53,13 @@ impl PathMeshing {
                     Step::Compare(end, passages)
                 } else {
                     close_outside_area(mesh, &passages);
-                    Step::Connect
+                    Step::Find
                 }
             }
-            Step::Connect => {
-                mesh.connect();
-                match RimDivision::new(mesh) {
-                    Some(division) => Step::Divide(division),
-                    None => return Some(std::mem::take(mesh)),
-                }
-            }
+            Step::Find => match RimDivision::new(mesh) {
+                Some(division) => Step::Divide(division),
+                None => return Some(std::mem::take(mesh)),
+            },
             Step::Divide(mut division) => match division.advance(mesh, triangles.max(1)) {
                 Progress::More => Step::Divide(division),
                 Progress::Done if division.has_changed(mesh) => Step::Sort,
@@ -70,7 +67,6 @@ impl PathMeshing {
             },
             Step::Sort => {
                 mesh.sort_along_curve();
-                mesh.connect();
                 return Some(std::mem::take(mesh));
             }
             Step::Done => Step::Done,
@@ -92,6 +88,7 @@ fn close_outside_area(mesh: &mut PathMesh, passages: &[Passage]) {
         triangle.is_kept_out = passage == Passage::Closed && triangle.is_passable();
         triangle.passage = passage;
     }
+    mesh.clear_indices();
     mesh.has_obtuse = mesh.triangles.iter().any(|triangle| triangle.obtuse < 3 && triangle.is_passable());
 }
 

@@ -17,6 +17,7 @@
 //!   Certificate            → a better bound, on a mesh of its own, as close as asked for
 //! ```
 
+mod adaptation;
 mod alternatives;
 mod area;
 mod bisection;

@@ -35,21 +35,55 @@ pub struct PathMesh {
     pub(super) triangles: Vec<PathTriangle>,
     /// The triangle across the edge from corner j to the next one; [`NONE`] where there is none.
     pub(super) across: Vec<[u32; 3]>,
-    /// The index in `around` of the first entry of each node's row.
-    row_starts: Vec<u32>,
-    /// The triangles around each node that are not closed.
-    around: Vec<u32>,
     pub(super) has_obtuse: bool,
     /// Where paths may go.
     pub(super) area: PathArea,
     /// Whether the triangles cover the whole rectangle of the mesh, but for what the area leaves out: then no
     /// path through the domain leaves them.
     pub(super) covers_domain: bool,
+    /// Both are made when they are first needed: a mesh that is only bisected further needs neither.
     boxes: OnceLock<BoxRuns>,
+    rows: OnceLock<NodeRows>,
+}
+
+/// The triangles around each node that are not closed, in the order of their numbers.
+#[derive(Clone, Debug)]
+struct NodeRows {
+    /// The index in `triangles` of the first entry of each node's row.
+    starts: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl NodeRows {
+    fn new(mesh: &PathMesh) -> Self {
+        let mut starts = vec![0; mesh.nodes.len() + 1];
+        let passable = || (0..).zip(&mesh.triangles).filter(|(_, triangle)| triangle.is_passable());
+        for (_, triangle) in passable() {
+            triangle.corners.iter().for_each(|&node| starts[node as usize + 1] += 1);
+        }
+        for n in 1..starts.len() {
+            starts[n] += starts[n - 1];
+        }
+        let mut next = starts.clone();
+        let mut triangles = vec![0; starts.last().map_or(0, |&end| end as usize)];
+        for (number, triangle) in passable() {
+            for &node in &triangle.corners {
+                triangles[next[node as usize] as usize] = number;
+                next[node as usize] += 1;
+            }
+        }
+        Self { starts, triangles }
+    }
+
+    #[inline]
+    fn of(&self, node: u32) -> &[u32] {
+        let [start, end] = [node as usize, node as usize + 1].map(|n| self.starts[n] as usize);
+        &self.triangles[start..end]
+    }
 }
 
 /// A triangle for paths.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PathTriangle {
     /// Nodes, anticlockwise.
     pub corners: [u32; 3],
@@ -98,13 +132,6 @@ impl PathMesh {
     /// `passage` says for each triangle, by its corners and whether it is marked as outside the domain,
     /// whether paths go there.
     pub fn with_passages(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
-        let mut mesh = Self::unconnected(view, passage);
-        mesh.connect();
-        mesh
-    }
-
-    /// Returns the mesh without the rows of triangles around its nodes.
-    pub(super) fn unconnected(view: MeshView, passage: impl Fn(&[DVec2; 3], bool) -> Passage) -> Self {
         let lattice = view.lattice();
         let nodes: Vec<DVec2> = view.nodes().iter().map(|&node| lattice.world_from_lattice(node)).collect();
         let mut mesh = Self { nodes, ..Self::default() };
@@ -126,6 +153,24 @@ impl PathMesh {
         mesh
     }
 
+    /// Returns a copy with room for so many more triangles, and nothing derived from them yet.
+    pub(super) fn with_room(&self, more: usize) -> Self {
+        let (nodes, triangles) = (with_room(&self.nodes, more), with_room(&self.triangles, more));
+        self.with_triangles(nodes, triangles, with_room(&self.across, more))
+    }
+
+    /// Returns a mesh of other triangles that cover as much.
+    pub(super) fn with_triangles(
+        &self,
+        nodes: Vec<DVec2>,
+        triangles: Vec<PathTriangle>,
+        across: Vec<[u32; 3]>,
+    ) -> Self {
+        let Self { has_obtuse, covers_domain, .. } = *self;
+        let area = self.area.clone();
+        Self { nodes, triangles, across, has_obtuse, area, covers_domain, ..Self::default() }
+    }
+
     /// Returns whether nodes and triangles are those of another mesh with the same keep-out regions.
     pub(super) fn is_same_as(&self, other: &Self) -> bool {
         std::ptr::eq(self, other)
@@ -136,7 +181,7 @@ impl PathMesh {
 
     /// Numbers the nodes along a Z-order curve, and the triangles by their first nodes: so nodes that two
     /// meshes of one rectangle share are in the same order in both. Returns the former numbers of the
-    /// triangles in their new order. The rows of triangles around nodes must be filled again.
+    /// triangles in their new order.
     pub(super) fn sort_along_curve(&mut self) -> Vec<u32> {
         let Some(bounds) = self.extent() else { return Vec::new() };
         let keys: Vec<u32> = self.nodes.iter().map(|&p| z_order(p, &bounds)).collect();
@@ -161,6 +206,7 @@ impl PathMesh {
         let renumbered = |t: u32| if t == NONE { NONE } else { new_triangles[t as usize] };
         self.across = order.iter().map(|&old| self.across[old as usize].map(renumbered)).collect();
         self.triangles = order.iter().map(|&old| self.triangles[old as usize]).collect();
+        self.clear_indices();
         order
     }
 
@@ -169,24 +215,9 @@ impl PathMesh {
         self.nodes.iter().map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
     }
 
-    /// Fills the rows of triangles around the nodes.
-    pub(super) fn connect(&mut self) {
-        self.boxes = OnceLock::new();
-        self.row_starts = vec![0; self.nodes.len() + 1];
-        for triangle in self.triangles.iter().filter(|triangle| triangle.is_passable()) {
-            triangle.corners.iter().for_each(|&node| self.row_starts[node as usize + 1] += 1);
-        }
-        for n in 1..self.row_starts.len() {
-            self.row_starts[n] += self.row_starts[n - 1];
-        }
-        let mut next = self.row_starts.clone();
-        self.around = vec![0; self.row_starts.last().map_or(0, |&end| end as usize)];
-        for (number, triangle) in self.triangles.iter().enumerate().filter(|(_, t)| t.is_passable()) {
-            for &node in &triangle.corners {
-                self.around[next[node as usize] as usize] = number as u32;
-                next[node as usize] += 1;
-            }
-        }
+    /// Forgets what was derived from the triangles, after they changed.
+    pub(super) fn clear_indices(&mut self) {
+        (self.boxes, self.rows) = Default::default();
     }
 
     /// Returns the number of nodes.
@@ -202,7 +233,7 @@ impl PathMesh {
     /// Returns the triangles around a node that are not closed.
     #[inline]
     pub(super) fn around(&self, node: u32) -> &[u32] {
-        &self.around[self.row_starts[node as usize] as usize..self.row_starts[node as usize + 1] as usize]
+        self.rows.get_or_init(|| NodeRows::new(self)).of(node)
     }
 
     /// Returns the corners of a triangle in world units.
@@ -297,6 +328,13 @@ impl PathMesh {
         };
         self.around_point(point).into_iter().find(contains)
     }
+}
+
+/// Returns a copy of values with room for so many more.
+fn with_room<T: Copy>(values: &[T], more: usize) -> Vec<T> {
+    let mut copy = Vec::with_capacity(values.len() + more);
+    copy.extend_from_slice(values);
+    copy
 }
 
 /// Returns twice the area of a triangle, in square lattice steps.

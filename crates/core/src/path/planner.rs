@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::adaptation::Adaptation;
 use super::leg::LegSearch;
 use super::lines::Lines;
 use super::march::March;
@@ -14,10 +15,9 @@ use super::place::Place;
 use super::planning::Planning;
 use super::refine::{Effort, refine};
 use super::trace::{trace, trace_by_nodes};
-use super::triangle_costs::{TriangleCost, TriangleCosts};
+use super::triangle_costs::TriangleCosts;
 use super::walls::Walls;
 use super::{CostDensity, Passage, PathError, Solution, Waypoint};
-use crate::geometry::Rect;
 use crate::mesh::Progress;
 
 /// The requirements of a path.
@@ -49,6 +49,7 @@ impl PathRequest {
 pub struct Planner {
     pub(super) mesh: Arc<PathMesh>,
     pub(super) walls: Arc<Walls>,
+    /// How the mesh was bisected from that which the planner was made with; `None` where it never is.
     pub(super) adaptation: Option<Adaptation>,
     pub(super) costs: TriangleCosts,
     /// Marches with mean costs through open triangles, one for each waypoint.
@@ -65,17 +66,6 @@ struct Marching<'a> {
     place: Place,
     /// Where it may pause.
     until: Option<Place>,
-}
-
-/// The mesh from which a planner's mesh was bisected.
-#[derive(Clone, Debug)]
-pub(super) struct Adaptation {
-    /// The mesh that the planner was made with.
-    pub base: Arc<PathMesh>,
-    /// The costs of its triangles.
-    pub costs: Vec<TriangleCost>,
-    /// Where the cost changed since the mesh was bisected for it.
-    pub changed: Vec<Rect>,
 }
 
 impl Planner {

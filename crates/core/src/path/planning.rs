@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use super::adaptation::Adapted;
 use super::path_mesh::PathMesh;
-use super::planner::Adaptation;
-use super::triangle_costs::{TriangleCost, TriangleCosts};
+use super::triangle_costs::TriangleCost;
 use super::{CostDensity, PathError, Planner};
 
 /// One thread computes the costs of so many triangles in a step.
@@ -37,11 +37,8 @@ impl Planning {
             self.costs.extend(self.mesh.costs_of(&next, density)?);
             return Ok(None);
         }
-        let (base, costs) = (Arc::clone(&self.mesh), std::mem::take(&mut self.costs));
-        let mut mesh = Arc::clone(&base);
-        let adapted = TriangleCosts::on_adapted(&mut mesh, &costs, density)?;
-        let mut planner = Planner::with_costs(mesh, adapted);
-        planner.adaptation = Some(Adaptation { base, costs, changed: Vec::new() });
-        Ok(Some(planner))
+        let known = std::mem::take(&mut self.costs);
+        let Adapted { mesh, costs, adaptation } = Adapted::new(Arc::clone(&self.mesh), &known, density)?;
+        Ok(Some(Planner { adaptation: Some(adaptation), ..Planner::with_costs(mesh, costs) }))
     }
 }

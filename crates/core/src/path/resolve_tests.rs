@@ -7,7 +7,7 @@ use super::shared::Shared;
 use crate::geometry::{Lattice, Rect};
 use crate::mesh::{Limits, Mesh};
 
-fn random_mesh(random: &mut fastrand::Rng) -> PathMesh {
+pub(super) fn random_mesh(random: &mut fastrand::Rng) -> PathMesh {
     let mut mesh = PathMesh::new(refined(random, None).view());
     if random.bool() {
         move_nodes(&mut mesh, random.u64(..));
@@ -16,7 +16,7 @@ fn random_mesh(random: &mut fastrand::Rng) -> PathMesh {
 }
 
 /// Returns a mesh that is finer around some places: another one, or one that was refined further.
-fn refined(random: &mut fastrand::Rng, known: Option<&Mesh>) -> Mesh {
+pub(super) fn refined(random: &mut fastrand::Rng, known: Option<&Mesh>) -> Mesh {
     let lattice = Lattice::covering(Rect::UNIT, 0.25, 10_000).unwrap();
     let coarse = || Mesh::coarse_grid(&lattice, |_| true, &Limits::default()).unwrap();
     let mut mesh = known.cloned().unwrap_or_else(coarse);
@@ -59,7 +59,6 @@ fn move_nodes(mesh: &mut PathMesh, seed: u64) {
         mesh.has_obtuse |= mesh.triangles[t].obtuse < 3;
     }
     mesh.sort_along_curve();
-    mesh.connect();
 }
 
 /// Returns the triangles across from obtuse angles through which values came.

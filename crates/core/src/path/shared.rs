@@ -25,15 +25,8 @@ impl Shared {
     /// Compares two meshes. Those around whose nodes another rectangle lies share nothing.
     pub fn of(old: &PathMesh, new: &PathMesh) -> Self {
         let nodes = shared_nodes(old, new);
-        let of_triangle = |triangle: &PathTriangle| {
-            let corners = triangle.corners.map(|node| nodes[node as usize]);
-            if !triangle.is_passable() || corners.contains(&NONE) {
-                return NONE;
-            }
-            let is_same = |&&t: &&u32| old.triangles[t as usize].corners == corners;
-            old.around(corners[0]).iter().find(is_same).copied().unwrap_or(NONE)
-        };
-        let triangles: Vec<u32> = new.triangles.par_iter().with_min_len(TOGETHER).map(of_triangle).collect();
+        let parts = new.triangles.par_chunks(TOGETHER);
+        let triangles: Vec<u32> = parts.flat_map_iter(|part| shared_triangles(old, part, &nodes)).collect();
         let (new_nodes, new_triangles) =
             (reverse(&nodes, old.node_count()), reverse(&triangles, old.triangle_count()));
         Self { nodes, triangles, new_nodes, new_triangles }
@@ -53,6 +46,31 @@ fn shared_nodes(old: &PathMesh, new: &PathMesh) -> Vec<u32> {
         (n, o) = (n + usize::from(of_new <= of_old), o + usize::from(of_old <= of_new));
     }
     shared
+}
+
+/// Returns for each of some successive triangles of a new mesh the one of an old mesh with the same corners.
+/// Both are sorted by their least nodes, so those of the old mesh are looked through once.
+fn shared_triangles(old: &PathMesh, new: &[PathTriangle], nodes: &[u32]) -> Vec<u32> {
+    let least = |corners: [u32; 3]| corners.into_iter().fold(NONE, u32::min);
+    let least_of_old = |t: usize| old.triangles.get(t).map(|triangle| least(triangle.corners));
+    let mut first: Option<usize> = None;
+    let mut of_triangle = |triangle: &PathTriangle| {
+        let corners = triangle.corners.map(|node| nodes[node as usize]);
+        if !triangle.is_passable() || corners.contains(&NONE) {
+            return NONE;
+        }
+        let wanted = least(corners);
+        let begin = || old.triangles.partition_point(|triangle| least(triangle.corners) < wanted);
+        let mut at = first.unwrap_or_else(begin);
+        while least_of_old(at).is_some_and(|least| least < wanted) {
+            at += 1;
+        }
+        first = Some(at);
+        let fan = old.triangles[at..].iter().take_while(|triangle| least(triangle.corners) == wanted);
+        let is_same = |(_, of_old): &(u32, &PathTriangle)| of_old.corners == corners && of_old.is_passable();
+        (at as u32..).zip(fan).find(is_same).map_or(NONE, |(t, _)| t)
+    };
+    new.iter().map(&mut of_triangle).collect()
 }
 
 fn reverse(of_new: &[u32], count: usize) -> Vec<u32> {

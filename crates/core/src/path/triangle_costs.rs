@@ -1,7 +1,5 @@
 //! The cost of each triangle per unit of length, and a mesh that is fine enough for it.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 
 use super::error::{GREATEST_COST, LEAST_COST};
@@ -22,7 +20,8 @@ pub struct TriangleCosts {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleCost {
     least: f64,
-    greatest: f64,
+    /// Of use where the triangle may have to be bisected.
+    pub greatest: f64,
     mean: f64,
 }
 
@@ -39,40 +38,8 @@ const GAUSS: [[f64; 3]; 3] = {
 const COARSEST: f64 = 1.0 / 250.0;
 /// A thread computes the costs of so many triangles at a time.
 const TOGETHER: usize = 1024;
-/// The most triangles that bisection adds to a mesh.
-const MOST_ADDED: usize = 50_000;
 
 impl TriangleCosts {
-    /// Returns the costs, on a mesh that is bisected where the cost varies much within a triangle: the mean
-    /// of such a triangle would hide a narrow way through it. `known` has the costs of the mesh as it is.
-    ///
-    /// # Errors
-    /// Fails when the cost is zero, negative, NaN or infinite somewhere.
-    pub(super) fn on_adapted(
-        mesh: &mut Arc<PathMesh>,
-        known: &[TriangleCost],
-        density: &dyn CostDensity,
-    ) -> Result<Self, PathError> {
-        let coarsest = coarsest(mesh);
-        let mut costs = Self::of_all(known);
-        let important = |(triangle, &cost)| (mesh.importance(triangle, cost, coarsest), triangle);
-        let wanted: Vec<(f64, u32)> =
-            (0..).zip(known).map(important).filter(|&(importance, _)| importance > 0.0).collect();
-        if !wanted.is_empty() {
-            let mesh = Arc::make_mut(mesh);
-            mesh.bisect(wanted, MOST_ADDED, |mesh, triangle| {
-                let cost = mesh.cost(triangle, density)?;
-                costs.set(triangle, cost);
-                Ok::<_, PathError>(mesh.importance(triangle, cost, coarsest))
-            })?;
-            let order = mesh.sort_along_curve();
-            mesh.connect();
-            let sorted = |costs: &[f64]| order.iter().map(|&t| costs[t as usize]).collect();
-            costs = Self { least: sorted(&costs.least), mean: sorted(&costs.mean) };
-        }
-        Ok(costs)
-    }
-
     /// Takes other costs of the same triangles, and returns those that changed, in order.
     pub(super) fn exchange(&mut self, new: Self) -> Vec<u32> {
         let before = std::mem::replace(self, new);
@@ -83,19 +50,26 @@ impl TriangleCosts {
         (0..before.least.len() as u32).filter(differs).collect()
     }
 
-    fn of_all(costs: &[TriangleCost]) -> Self {
-        Self {
-            least: costs.iter().map(|cost| cost.least).collect(),
-            mean: costs.iter().map(|cost| cost.mean).collect(),
-        }
+    /// Takes the costs of all triangles, with room for so many more.
+    pub(super) fn of_all(costs: &[TriangleCost], more: usize) -> Self {
+        let [mut least, mut mean] = [(); 2].map(|()| Vec::with_capacity(costs.len() + more));
+        least.extend(costs.iter().map(|cost| cost.least));
+        mean.extend(costs.iter().map(|cost| cost.mean));
+        Self { least, mean }
     }
 
-    fn set(&mut self, triangle: u32, cost: TriangleCost) {
+    pub(super) fn set(&mut self, triangle: u32, cost: TriangleCost) {
         let count = self.least.len().max(triangle as usize + 1);
         self.least.resize(count, f64::INFINITY);
         self.mean.resize(count, f64::INFINITY);
         self.least[triangle as usize] = cost.least;
         self.mean[triangle as usize] = cost.mean;
+    }
+
+    /// Returns the costs in another order, in which the numbers are those that triangles have now.
+    pub(super) fn in_order(&self, order: &[u32]) -> Self {
+        let sorted = |costs: &[f64]| order.iter().map(|&t| costs[t as usize]).collect();
+        Self { least: sorted(&self.least), mean: sorted(&self.mean) }
     }
 
     /// Computes the costs again of the triangles that meet one of the rectangles, and returns those that
@@ -121,13 +95,24 @@ impl TriangleCosts {
 }
 
 /// Returns the greatest diameter of a triangle whose cost varies by as much as the least cost.
-fn coarsest(mesh: &PathMesh) -> f64 {
+pub(super) fn coarsest(mesh: &PathMesh) -> f64 {
     COARSEST * mesh.bounds().map_or(0.0, |bounds| bounds.size().max_element())
 }
 
 impl TriangleCost {
     pub(super) const CLOSED: Self =
         Self { least: f64::INFINITY, greatest: f64::INFINITY, mean: f64::INFINITY };
+
+    /// The cost of a triangle that need not be bisected.
+    pub(super) fn constant(least: f64, mean: f64) -> Self {
+        Self { least, greatest: least, mean }
+    }
+
+    /// Returns whether another cost has the same numbers but for the greatest one.
+    #[cfg(test)]
+    pub(super) fn is_like(&self, other: Self) -> bool {
+        self.least == other.least && self.mean == other.mean
+    }
 
     /// Returns how much the cost varies, as a share of the least cost.
     fn variation(&self) -> f64 {
@@ -138,7 +123,7 @@ impl TriangleCost {
 impl PathMesh {
     /// Returns how much a triangle should be bisected: by how much its diameter is too large for its cost; 0
     /// where it is not. One through which the rim of the area of paths passes has a jump of the cost.
-    fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
+    pub(super) fn importance(&self, triangle: u32, cost: TriangleCost, coarsest: f64) -> f64 {
         let variation = match self.passage(triangle) {
             Passage::Closed => 0.0,
             Passage::Partly => 1.0,
@@ -153,7 +138,7 @@ impl PathMesh {
     /// # Errors
     /// Fails when the cost is zero, negative, NaN or infinite somewhere.
     pub fn costs(&self, density: &dyn CostDensity) -> Result<TriangleCosts, PathError> {
-        self.all_costs(density).map(|costs| TriangleCosts::of_all(&costs))
+        self.all_costs(density).map(|costs| TriangleCosts::of_all(&costs, 0))
     }
 
     pub(super) fn all_costs(&self, density: &dyn CostDensity) -> Result<Vec<TriangleCost>, PathError> {
@@ -178,7 +163,7 @@ impl PathMesh {
         Ok(costs)
     }
 
-    fn cost(&self, triangle: u32, density: &dyn CostDensity) -> Result<TriangleCost, PathError> {
+    pub(super) fn cost(&self, triangle: u32, density: &dyn CostDensity) -> Result<TriangleCost, PathError> {
         if self.passage(triangle) == Passage::Closed {
             return Ok(TriangleCost::CLOSED);
         }
