@@ -284,7 +284,8 @@ fn attribute_end(tokens: &[Token], at: usize) -> Option<usize> {
     begins.then(|| end_of_group(tokens, at + 1) + 1)
 }
 
-/// Returns the last token of the item at `at`, which may have more attributes.
+/// Returns the last token of the item at `at`, which may have more attributes. A field ends no later than
+/// what it is in.
 fn item_end(tokens: &[Token], mut at: usize) -> usize {
     while let Some(end) = attribute_end(tokens, at) {
         at = end;
@@ -294,6 +295,7 @@ fn item_end(tokens: &[Token], mut at: usize) -> usize {
             ";" => return at,
             "{" => return end_of_group(tokens, at),
             "(" | "[" => at = end_of_group(tokens, at),
+            ")" | "]" | "}" => return at - 1,
             _ => {}
         }
         at += 1;
