@@ -55,7 +55,7 @@ impl PathArea {
     }
 
     /// Returns whether paths may go everywhere.
-    pub(super) fn is_everything(&self) -> bool {
+    pub fn is_everything(&self) -> bool {
         self.keep_out.is_empty() && self.outline.is_none()
     }
 

@@ -44,13 +44,40 @@ pub(super) struct KnownPlanner {
     risk: RiskField,
     /// What the area of paths and the place of the plane on the Earth were taken from.
     domain: Domain,
-    /// The triangles in the area of paths, and those with smaller ones for the places of the plan, which the
-    /// planner was made with.
-    meshes: [Arc<PathMesh>; 2],
+    /// `None` where paths may go everywhere: no place needs smaller triangles then.
+    before_detail: Option<BeforeDetail>,
     corridor: Option<Corridor>,
     /// How often it went over to another mesh.
     #[cfg(test)]
     pub moves: usize,
+}
+
+/// The triangles in the area of paths, before smaller ones were made for the places of a plan.
+struct BeforeDetail {
+    mesh: Arc<PathMesh>,
+    plan: Arc<PathPlan>,
+    /// Whether its places need smaller ones.
+    needs_detail: bool,
+}
+
+impl BeforeDetail {
+    /// Takes the triangles before and after smaller ones were made.
+    fn of([mesh, detailed]: [Arc<PathMesh>; 2], plan: &Arc<PathPlan>) -> Option<Self> {
+        let needs_detail = !Arc::ptr_eq(&mesh, &detailed);
+        (!mesh.area().is_everything()).then(|| Self { mesh, plan: plan.clone(), needs_detail })
+    }
+
+    /// Returns the triangles for the places of a plan, where the planner does not have them already.
+    fn detailed_for(&mut self, plan: &Arc<PathPlan>) -> Option<Arc<PathMesh>> {
+        if self.plan.routes == plan.routes {
+            return None;
+        }
+        let detailed = self.mesh.detailed(&plan.routes);
+        let needs_detail = !Arc::ptr_eq(&self.mesh, &detailed);
+        let needed_detail = std::mem::replace(&mut self.needs_detail, needs_detail);
+        self.plan = plan.clone();
+        (needed_detail || needs_detail).then_some(detailed)
+    }
 }
 
 impl KnownPlanner {
@@ -60,13 +87,13 @@ impl KnownPlanner {
         (plan, risk): (Arc<PathPlan>, RiskField),
         domain: &Domain,
     ) -> Self {
-        let domain = domain.clone();
+        let (domain, before_detail) = (domain.clone(), BeforeDetail::of(meshes, &plan));
         Self {
             planner,
             plan,
             risk,
             domain,
-            meshes,
+            before_detail,
             corridor: None,
             #[cfg(test)]
             moves: 0,
@@ -93,24 +120,19 @@ impl KnownPlanner {
         areas: &[Rect],
         is_live: bool,
     ) -> Result<(), PathError> {
-        let before = std::mem::replace(&mut self.plan, plan);
+        self.plan = plan;
         if is_live {
             return self.planner.follow(density, areas);
         }
-        let [mesh, detailed] = &mut self.meshes;
-        let has_same_places = before.routes == self.plan.routes;
-        let wanted = if has_same_places { Arc::clone(detailed) } else { mesh.detailed(&self.plan.routes) };
-        if Arc::ptr_eq(&wanted, detailed) {
-            return self.planner.update(density, areas);
+        match self.before_detail.as_mut().and_then(|detail| detail.detailed_for(&self.plan)) {
+            Some(detailed) => self.planner.move_to(detailed, density, areas),
+            None => self.planner.update(density, areas),
         }
-        self.planner.move_to(Arc::clone(&wanted), density, areas)?;
-        *detailed = wanted;
-        Ok(())
     }
 
     /// Notes that its planner has gone over to the mesh as it is after an edit.
     fn note_move(&mut self, meshes: [Arc<PathMesh>; 2], plan: Arc<PathPlan>) {
-        (self.meshes, self.plan) = (meshes, plan);
+        (self.before_detail, self.plan) = (BeforeDetail::of(meshes, &plan), plan);
         #[cfg(test)]
         {
             self.moves += 1;
