@@ -7,6 +7,7 @@ use std::sync::Arc;
 use meshbrush_core::document::{Document, Follower};
 use meshbrush_core::outline::OutlineFollower;
 use meshbrush_core::path::{PathMesh, PathRequest, Planner};
+use meshbrush_mesh::mesh::ProgramAllocator;
 
 use crate::documents::{lake_document, layered, painted};
 use crate::risks::RandomRisk;
@@ -73,6 +74,8 @@ pub fn answer() -> bool {
     let arguments: Vec<String> = std::env::args().skip_while(|argument| argument != "memory").collect();
     let named = |case: &Case| arguments.get(1).is_some_and(|name| name == case.name());
     let Some(case) = Case::ALL.into_iter().find(named) else { return false };
+    // As the program does.
+    ProgramAllocator::give_large_arrays_back();
     let mut document = case.document();
     let Some([before, _]) = resident_and_most() else { return true };
     let follower = Follower::new(&mut document).expect("it has a mesh");

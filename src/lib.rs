@@ -164,6 +164,7 @@ pub use meshbrush_mesh::mesh::ProgramAllocator;
 /// Runs the program: the command line or, with the feature `gui`, the window. The first argument is the
 /// program's name.
 pub fn run_program(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ProgramAllocator::give_large_arrays_back();
     cli::run(arguments, WINDOW)
 }
 

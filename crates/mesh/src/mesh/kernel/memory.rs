@@ -102,6 +102,20 @@ fn may_fail<T>(reserve: impl FnOnce() -> T) -> T {
 #[derive(Debug)]
 pub struct ProgramAllocator;
 
+impl ProgramAllocator {
+    /// Has large arrays go back to the system when they are freed. The allocator of GNU/Linux would keep
+    /// those of up to 32 MiB once some were freed: after a path through two million triangles, a quarter of
+    /// the memory of the program.
+    pub fn give_large_arrays_back() {
+        // SAFETY: this only sets the size from which the allocator maps pages for an allocation of its own.
+        #[cfg(all(target_os = "linux", target_env = "gnu"))]
+        #[allow(unsafe_code, reason = "a setting of the allocator has no safe interface")]
+        unsafe {
+            libc::mallopt(libc::M_MMAP_THRESHOLD, 2 * PAGE as i32)
+        };
+    }
+}
+
 // SAFETY: all calls are passed on to the allocator of the system unchanged, and so are its results.
 #[allow(unsafe_code, reason = "an allocator has no safe interface")]
 unsafe impl GlobalAlloc for ProgramAllocator {
