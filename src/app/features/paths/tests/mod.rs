@@ -2,6 +2,7 @@
 
 mod corridor;
 mod cost;
+mod detail;
 mod export;
 mod keep_out;
 mod names;
