@@ -8,9 +8,10 @@ use crate::app::readout::{Quantity, value_at};
 use crate::app::theme::{Tokens, tokens};
 use crate::app::tools::PaintKind;
 use crate::app::widgets::{floating_tag, format, tag_size};
-use meshbrush_core::document::{NoChange, Price, Settings};
+use meshbrush_core::document::{NoChange, NoPaintLayer, Price, Settings};
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_mesh::mesh::Progress;
+use meshbrush_mesh::text::short_name;
 
 /// Space between ring and tag, in points.
 const GAP: f32 = 14.0;
@@ -68,6 +69,7 @@ fn price_tag(state: &FrameState<'_>, t: &Tokens) -> Option<(String, Color32)> {
                     let layer = settings.layer(id);
                     format!("“{}” decides here", layer.map_or("another layer", |layer| &layer.name))
                 }
+                NoChange::NoLayer => why_no_layer(&session.document().layer_for(&brush.medium).err()?),
                 reason => why_nothing(reason, brush.medium).into(),
             };
             Some((format!("no change: {why}"), t.label))
@@ -86,6 +88,16 @@ fn is_limited(brush: &Brush, settings: &Settings) -> bool {
     matches!(brush.medium, Medium::Diameter(to, change) if finer(change) && to < settings.transfer.h_min)
 }
 
+/// Returns why there is no layer to paint on. A click says more, and offers what would help.
+fn why_no_layer(problem: &NoPaintLayer) -> String {
+    match problem {
+        NoPaintLayer::Missing(Some(quantity)) => format!("no layer for painted {}", quantity.noun()),
+        NoPaintLayer::Missing(None) => "no layer has paint".into(),
+        NoPaintLayer::Locked { name, .. } => format!("“{}” is locked", short_name(name)),
+        NoPaintLayer::Hidden { name, .. } => format!("“{}” is hidden", short_name(name)),
+    }
+}
+
 /// Returns why a stroke changes no triangle.
 fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
     let lowers = matches!(medium, Medium::Eraser | Medium::Diameter(_, DiameterChange::Coarser))
@@ -102,6 +114,7 @@ fn why_nothing(reason: NoChange, medium: Medium) -> &'static str {
         (NoChange::PaintedAlready, _) => "this value is painted already",
         (NoChange::CoarserThanGrid, _) => "h̄ is coarser than the grid here",
         (NoChange::LayerDecides(_), _) => "another layer decides here",
+        (NoChange::NoLayer, _) => "no layer to paint on",
         (NoChange::TrianglesFit, _) if lowers => "finer triangles nearby need these",
         (NoChange::TrianglesFit, _) => "already finer here",
     }

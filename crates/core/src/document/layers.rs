@@ -15,7 +15,7 @@ const COARSEST_PIXELS: f64 = 1024.0;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoPaintLayer {
     /// There is no paint layer for the brush.
-    #[error("No layer for painted {}: add a paint layer to paint on.", noun(*.0))]
+    #[error("No layer for painted {}: add a paint layer to paint on.", .0.map_or("risk or diameters", Quantity::noun))]
     Missing(Option<Quantity>),
     /// The layer is locked.
     #[error("The layer “{}” is locked: unlock it to paint on it, or select another layer.", short_name(name))]
@@ -33,15 +33,6 @@ pub enum NoPaintLayer {
         /// The name of the layer.
         name: String,
     },
-}
-
-fn noun(quantity: Option<Quantity>) -> &'static str {
-    match quantity {
-        Some(Quantity::Risk) => "risk",
-        Some(Quantity::Diameter) => "diameters",
-        Some(Quantity::Error) => "errors",
-        None => "risk or diameters",
-    }
 }
 
 impl Settings {
@@ -71,7 +62,7 @@ impl Settings {
                     Quantity::Risk | Quantity::Error => Quantity::Diameter,
                     Quantity::Diameter => Quantity::Risk,
                 };
-                let [is, read_as] = [other, quantity].map(|quantity| noun(Some(quantity)));
+                let [is, read_as] = [other, quantity].map(Quantity::noun);
                 return Err(SettingsError::PaintedOther { layer: layer.name.clone(), is, read_as });
             }
         }

@@ -96,6 +96,8 @@ pub enum Price {
 /// Why a stroke changes no triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoChange {
+    /// There is no layer for the brush, or it is locked or hidden: [`Document::layer_for`] says which.
+    NoLayer,
     /// The stroke does not reach the domain's rectangle.
     OutsideField,
     /// The pixels are already painted so; for the eraser: nothing is painted there.
@@ -129,15 +131,18 @@ impl Pricer {
         let answerable = document.stroke().is_none()
             && document.settings().is_updated_in_place()
             && follower.is_in_step(document);
-        let question = plan.filter(|plan| answerable && plan.is_finite()).and_then(|plan| {
-            let layer = document.layer_for(&plan.brush.medium).ok()?;
-            Some(Question { plan, layer, document: document.revision(), mesh: follower.revision() })
-        });
-        if question == self.question {
+        let Some(plan) = plan.filter(|plan| answerable && plan.is_finite()) else {
+            (self.question, self.work) = (None, Work::Idle);
             return;
+        };
+        let Ok(layer) = document.layer_for(&plan.brush.medium) else {
+            (self.question, self.work) = (None, Work::Known(Price::Nothing(NoChange::NoLayer)));
+            return;
+        };
+        let question = Question { plan, layer, document: document.revision(), mesh: follower.revision() };
+        if self.question != Some(question) {
+            (self.question, self.work) = (Some(question), begin(question, document));
         }
-        self.question = question;
-        self.work = question.map_or(Work::Idle, |question| begin(question, document));
     }
 
     /// Returns the price of the stroke, once known.

@@ -61,6 +61,15 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// Returns the noun for such values in a sentence.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Risk => "risk",
+            Self::Diameter => "diameters",
+            Self::Error => "errors",
+        }
+    }
+
     /// Returns the value of paint where nothing is painted: it asks for nothing.
     pub fn blank(self) -> f32 {
         match self {

@@ -5,7 +5,7 @@ use eframe::egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{BrushCommand, Command, EditCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use crate::app::features::painting::{BRUSH, BrushMode, PenEffect};
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, hover, key, move_to, on_screen, open_popup,
@@ -135,6 +135,23 @@ fn the_tag_says_why_a_dab_changes_nothing() {
     send(&mut window, Command::Edit(EditCommand::Set(base)));
     send(&mut window, Command::Edit(EditCommand::EndGesture));
     assert_eq!(hover(&mut window, FREE).unwrap(), "no change: “Base” decides here");
+}
+
+#[test]
+fn the_tag_says_that_there_is_no_layer_to_paint_on() {
+    let mut window = window();
+    let layer = settings(&window).layers.iter().rfind(|layer| layer.paints().is_some()).unwrap().id;
+    let mut tag = |command| {
+        send(&mut window, Command::Layer(command));
+        hover(&mut window, FREE).unwrap()
+    };
+    assert_eq!(tag(LayerCommand::Lock(layer, true)), "no change: “Painted risk” is locked");
+    assert!(tag(LayerCommand::Lock(layer, false)).starts_with('+'));
+    assert_eq!(tag(LayerCommand::Show(layer, false)), "no change: “Painted risk” is hidden");
+    assert_eq!(tag(LayerCommand::Delete(layer)), "no change: no layer for painted risk");
+    key(&mut window, Modifiers::NONE, Key::E);
+    hover(&mut window, FREE);
+    assert!(price_tag(&window).is_some());
 }
 
 #[test]
