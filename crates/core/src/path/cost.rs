@@ -86,6 +86,20 @@ impl CostModel {
     pub(crate) fn of(model: &Quadratic) -> Self {
         Self { coefficients: model.coefficients(), rest: model.rest() }
     }
+
+    /// Returns the mean of the polynomial over a segment whose middle is that of the rectangle. `way` leads
+    /// from its start to its end, as shares of the sides.
+    pub(super) fn mean_along(&self, way: DVec2) -> f64 {
+        let [constant, _, _, uu, uv, vv] = self.coefficients;
+        // From the middle, where u = v = 0, to the end: u = t · way.x and v = t · way.y, for t up to 1.
+        constant + (uu * way.x * way.x + uv * way.x * way.y + vv * way.y * way.y) / 3.0
+    }
+
+    /// Returns the most by which the polynomial rises in the rectangle per unit of u and of v.
+    pub(super) fn steepest(&self) -> DVec2 {
+        let [_, u, v, uu, uv, vv] = self.coefficients.map(f64::abs);
+        DVec2::new(u + 2.0 * uu + uv, v + 2.0 * vv + uv)
+    }
 }
 
 impl CostRange {
