@@ -111,7 +111,7 @@ impl ProgramAllocator {
         #[cfg(all(target_os = "linux", target_env = "gnu"))]
         #[allow(unsafe_code, reason = "a setting of the allocator has no safe interface")]
         unsafe {
-            libc::mallopt(libc::M_MMAP_THRESHOLD, 2 * PAGE as i32)
+            libc::mallopt(libc::M_MMAP_THRESHOLD, 4 * PAGE as i32)
         };
     }
 }
