@@ -84,13 +84,14 @@ impl LowerBound {
         let clamped_gain = problem.gain(&clamps.0).max(-problem.gain(&clamps.1));
         let (counting, costs) = counting(&problem, &clamps, upper);
         drop(clamps);
+        let straight = problem.straight(&counting);
         let w: Vec<f64> = from_start.iter().zip(&from_goal).map(|(s, g)| 0.5 * (s - g)).collect();
         Self {
             march: March::default(),
             marches: false,
             v: Vec::new(),
             factors: Vec::new(),
-            best: clamped_gain.max(problem.bound(&w, &counting)),
+            best: clamped_gain.max(problem.bound(&w, &counting)).max(straight),
             crossed: problem.crossed(&w),
             at_nodes: vec![1.0; mesh.node_count()],
             counting,
@@ -200,6 +201,13 @@ impl Problem<'_> {
         let scale = ratios.reduce(|| 1.0, f64::min);
         let bound = scale * self.gain(v);
         if bound.is_nan() { 0.0 } else { bound }
+    }
+
+    /// Returns the bound by a function that grows along the straight line from the start to the goal: the
+    /// least cost where paths can go, times the distance. Between near places the marches know less.
+    fn straight(&self, counting: &[u32]) -> f64 {
+        let least = counting.iter().map(|&t| self.costs[t as usize]).fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least * self.start.point.distance(self.goal.point) } else { 0.0 }
     }
 
     /// Returns a function that is at most the distance from a place everywhere: λ · (max(u, r) − its value

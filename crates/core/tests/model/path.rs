@@ -192,6 +192,8 @@ fn the_interval_contains_the_exact_cost_of_random_radial_costs() {
             assert!(solution.upper >= exact * (1.0 - 1e-6), "{message}");
             assert!(solution.cost <= exact * 1.002, "{} {message}", solution.cost);
             assert!(solution.gap() < 0.35, "{message}");
+            // Nowhere does a metre cost less than that.
+            assert!(solution.lower >= radial.floor * p.distance(q) * (1.0 - 1e-9), "{message}");
         }
     }
 }
