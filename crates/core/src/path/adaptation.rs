@@ -88,8 +88,8 @@ pub(super) struct Adaptation {
     parts: Vec<u32>,
     /// The triangles of the base that the mesh does not have, in the order of their numbers.
     bisected: Vec<Bisected>,
-    /// The greatest costs of triangles of the base that should have been bisected, too, but for the most that
-    /// are. Those of others are of no use.
+    /// The greatest costs of base triangles that the cost asks to bisect, but that stay whole because of the
+    /// limit on added triangles. Other triangles do not need theirs.
     greatest: Vec<(u32, f64)>,
     /// Whether the base has obtuse angles.
     has_obtuse: bool,
@@ -149,8 +149,8 @@ impl Adaptation {
         }
     }
 
-    /// Returns the costs of the triangles of the base, from those of a mesh. The greatest of a triangle that
-    /// need not be bisected is not known: it is the least one.
+    /// Returns the costs of the triangles of the base, from those of the mesh. For a triangle that need not
+    /// be bisected, the greatest cost is not kept, and the least one stands in for it.
     pub fn known_costs(&self, costs: &TriangleCosts) -> Vec<TriangleCost> {
         let mut known = Vec::with_capacity(costs.least.len());
         self.visit_base(costs.least.len(), |_, origin| {

@@ -111,11 +111,6 @@ impl March {
         self.queue.is_empty()
     }
 
-    /// Gives back the memory of the queue that no waiting node needs.
-    pub(super) fn shrink_to_fit(&mut self) {
-        self.queue.shrink_to_fit();
-    }
-
     /// Returns the value of a node: infinite where no seed leads.
     pub fn value(&self, node: u32) -> f64 {
         self.nodes[node as usize].value

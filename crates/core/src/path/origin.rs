@@ -40,11 +40,7 @@ impl Origin {
             self.follows = to_the_end;
             (self.place, self.seeds, self.is_current) = (Some(place), seeds, true);
         }
-        let progress = self.march.go_on_for(mesh, costs, least, until, most);
-        if progress == Progress::Done {
-            self.march.shrink_to_fit();
-        }
-        progress
+        self.march.go_on_for(mesh, costs, least, until, most)
     }
 
     /// Follows changed costs; what cannot be followed is marched again later.

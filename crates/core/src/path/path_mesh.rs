@@ -97,6 +97,12 @@ pub(super) struct PathTriangle {
 }
 
 impl PathTriangle {
+    /// Returns the corner with the least number, by which triangles are sorted.
+    pub fn least_node(&self) -> u32 {
+        let [a, b, c] = self.corners;
+        a.min(b).min(c)
+    }
+
     pub fn is_passable(&self) -> bool {
         self.passage > Passage::Closed
     }
@@ -196,11 +202,7 @@ impl PathMesh {
         for triangle in &mut self.triangles {
             triangle.corners = triangle.corners.map(|node| new_nodes[node as usize]);
         }
-        let keys: Vec<u32> = self
-            .triangles
-            .iter()
-            .map(|t| t.corners.iter().fold(NONE, |least, &node| least.min(node)))
-            .collect();
+        let keys: Vec<u32> = self.triangles.iter().map(PathTriangle::least_node).collect();
         let order = sorted_by(&keys);
         let new_triangles = inverse(&order);
         let renumbered = |t: u32| if t == NONE { NONE } else { new_triangles[t as usize] };

@@ -64,12 +64,6 @@ impl Queue {
         self.most_in_heap = MOST_IN_HEAP;
     }
 
-    /// Gives back memory that no entry needs.
-    pub fn shrink_to_fit(&mut self) {
-        self.buckets.iter_mut().for_each(Vec::shrink_to_fit);
-        [&mut self.sorted, &mut self.heap.0, &mut self.far].into_iter().for_each(Vec::shrink_to_fit);
-    }
-
     pub fn is_empty(&self) -> bool {
         self.sorted.is_empty()
             && self.heap.0.is_empty()

@@ -51,24 +51,23 @@ fn shared_nodes(old: &PathMesh, new: &PathMesh) -> Vec<u32> {
 /// Returns for each of some successive triangles of a new mesh the one of an old mesh with the same corners.
 /// Both are sorted by their least nodes, so those of the old mesh are looked through once.
 fn shared_triangles(old: &PathMesh, new: &[PathTriangle], nodes: &[u32]) -> Vec<u32> {
-    let least = |corners: [u32; 3]| corners.into_iter().fold(NONE, u32::min);
-    let least_of_old = |t: usize| old.triangles.get(t).map(|triangle| least(triangle.corners));
-    let mut first: Option<usize> = None;
+    // The first triangle of the old mesh that may be the next shared one.
+    let mut at: Option<usize> = None;
     let mut of_triangle = |triangle: &PathTriangle| {
         let corners = triangle.corners.map(|node| nodes[node as usize]);
         if !triangle.is_passable() || corners.contains(&NONE) {
             return NONE;
         }
-        let wanted = least(corners);
-        let begin = || old.triangles.partition_point(|triangle| least(triangle.corners) < wanted);
-        let mut at = first.unwrap_or_else(begin);
-        while least_of_old(at).is_some_and(|least| least < wanted) {
-            at += 1;
+        let wanted = PathTriangle { corners, ..*triangle }.least_node();
+        let is_before = |of_old: &PathTriangle| of_old.least_node() < wanted;
+        let mut first = at.unwrap_or_else(|| old.triangles.partition_point(is_before));
+        while old.triangles.get(first).is_some_and(is_before) {
+            first += 1;
         }
-        first = Some(at);
-        let fan = old.triangles[at..].iter().take_while(|triangle| least(triangle.corners) == wanted);
+        at = Some(first);
+        let fan = old.triangles[first..].iter().take_while(|of_old| of_old.least_node() == wanted);
         let is_same = |(_, of_old): &(u32, &PathTriangle)| of_old.corners == corners && of_old.is_passable();
-        (at as u32..).zip(fan).find(is_same).map_or(NONE, |(t, _)| t)
+        (first as u32..).zip(fan).find(is_same).map_or(NONE, |(t, _)| t)
     };
     new.iter().map(&mut of_triangle).collect()
 }

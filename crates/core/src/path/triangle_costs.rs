@@ -1,4 +1,4 @@
-//! The cost of each triangle per unit of length, and a mesh that is fine enough for it.
+//! The cost of each triangle per unit of length.
 
 use rayon::prelude::*;
 
