@@ -211,7 +211,35 @@ pub(super) fn mean_cost(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
     gauss_mean(|share| density.at(p.lerp(q, share)))
 }
 
-/// Returns the mean of the inverse scale over a segment, by the same rule.
+/// A segment is divided until its halves change its cost by less than this share.
+const CHANGE_BY_HALVES: f64 = 1e-13;
+/// How often a segment is divided at most for that.
+const MOST_HALVINGS_OF_SMOOTH: u32 = 10;
+
+/// Returns the cost of a segment along which the cost density is smooth, nearly to rounding. Gauss's rule
+/// over a long segment is farther off than two ways of nearly the same cost are apart.
+pub(super) fn smooth_cost(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
+    let by_rule = |p: DVec2, q: DVec2| p.distance(q) * mean_cost(p, q, density);
+    divided_cost(&by_rule, [p, q], by_rule(p, q), MOST_HALVINGS_OF_SMOOTH)
+}
+
+/// Returns the cost of a segment by a rule for its parts. `whole` is what the rule says of all of it.
+fn divided_cost(
+    by_rule: &impl Fn(DVec2, DVec2) -> f64,
+    [p, q]: [DVec2; 2],
+    whole: f64,
+    halvings: u32,
+) -> f64 {
+    let middle = p.midpoint(q);
+    let halves = [[p, middle], [middle, q]].map(|half| (half, by_rule(half[0], half[1])));
+    let sum: f64 = halves.iter().map(|half| half.1).sum();
+    if halvings == 0 || (sum - whole).abs() <= CHANGE_BY_HALVES * sum {
+        return sum;
+    }
+    halves.into_iter().map(|(half, cost)| divided_cost(by_rule, half, cost, halvings - 1)).sum()
+}
+
+/// Returns the mean of the inverse scale over a segment, by [Gauss's rule](mean_cost).
 fn mean_inverse_scale(p: DVec2, q: DVec2, density: &dyn CostDensity) -> f64 {
     gauss_mean(|share| density.inverse_scale_at(p.lerp(q, share)))
 }

@@ -5,13 +5,15 @@
 
 use glam::DVec2;
 
-use super::integral::mean_cost;
+use super::integral::smooth_cost;
 use super::walls::Walls;
 use super::{CostDensity, CostRange};
 use crate::geometry::{Rect, Side, side_of_points};
 
 /// The most points that are looked at, as a multiple of the number of points of the path.
 const MOST_VISITS: usize = 16;
+/// Ways whose costs differ by less than this share cost the same: the difference is rounding.
+const SAME_COST: f64 = 1e-12;
 
 /// A polyline that the walls admit, pulled taut: where the cost around a point and its two neighbours is
 /// constant, the shortest way between these neighbours replaces the way by the point.
@@ -72,11 +74,9 @@ fn costs_less([p, at, q]: [DVec2; 3], chain: &[DVec2], density: &dyn CostDensity
     if density.range(&around([p, at, q])).is_constant() {
         return true;
     }
-    let cost = |way: &[DVec2]| -> f64 {
-        way.windows(2).map(|pair| pair[0].distance(pair[1]) * mean_cost(pair[0], pair[1], density)).sum()
-    };
+    let cost = |way: &[DVec2]| way.windows(2).map(|pair| smooth_cost(pair[0], pair[1], density)).sum::<f64>();
     let way: Vec<DVec2> = [p].into_iter().chain(chain.iter().copied()).chain([q]).collect();
-    cost(&way) <= cost(&[p, at, q])
+    cost(&way) <= (1.0 + SAME_COST) * cost(&[p, at, q])
 }
 
 /// The points of the shortest way between two points that stays in the triangle with a third one, between
