@@ -9,6 +9,7 @@ use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, Too
 use crate::app::tools::{PaintKind, Tools};
 use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
+use meshbrush_core::document::NoPaintLayer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 
 /// Paints risk or target diameters.
@@ -16,10 +17,11 @@ pub static BRUSH: ToolSpec = ToolSpec {
     place: 0,
     tab: Some(Tab::Size),
     options: &BRUSH_OPTIONS,
-    hint: |state| match state.tools.kind {
-        PaintKind::Risk if state.view.space.is_on => PAINT_RISK,
-        PaintKind::Risk => PAINT_RISK_IN_PLAN,
-        PaintKind::Diameter | PaintKind::Error => PAINT_DIAMETER,
+    hint: |state| match (hint_without_layer(state), state.tools.kind) {
+        (Some(hint), _) => hint,
+        (None, PaintKind::Risk) if state.view.space.is_on => PAINT_RISK,
+        (None, PaintKind::Risk) => PAINT_RISK_IN_PLAN,
+        (None, PaintKind::Diameter | PaintKind::Error) => PAINT_DIAMETER,
     },
     has_ring: |_| true,
     brush: Some(brush),
@@ -57,6 +59,20 @@ const PAINT_DIAMETER: &[Hint] = &[
     HintKey("Shift"),
     Text("click draws a line"),
 ];
+
+const ADD_LAYER: &[Hint] = &[Text("No layer takes this paint: a click offers one")];
+const SHOW_LAYER: &[Hint] = &[Text("The layer is hidden: a click offers to show it")];
+const UNLOCK_LAYER: &[Hint] = &[Text("The layer is locked: a click offers to unlock it")];
+
+/// Returns what a click offers where no layer takes the paint of the current tool.
+pub fn hint_without_layer(state: &FrameState<'_>) -> Option<&'static [Hint<'static>]> {
+    let medium = state.tools.brush()?.medium;
+    Some(match state.session.document().layer_for(&medium).err()? {
+        NoPaintLayer::Missing(_) => ADD_LAYER,
+        NoPaintLayer::Hidden { .. } => SHOW_LAYER,
+        NoPaintLayer::Locked { .. } => UNLOCK_LAYER,
+    })
+}
 
 /// How a stroke of the brush changes the paint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

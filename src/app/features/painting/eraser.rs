@@ -3,7 +3,7 @@
 use eframe::egui::Key;
 
 use super::ERASER_OPTIONS;
-use super::brush::{line_to_here, press_to_paint};
+use super::brush::{hint_without_layer, line_to_here, press_to_paint};
 use crate::app::kit::{Tab, ToolSpec};
 use crate::app::tools::Tools;
 use crate::app::widgets::Hint::{self, KeyOf, Text};
@@ -15,7 +15,7 @@ pub static ERASER: ToolSpec = ToolSpec {
     place: 1,
     tab: Some(Tab::Size),
     options: &ERASER_OPTIONS,
-    hint: |_| HINT,
+    hint: |state| hint_without_layer(state).unwrap_or(HINT),
     has_ring: |_| true,
     brush: Some(brush),
     in_space: true,

@@ -138,17 +138,22 @@ fn the_tag_says_why_a_dab_changes_nothing() {
 }
 
 #[test]
-fn the_tag_says_that_there_is_no_layer_to_paint_on() {
+fn tag_and_hint_say_that_there_is_no_layer_to_paint_on() {
     let mut window = window();
     let layer = settings(&window).layers.iter().rfind(|layer| layer.paints().is_some()).unwrap().id;
-    let mut tag = |command| {
+    let mut tag = |command, hint: &str| {
         send(&mut window, Command::Layer(command));
-        hover(&mut window, FREE).unwrap()
+        let tag = hover(&mut window, FREE).unwrap();
+        assert!(window.query_by_label_contains(hint).is_some(), "{hint}");
+        tag
     };
-    assert_eq!(tag(LayerCommand::Lock(layer, true)), "no change: “Painted risk” is locked");
-    assert!(tag(LayerCommand::Lock(layer, false)).starts_with('+'));
-    assert_eq!(tag(LayerCommand::Show(layer, false)), "no change: “Painted risk” is hidden");
-    assert_eq!(tag(LayerCommand::Delete(layer)), "no change: no layer for painted risk");
+    let locked = tag(LayerCommand::Lock(layer, true), "a click offers to unlock it");
+    assert_eq!(locked, "no change: “Painted risk” is locked");
+    assert!(tag(LayerCommand::Lock(layer, false), "Drag to paint risk").starts_with('+'));
+    let hidden = tag(LayerCommand::Show(layer, false), "a click offers to show it");
+    assert_eq!(hidden, "no change: “Painted risk” is hidden");
+    let deleted = tag(LayerCommand::Delete(layer), "No layer takes this paint: a click offers one");
+    assert_eq!(deleted, "no change: no layer for painted risk");
     key(&mut window, Modifiers::NONE, Key::E);
     hover(&mut window, FREE);
     assert!(price_tag(&window).is_some());
