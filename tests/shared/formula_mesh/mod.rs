@@ -1,6 +1,6 @@
 //! Meshes as the program makes them, for a formula of the target diameter under the vertex rule.
 
-use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
+use meshbrush_core::build::{BuildError, BuiltMesh, MeshBuilder, MeshSpec};
 use meshbrush_core::domain::{BoundaryTreatment, Domain};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerKind, SizeFieldSpec};
@@ -9,6 +9,16 @@ use meshbrush_mesh::mesh::{Cleaning, Limits, Progress};
 
 /// Returns the mesh of a domain; `target` is a formula.
 pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, target: &str) -> BuiltMesh {
+    try_formula_mesh(domain, spacing, boundary, target).unwrap()
+}
+
+/// [`formula_mesh`] of a domain that may have no mesh.
+pub fn try_formula_mesh(
+    domain: &Domain,
+    spacing: f64,
+    boundary: BoundaryTreatment,
+    target: &str,
+) -> Result<BuiltMesh, BuildError> {
     let limits = Limits::default();
     let mut builder = MeshBuilder::new(MeshSpec {
         lattice: Lattice::covering(domain.bounds, spacing, limits.max_triangles).unwrap(),
@@ -26,6 +36,6 @@ pub fn formula_mesh(domain: &Domain, spacing: f64, boundary: BoundaryTreatment, 
         cleaning: Cleaning::NONE,
         limits,
     });
-    while builder.advance(None, 1000).unwrap() == Progress::More {}
-    builder.finish()
+    while builder.advance(None, 1000)? == Progress::More {}
+    Ok(builder.finish())
 }

@@ -73,14 +73,13 @@ impl Band {
         let AtOutline { active, signs } = AtOutline::<N>::new(mesh, region, touched);
         let mut near = Near::<N>::new(mesh);
         near.grow_from(mesh, &active, RINGS);
-        let Near { nodes: mut node_ids, triangles: mut ids, is_triangle, .. } = near;
-        node_ids.par_sort_unstable_by_key(|&id| mesh.node(id));
+        let Near { nodes, triangles: mut ids, is_triangle, .. } = near;
+        let (points, node_ids) = sorted_by_points(mesh, &nodes);
         let mut numbers = N::for_entries(mesh.raw_nodes().len());
         node_ids.iter().zip(0..).for_each(|(id, number)| _ = numbers.set(id.index(), number));
         let number = |id: NodeId| numbers.get(id.index()).expect("it is in the band");
         let mut is_active = vec![false; node_ids.len()];
         active.iter().for_each(|&id| is_active[number(id) as usize] = true);
-        let points: Vec<LatticePoint> = node_ids.iter().map(|&id| mesh.node(id)).collect();
         let beside = touched.iter().filter(|id| is_triangle.get(id.index()).is_none());
         let is_inside = |id: NodeId| match signs.get(id.index()) {
             Some(sign) => sign == 1,
@@ -203,6 +202,19 @@ impl<N: Numbers> Near<N> {
     }
 }
 
+/// Returns the points of nodes in ascending order, and the nodes in the same order.
+fn sorted_by_points(mesh: &Mesh, nodes: &[NodeId]) -> (Vec<LatticePoint>, Vec<NodeId>) {
+    // With the points beside them: in the mesh they are far from each other.
+    let mut sorted: Vec<(LatticePoint, NodeId)> = nodes.iter().map(|&id| (mesh.node(id), id)).collect();
+    sorted.par_sort_unstable_by_key(|&(point, _)| joined([point.x, point.y]));
+    sorted.into_iter().unzip()
+}
+
+/// Returns two numbers as one, which is compared as fast as a single one and has the order of the pair.
+fn joined([first, second]: [u32; 2]) -> u64 {
+    u64::from(first) << 32 | u64::from(second)
+}
+
 /// Sorts the triangles by their corners, numbers corners and neighbours, and returns the numbers.
 fn numbered<N: Numbers>(
     mesh: &Mesh,
@@ -218,7 +230,8 @@ fn numbered<N: Numbers>(
     };
     let mut entries: Vec<([u32; 3], u32, TriangleId)> =
         ids.par_iter().with_min_len(GRAIN).map(turned).collect();
-    entries.par_sort_unstable_by_key(|(corners, ..)| *corners);
+    // An edge in one direction belongs to one triangle.
+    entries.par_sort_unstable_by_key(|([lowest, next, _], ..)| joined([*lowest, *next]));
     let mut numbers = N::for_entries(mesh.raw_triangle_count());
     for ((number, place), (_, _, id)) in (0..).zip(ids.iter_mut()).zip(&entries) {
         numbers.set(id.index(), number);

@@ -27,35 +27,63 @@ impl Numbers for Vec<u32> {
     }
 }
 
-/// Entries of a page of [`Pages`].
+/// Entries of a page of [`Pages`], and pages of a chapter.
 const PAGE: usize = 128;
 
 /// Numbers of few entries of a long array: only the pages that have some are kept. Entries near each other on
 /// the plane are mostly near each other in the arrays of a mesh.
+///
+/// ```text
+///   chapters   0 0 2 0 1 …            for each 16,384 entries, the place of their pages
+///                  └──▶ 0 0 5 0 …     for each 128 entries, the place of their numbers
+///                           └──▶ …
+/// ```
+///
+/// So there is little to clear before the first number, even where a mesh has millions of triangles: an
+/// update makes a hundred of them.
 pub(super) struct Pages {
-    /// For each page of the array, its place among those that are kept; 0 if it has no numbers.
-    places: Vec<u32>,
+    /// For each chapter of the array, its place in `places`; 0 if it has no numbers.
+    chapters: Vec<u32>,
+    /// For each page of a chapter, its place in `numbers`; 0 if it has none. The first chapter stays empty.
+    places: Vec<[u32; PAGE]>,
     /// The pages, with numbers plus one. The first one stays empty.
     numbers: Vec<[u32; PAGE]>,
 }
 
+/// Returns the chapter of an entry, its page in the chapter, and its place in the page.
+#[inline]
+fn position(index: usize) -> [usize; 3] {
+    [index / (PAGE * PAGE), index / PAGE % PAGE, index % PAGE]
+}
+
+/// Returns the place of a new page if there is none yet.
+#[inline]
+fn place_in(pages: &mut Vec<[u32; PAGE]>, place: &mut u32) -> usize {
+    if *place == 0 {
+        *place = pages.len() as u32;
+        pages.push([0; PAGE]);
+    }
+    *place as usize
+}
+
 impl Numbers for Pages {
     fn for_entries(count: usize) -> Self {
-        Self { places: vec![0; count.div_ceil(PAGE)], numbers: vec![[0; PAGE]] }
+        let chapters = vec![0; count.div_ceil(PAGE * PAGE)];
+        Self { chapters, places: vec![[0; PAGE]], numbers: vec![[0; PAGE]] }
     }
 
     #[inline]
     fn get(&self, index: usize) -> Option<u32> {
-        self.numbers[self.places[index / PAGE] as usize][index % PAGE].checked_sub(1)
+        let [chapter, page, place] = position(index);
+        let pages = &self.places[self.chapters[chapter] as usize];
+        self.numbers[pages[page] as usize][place].checked_sub(1)
     }
 
     #[inline]
     fn set(&mut self, index: usize, number: u32) -> bool {
-        let place = &mut self.places[index / PAGE];
-        if *place == 0 {
-            *place = self.numbers.len() as u32;
-            self.numbers.push([0; PAGE]);
-        }
-        std::mem::replace(&mut self.numbers[*place as usize][index % PAGE], number + 1) == 0
+        let [chapter, page, place] = position(index);
+        let pages = place_in(&mut self.places, &mut self.chapters[chapter]);
+        let page = place_in(&mut self.numbers, &mut self.places[pages][page]);
+        std::mem::replace(&mut self.numbers[page][place], number + 1) == 0
     }
 }
