@@ -87,3 +87,36 @@ impl Numbers for Pages {
         std::mem::replace(&mut self.numbers[page][place], number + 1) == 0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    #[test]
+    fn pages_keep_the_numbers_of_a_table() {
+        let mut random = fastrand::Rng::with_seed(2611);
+        for count in [1, PAGE, PAGE * PAGE + 1, 5 * PAGE * PAGE] {
+            let (mut pages, mut table) = (Pages::for_entries(count), BTreeMap::new());
+            for _ in 0..2000 {
+                // Some at the edges of pages and chapters.
+                let near = [0, PAGE, PAGE * PAGE, count][random.usize(..4)];
+                let index = if random.bool() {
+                    random.usize(..count)
+                } else {
+                    near.saturating_sub(random.usize(..3))
+                };
+                let index = index.min(count - 1);
+                assert_eq!(pages.get(index), table.get(&index).copied(), "{index} of {count}");
+                let number = random.u32(..u32::MAX - 1);
+                assert_eq!(
+                    pages.set(index, number),
+                    table.insert(index, number).is_none(),
+                    "{index} of {count}"
+                );
+            }
+            assert!((0..count).all(|index| pages.get(index) == table.get(&index).copied()), "{count}");
+        }
+    }
+}
