@@ -233,7 +233,9 @@ fn divided_cost(
     let middle = p.midpoint(q);
     let halves = [[p, middle], [middle, q]].map(|half| (half, by_rule(half[0], half[1])));
     let sum: f64 = halves.iter().map(|half| half.1).sum();
-    if halvings == 0 || (sum - whole).abs() <= CHANGE_BY_HALVES * sum {
+    // False for infinite costs: halves do not change them.
+    let has_changed = (sum - whole).abs() > CHANGE_BY_HALVES * sum;
+    if halvings == 0 || !has_changed {
         return sum;
     }
     halves.into_iter().map(|(half, cost)| divided_cost(by_rule, half, cost, halvings - 1)).sum()
