@@ -206,13 +206,8 @@ impl<N: Numbers> Near<N> {
 fn sorted_by_points(mesh: &Mesh, nodes: &[NodeId]) -> (Vec<LatticePoint>, Vec<NodeId>) {
     // With the points beside them: in the mesh they are far from each other.
     let mut sorted: Vec<(LatticePoint, NodeId)> = nodes.iter().map(|&id| (mesh.node(id), id)).collect();
-    sorted.par_sort_unstable_by_key(|&(point, _)| joined([point.x, point.y]));
+    sorted.par_sort_unstable();
     sorted.into_iter().unzip()
-}
-
-/// Returns two numbers as one, which is compared as fast as a single one and has the order of the pair.
-fn joined([first, second]: [u32; 2]) -> u64 {
-    u64::from(first) << 32 | u64::from(second)
 }
 
 /// Sorts the triangles by their corners, numbers corners and neighbours, and returns the numbers.
@@ -230,8 +225,7 @@ fn numbered<N: Numbers>(
     };
     let mut entries: Vec<([u32; 3], u32, TriangleId)> =
         ids.par_iter().with_min_len(GRAIN).map(turned).collect();
-    // An edge in one direction belongs to one triangle.
-    entries.par_sort_unstable_by_key(|([lowest, next, _], ..)| joined([*lowest, *next]));
+    entries.par_sort_unstable_by_key(|(corners, ..)| *corners);
     let mut numbers = N::for_entries(mesh.raw_triangle_count());
     for ((number, place), (_, _, id)) in (0..).zip(ids.iter_mut()).zip(&entries) {
         numbers.set(id.index(), number);
