@@ -1,6 +1,6 @@
 //! The real program in a real window: painted in and queried with the mouse, and judged by its picture.
 //!
-//! `sh tests/run` installs what this needs (Xvfb, xdotool, a software Vulkan driver) and runs it. By hand:
+//! `sh tests/run` installs what this needs (Xvfb, xdotool, xclip, a software Vulkan driver) and runs it. By hand:
 //!
 //! ```sh
 //! cargo test --test window -- --ignored
@@ -10,7 +10,7 @@
 #![cfg(all(feature = "gui", target_os = "linux"))]
 
 use std::fs;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Write as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -35,6 +35,10 @@ const QUERY_KEY: &str = "q";
 const UNDO_KEYS: &str = "ctrl+z";
 const NEW_KEYS: &str = "ctrl+n";
 const QUIT_KEYS: &str = "ctrl+q";
+const GO_TO_KEYS: &str = "ctrl+g";
+const COPY_KEYS: &str = "ctrl+c";
+const CUT_KEYS: &str = "ctrl+x";
+const PASTE_KEYS: &str = "ctrl+v";
 /// Places in the domain, as fractions from its upper left corner. The first example leaves them free of
 /// paint.
 const STROKE: [(f64, f64); 2] = [(0.84, 0.50), (0.96, 0.56)];
@@ -124,6 +128,45 @@ fn paint_query_and_undo(name: &str, draw: &str) {
     let status = program.wait_for_exit();
     assert!(status.success(), "{QUIT_KEYS} ended the program with {status}: {}", program.said());
     assert!(!program.said().contains("panicked"), "{}", program.said());
+}
+
+#[test]
+#[ignore = "needs a virtual display: sh tests/run starts one"]
+fn copy_and_paste_reach_other_programs() {
+    let scratch = Scratch::new("clipboard");
+    let display = Display::start(&scratch);
+    let mut program = Program::start(&scratch, &[("DISPLAY", display.name.as_str())]);
+    program.wait_for_window(&display);
+    display.point_at(RESTING_PLACE);
+    let domain = display.settled_picture(&scratch, "1-example").domain();
+
+    display.copy("of another program");
+    display.xdotool(&["key", QUERY_KEY]);
+    display.point_at(domain.at(CLICK));
+    display.xdotool(&["click", "1"]);
+    display.xdotool(&["key", COPY_KEYS]);
+    wait_for("the values of the triangle in the clipboard", || {
+        display.copied().filter(|text| text.starts_with("Triangle: ") && text.contains("\nQuantity: h̄\n"))
+    });
+
+    display.copy("0.25, ");
+    display.xdotool(&["key", GO_TO_KEYS]);
+    display.point_at(RESTING_PLACE);
+    display.settled_picture(&scratch, "2-go to");
+    display.xdotool(&["key", PASTE_KEYS]);
+    display.xdotool(&["type", "0.75"]);
+    display.settled_picture(&scratch, "3-pasted");
+    display.xdotool(&["key", "ctrl+a", COPY_KEYS]);
+    wait_for("the text of the field in the clipboard", || {
+        display.copied().filter(|text| text == "0.25, 0.75")
+    });
+    display.xdotool(&["key", CUT_KEYS, PASTE_KEYS, PASTE_KEYS, "ctrl+a", COPY_KEYS]);
+    wait_for("the text that was cut and pasted twice", || {
+        display.copied().filter(|text| text == "0.25, 0.750.25, 0.75")
+    });
+
+    display.xdotool(&["key", "Escape", QUIT_KEYS]);
+    assert!(program.wait_for_exit().success(), "{}", program.said());
 }
 
 /// `MESHBRUSH_KILLS=20 cargo test --test window -- --ignored killed --nocapture` says more about more of
@@ -349,6 +392,29 @@ impl Display {
         sleep(Duration::from_millis(50)); // a person is no faster, and every event gets its frame
     }
 
+    /// Copies a text in another program, which keeps it in the background.
+    fn copy(&self, text: &str) {
+        let mut xclip = self.xclip("-i");
+        xclip.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut xclip = xclip.spawn().unwrap_or_else(|e| lacks_xclip(&e));
+        let mut input = xclip.stdin.take().expect("it is piped");
+        input.write_all(text.as_bytes()).expect("xclip reads all of it");
+        drop(input);
+        assert!(xclip.wait().expect("it is our child").success());
+    }
+
+    /// Returns the text that another program would paste.
+    fn copied(&self) -> Option<String> {
+        let output = self.xclip("-o").output().unwrap_or_else(|e| lacks_xclip(&e));
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    fn xclip(&self, direction: &str) -> Command {
+        let mut command = Command::new("xclip");
+        command.args(["-selection", "clipboard", direction]).env("DISPLAY", &self.name);
+        command
+    }
+
     fn point_at(&self, (x, y): (usize, usize)) {
         self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
     }
@@ -417,6 +483,10 @@ impl Drop for Display {
         let _ = self.server.kill(); // it may have died by itself
         let _ = self.server.wait();
     }
+}
+
+fn lacks_xclip<T>(error: &std::io::Error) -> T {
+    panic!("xclip does not start ({error}): sh tests/run installs it")
 }
 
 /// Asks until there is an answer, but not for ever.
