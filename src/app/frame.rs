@@ -24,7 +24,7 @@ use super::dialogs::FileFacts;
 use super::features::{ROWS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
-use super::keys::Receiver;
+use super::keys::{Press, Receiver};
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
@@ -112,12 +112,15 @@ impl App {
         self.canvas.take_state(ctx, &mut self.view, &self.tools, &self.session, &mut self.commands);
     }
 
-    /// Runs the command of a key. Returns whether there was one: widgets must not act on the key again.
-    fn run_key(&mut self, event: &Event, ctx: &Context) -> bool {
-        let (key, physical_key, modifiers) = match *event {
-            Event::Key { key, physical_key, pressed: true, modifiers, .. } => (key, physical_key, modifiers),
+    /// Runs the command of a key, or says that it cannot be run now. Returns whether the key belongs to an
+    /// entry: widgets must not act on it, too.
+    pub(super) fn run_key(&mut self, event: &Event, ctx: &Context) -> bool {
+        let press = match *event {
+            Event::Key { key, physical_key, pressed: true, modifiers, .. } => {
+                Press { key, physical_key, modifiers }
+            }
             // Ctrl+C reaches the window as this event only.
-            Event::Copy => (Key::C, None, Modifiers::COMMAND),
+            Event::Copy => Press { key: Key::C, physical_key: None, modifiers: Modifiers::COMMAND },
             _ => return false,
         };
         // A menu or a dialog takes Escape and Enter itself.
@@ -133,14 +136,17 @@ impl App {
             });
         }
         let receiver = Receiver::of(ctx, self.canvas.id());
-        let entry = keys::entry_of(key, physical_key, modifiers, receiver, &catalog);
-        let Some(entry) = entry else { return false };
+        let Some(entry) = keys::entry_of(press, receiver, &catalog) else { return false };
+        let pressed = shortcut_text(&KeyboardShortcut::new(press.modifiers, press.key));
+        let now = ctx.input(|input| input.time);
+        if !entry.enabled {
+            self.canvas.tell(Toast::new(format!("{pressed}: “{}” is not possible now", entry.title), now));
+            return true;
+        }
         let before = self.tools.clone();
         self.commands.push(entry.command.clone());
         self.run_commands(ctx);
         if self.tools.differs_in_choice(&before) {
-            let pressed = shortcut_text(&KeyboardShortcut::new(modifiers, key));
-            let now = ctx.input(|input| input.time);
             self.canvas.tell(Toast::new(format!("{pressed}: {}", self.done(entry)), now));
         }
         true
@@ -175,6 +181,8 @@ impl App {
         let deadline =
             if host::IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
         let cuts = self.session.advance_cuts(jobs);
+        let bounds = self.session.document().settings().domain.bounds;
+        self.tools.follow_extent(bounds.size().max_element());
         let is_late =
             self.jobs.is_without_threads() && !self.reproducible && began.elapsed() > LONG_BEFORE_MESH;
         self.leaves_mesh = is_late && !self.leaves_mesh;
@@ -184,7 +192,6 @@ impl App {
         self.view.follow_heights(&self.session);
         let (features, mut of_window) = self.features_in_context(ctx);
         let features_work = features.follow(&mut of_window);
-        let bounds = self.session.document().settings().domain.bounds;
         let plan = self.canvas.planned_stroke(ctx, &self.tools, bounds);
         let plan = plan.filter(|_| !self.asks_something());
         let prices = self.session.price_stroke(plan, start + price_budget);

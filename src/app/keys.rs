@@ -1,4 +1,4 @@
-//! Translates keys to commands.
+//! Finds the entry of a key.
 
 use eframe::egui::{Context, Id, Key, KeyboardShortcut, Modifiers};
 
@@ -27,42 +27,64 @@ impl Receiver {
     }
 }
 
-/// Returns the entry that a pressed key runs, if there is one.
+/// A key that was pressed, with the modifiers that were held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Press {
+    /// The key by its character, or else by its place.
+    pub key: Key,
+    /// The place of the key, by its character on a US keyboard, where it is known.
+    pub physical_key: Option<Key>,
+    /// The modifiers that were held.
+    pub modifiers: Modifiers,
+}
+
+/// Returns the entry that a press belongs to, if there is one. It runs if it is enabled; a press that belongs
+/// to a disabled entry runs no other one.
 ///
-/// A digit is found by the place of its key, too: with Shift it is another character on most keyboards, and
-/// without on French ones.
-pub fn entry_of(
-    key: Key,
-    physical_key: Option<Key>,
-    modifiers: Modifiers,
-    receiver: Receiver,
-    catalog: &[CatalogItem],
-) -> Option<&CatalogItem> {
+/// The modifiers must be those of the entry. Shift may be held besides only where it was needed to type the
+/// character, as for `+` on a US keyboard. With Shift, the digit at the place of a key comes first: with
+/// Shift its character is another one on most keyboards. Without, the place of a digit comes last: on French
+/// keyboards it types another character.
+pub fn entry_of(press: Press, receiver: Receiver, catalog: &[CatalogItem]) -> Option<&CatalogItem> {
+    let Press { key, physical_key, modifiers } = press;
     if receiver == Receiver::Control && MENU_KEYS == KeyboardShortcut::new(modifiers, key) {
         return None; // the control shows its own menu
     }
-    let digit = physical_key.filter(|key| ("0"..="9").contains(&key.name()));
-    let with = |key| best(key, modifiers, receiver, catalog);
-    match digit.filter(|_| modifiers.shift) {
-        Some(digit) => with(digit),
-        None => with(key).or_else(|| with(digit?)),
-    }
+    let digit = physical_key.filter(|key| is_digit(*key)).map(|key| KeyboardShortcut::new(modifiers, key));
+    let typed = KeyboardShortcut::new(modifiers, key);
+    let needs_shift = modifiers.shift && may_need_shift(key) && physical_key != Some(key);
+    let without_shift = Modifiers { shift: false, ..modifiers };
+    let typed_by_shift = needs_shift.then_some(KeyboardShortcut::new(without_shift, key));
+    let meanings = match modifiers.shift {
+        true => [digit, Some(typed), typed_by_shift],
+        false => [Some(typed), digit, None],
+    };
+    meanings.into_iter().flatten().find_map(|pressed| owner(pressed, receiver, catalog))
 }
 
-/// Returns the entry whose shortcut has the most modifiers: Ctrl+Shift+Z before Ctrl+Z, as Shift may also be
-/// needed to type the key itself.
-fn best(key: Key, modifiers: Modifiers, receiver: Receiver, catalog: &[CatalogItem]) -> Option<&CatalogItem> {
-    let is_pressed = |shortcut: &&KeyboardShortcut| {
+/// Returns the entry with exactly these keys: of several, the one that is enabled.
+fn owner(pressed: KeyboardShortcut, receiver: Receiver, catalog: &[CatalogItem]) -> Option<&CatalogItem> {
+    let is_pressed = |shortcut: &KeyboardShortcut| {
         // AltGr reaches the window as Alt, with or without Ctrl: it types a character and runs no command.
-        shortcut.logical_key == key
-            && modifiers.matches_logically(shortcut.modifiers)
-            && modifiers.alt == shortcut.modifiers.alt
+        shortcut.logical_key == pressed.logical_key
+            && pressed.modifiers.matches_exact(shortcut.modifiers)
             && !receiver.keeps(shortcut)
     };
-    let items = catalog.iter().filter(|item| item.enabled && item.keys_work);
-    let pressed =
-        items.flat_map(|item| item.shortcuts.iter().filter(is_pressed).map(move |keys| (item, keys)));
-    pressed.max_by_key(|(_, keys)| modifier_count(keys.modifiers)).map(|(item, _)| item)
+    let has_it = |item: &&CatalogItem| item.keys_work && item.shortcuts.iter().any(is_pressed);
+    let mut owners = catalog.iter().filter(has_it);
+    let first = owners.next()?;
+    if first.enabled { Some(first) } else { owners.find(|item| item.enabled).or(Some(first)) }
+}
+
+fn is_digit(key: Key) -> bool {
+    ("0"..="9").contains(&key.name())
+}
+
+/// Returns whether there are keyboards that type the character of a key with Shift only: all but letters,
+/// digits and keys without a character.
+fn may_need_shift(key: Key) -> bool {
+    let symbol = key.symbol_or_name();
+    symbol.chars().count() == 1 && symbol.is_ascii() && !symbol.chars().all(char::is_alphanumeric)
 }
 
 fn is_function_key(key: Key) -> bool {
@@ -88,8 +110,4 @@ fn edits(shortcut: &KeyboardShortcut) -> bool {
         Key::Enter,
     ];
     !shortcut.modifiers.command || KEPT_WITH_CTRL.contains(&shortcut.logical_key)
-}
-
-fn modifier_count(modifiers: Modifiers) -> u8 {
-    u8::from(modifiers.shift) + u8::from(modifiers.alt) + u8::from(modifiers.command)
 }

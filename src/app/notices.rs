@@ -134,9 +134,13 @@ impl Notices {
     }
 
     /// Says that the user stopped the update of the mesh, until [`Self::end_standing`].
-    pub fn stand_cancelled(&mut self) {
-        let text =
-            "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date.";
+    /// `awaits_mesh` says that there is none yet.
+    pub fn stand_cancelled(&mut self, awaits_mesh: bool) {
+        let text = if awaits_mesh {
+            "The mesh of the document was not made. The next edit begins with it again."
+        } else {
+            "The mesh was not updated: it still shows an earlier state. The next edit brings it up to date."
+        };
         self.standing = Some(self.numbered(false, None, text.into()));
     }
 

@@ -32,7 +32,7 @@ use meshbrush_mesh::mesh::{Location, Mesh, MeshView, Progress, TriangleId};
 /// A document and its mesh in the window.
 pub struct Session {
     pub(super) document: Document,
-    document_id: DocumentId,
+    pub(super) document_id: DocumentId,
     pub(super) follower: Follower,
     /// The size of the slices in which the follower works.
     pub(super) pace: Pace,
@@ -57,6 +57,8 @@ pub struct Session {
     pub(super) heights: HeightFinder,
     /// The change of the follower's mesh since the canvas last took it.
     mesh_change: Option<MeshChange>,
+    /// The revision of the follower's mesh that stands for that of the document until that is made.
+    pub(super) bare_revision: Option<u64>,
 }
 
 impl Session {
@@ -88,6 +90,7 @@ impl Session {
             ages: AgeKeeper::default(),
             heights: HeightFinder::default(),
             mesh_change: None,
+            bare_revision: None,
         })
     }
 
@@ -315,19 +318,6 @@ impl Session {
         self.document.redo();
     }
 
-    /// Replaces the document by another one. This cannot be undone.
-    pub fn replace_document(&mut self, document: Document) {
-        self.cuts.discard(&mut self.document);
-        self.document.replace_with(document);
-        self.document_id = self.document_id.next();
-        // Its triangles can be a thousand times as dear.
-        self.pace = Pace::default();
-        self.brake.release();
-        self.size_change = SizeChange::default();
-        self.query(None);
-        self.notices.dismiss();
-    }
-
     /// Stops the cuts in progress, or else the update of the mesh. The document keeps the edits that reached
     /// it; the notice says that the mesh lags behind.
     pub fn cancel_update(&mut self) {
@@ -336,7 +326,7 @@ impl Session {
             return;
         }
         self.follower.cancel(&self.document);
-        self.notices.stand_cancelled();
+        self.notices.stand_cancelled(self.awaits_mesh());
     }
 
     /// Queries a point in world units, or none. The trail to the former one ends.
@@ -437,7 +427,8 @@ impl Session {
         if self.document.revision() != revision {
             self.report_edit(format!("{error}{}", notices::advice(error)));
         } else {
-            let shows_former = self.document.settings() != self.follower.settings();
+            let is_other = self.document.settings() != self.follower.settings();
+            let shows_former = is_other && !self.awaits_mesh();
             self.notices.stand(error, shows_former);
         }
     }

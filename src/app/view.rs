@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Theme, ThemePreference};
 use glam::DVec2;
 
+pub use super::canvas_aids::{CanvasAid, CanvasAids};
 use super::command::ViewCommand;
 use super::dock::Dock;
 use super::kit::Tab;
@@ -16,6 +17,9 @@ use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::Look;
 use meshbrush_render::scene::{Camera, SpaceCamera, Style};
+
+/// The least radius of the brush where the whole domain is in sight, as a share of its longer side.
+const LEAST_BRUSH_SHARE: f64 = 1e-4;
 
 /// The field that is drawn over the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,73 +96,6 @@ impl FieldOverlay {
             Self::Surface => "Overlay surface as a relief",
             Self::SurfaceError => "Overlay surface error of the mesh",
         }
-    }
-}
-
-/// An aid to orientation on the canvas, which can be switched off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CanvasAid {
-    /// Ticks with coordinates along its sides.
-    Coordinates,
-    /// Meridians and parallels, in documents on the Earth.
-    Graticule,
-    /// The scale bar.
-    ScaleBar,
-    /// Contour lines of h̄.
-    Contours,
-    /// The walk of point location to the queried point.
-    Walk,
-    /// Handles at the corners of the background picture.
-    PictureCorners,
-    /// Why the queried triangle is there.
-    Cause,
-}
-
-/// Which of them are shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CanvasAids {
-    /// Ticks with coordinates along the sides of the canvas.
-    pub coordinates: bool,
-    /// Meridians and parallels, in documents on the Earth.
-    pub graticule: bool,
-    /// The scale bar.
-    pub scale_bar: bool,
-    /// Contour lines of h̄ where one level ends and the next begins.
-    pub contours: bool,
-    /// The walk of point location to the queried point.
-    pub walk: bool,
-    /// Handles at the corners of the background picture.
-    pub picture_corners: bool,
-    /// Why the queried triangle is there: the chain of triangles, and the place that decides.
-    pub cause: bool,
-}
-
-impl Default for CanvasAids {
-    fn default() -> Self {
-        Self {
-            coordinates: true,
-            graticule: false,
-            scale_bar: true,
-            contours: false,
-            walk: true,
-            picture_corners: false,
-            cause: true,
-        }
-    }
-}
-
-impl CanvasAids {
-    fn toggle(&mut self, aid: CanvasAid) {
-        let shown = match aid {
-            CanvasAid::Coordinates => &mut self.coordinates,
-            CanvasAid::Graticule => &mut self.graticule,
-            CanvasAid::ScaleBar => &mut self.scale_bar,
-            CanvasAid::Contours => &mut self.contours,
-            CanvasAid::Walk => &mut self.walk,
-            CanvasAid::PictureCorners => &mut self.picture_corners,
-            CanvasAid::Cause => &mut self.cause,
-        };
-        *shown = !*shown;
     }
 }
 
@@ -274,6 +211,25 @@ impl View {
                 .ok()
                 .and_then(|lattice| Look::north_of(settings.domain.projection.as_ref(), &lattice)),
             space: None,
+        }
+    }
+
+    /// Returns what is left when another document is opened: only what is named here, which is how a person
+    /// has arranged the window.
+    pub fn for_next_document(self) -> Self {
+        Self {
+            colormap: self.colormap,
+            ground: self.ground,
+            edges: self.edges,
+            aids: CanvasAids { picture_corners: false, ..self.aids },
+            panels: self.panels,
+            surrounds: self.surrounds,
+            strip: self.strip,
+            dock: self.dock,
+            presentation: self.presentation,
+            quantity: self.quantity,
+            theme: self.theme,
+            ..Self::default()
         }
     }
 
@@ -419,6 +375,13 @@ impl View {
     /// Returns world units of one pixel.
     pub fn world_per_px(&self) -> f64 {
         self.camera.map_or(1e-4, |camera| 1.0 / camera.px_per_world())
+    }
+
+    /// Returns the least radius of the brush in a domain with this longer side, in world units: a pixel, and
+    /// no less than a step of the lattice. Where the whole domain is in sight, it is a little less.
+    pub fn least_brush_radius(&self, extent: f64) -> f64 {
+        let step = self.camera.map_or(0.0, |camera| camera.lattice().step().max_element());
+        (LEAST_BRUSH_SHARE * extent).min(self.world_per_px()).max(step)
     }
 
     /// Puts a point of the world in the middle, where it is out of sight.

@@ -387,6 +387,7 @@ const WINDOW: [(&str, &[&str]); 3] = [
             "boundary",
             "brake",
             "busy",
+            "canvas_aids",
             "clock",
             "command",
             "cuts",

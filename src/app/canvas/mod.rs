@@ -46,10 +46,6 @@ use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Highlights;
 
-/// Free space around the domain when it is fitted, in points.
-const FIT_MARGIN: f32 = 24.0;
-/// Additional space below it, where hints are, in points.
-const HINT_HEIGHT: f32 = 32.0;
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";
 
@@ -87,6 +83,12 @@ impl Canvas {
             mesh_work: Busy::default(),
             toast: None,
         }
+    }
+
+    /// Returns what is left when another document is opened: the place of the canvas, and what draws it.
+    pub fn for_next_document(self) -> Self {
+        let Self { gpu, jobs, shown, floats, .. } = self;
+        Self { shown, floats, ..Self::new(gpu, &jobs) }
     }
 
     /// Draws in software from now on.
@@ -215,7 +217,7 @@ impl Canvas {
         session: &'a Session,
     ) -> Option<Pointer<'a>> {
         let (_, rect) = self.shown?;
-        fit_camera(view, session.mesh().lattice(), rect, ctx.pixels_per_point());
+        navigation::fit_camera(view, session.mesh().lattice(), rect, ctx.pixels_per_point());
         let px_per_point = f64::from(ctx.pixels_per_point());
         Some(Pointer { rect, camera: view.camera?, space: space_sight(view, session), tools, px_per_point })
     }
@@ -264,13 +266,6 @@ impl Canvas {
     }
 }
 
-/// Fits the view's camera to a canvas of the given rectangle in points.
-fn fit_camera(view: &mut View, lattice: &Lattice, rect: Rect, px_per_point: f32) {
-    let size = (rect.size() * px_per_point).round();
-    let [margin, below] = [FIT_MARGIN, HINT_HEIGHT].map(|points| f64::from((points * px_per_point).round()));
-    view.fit_camera(lattice, [size.x as u32, size.y as u32], margin, below);
-}
-
 /// Drawing.
 impl Canvas {
     /// Takes the space that is left for the canvas, and fits the camera to it. Returns `None` where there is
@@ -288,7 +283,7 @@ impl Canvas {
         }
         self.shown = Some((response.id, rect));
         view.follow_theme(ui.ctx());
-        fit_camera(view, lattice, rect, ui.pixels_per_point());
+        navigation::fit_camera(view, lattice, rect, ui.pixels_per_point());
         Some(response)
     }
 
@@ -321,6 +316,9 @@ impl Canvas {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
             Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+        }
+        if session.awaits_mesh() {
+            return self.draw_ground(ui);
         }
         if !style.is_opaque() {
             ui.painter().rect_filled(rect, 0.0, tokens(ui).canvas);

@@ -1,18 +1,24 @@
 //! Moving the view by the wheel, and by the arrow keys while the canvas has the focus.
 
 use eframe::egui::{
-    Context, Event, EventFilter, Id, Key, MultiTouchInfo, Pos2, Response, Stroke, StrokeKind, Ui, Vec2,
+    Context, Event, EventFilter, Id, Key, MultiTouchInfo, Pos2, Rect, Response, Stroke, StrokeKind, Ui, Vec2,
 };
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::Pointer;
 use crate::app::theme::tokens;
+use crate::app::view::View;
+use meshbrush_mesh::geometry::Lattice;
 
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;
 /// Points that an arrow key moves the view; with Shift an eighth of it.
 const STEP_POINTS: f64 = 64.0;
+/// Free space around the domain when it is fitted, in points.
+const FIT_MARGIN: f32 = 24.0;
+/// Additional space below it, where hints are, in points.
+const HINT_HEIGHT: f32 = 32.0;
 
 /// Zooms about the pointer by the wheel or by pinching.
 pub fn zoom(ctx: &Context, pointer: &mut Pointer<'_>, commands: &mut Vec<Command>) {
@@ -90,4 +96,11 @@ pub fn show_focus(ui: &Ui, response: &Response) {
         let edge = Stroke::new(1.5, tokens(ui).accent);
         ui.painter().rect_stroke(response.rect.shrink(1.0), 2, edge, StrokeKind::Inside);
     }
+}
+
+/// Fits the view's camera to a canvas of the given rectangle in points.
+pub fn fit_camera(view: &mut View, lattice: &Lattice, rect: Rect, px_per_point: f32) {
+    let size = (rect.size() * px_per_point).round();
+    let [margin, below] = [FIT_MARGIN, HINT_HEIGHT].map(|points| f64::from((points * px_per_point).round()));
+    view.fit_camera(lattice, [size.x as u32, size.y as u32], margin, below);
 }

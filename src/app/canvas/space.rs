@@ -14,6 +14,8 @@ use crate::app::theme::{font, tokens};
 use crate::app::view::View;
 use crate::app::widgets::Hint::{Key, KeyOf, Text};
 use crate::app::widgets::{format, hint_pill};
+use meshbrush_core::paint::Mirror;
+use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::{Progress, TriangleId};
 use meshbrush_render::colormap::Ground;
 
@@ -21,6 +23,8 @@ use meshbrush_render::colormap::Ground;
 const STRAIGHT: f32 = 6.0;
 /// Corners of the brush ring on a surface.
 const RING_CORNERS: u32 = 72;
+/// Straight pieces of the line of a mirror on a surface.
+const MIRROR_PIECES: u32 = 200;
 
 /// Returns the view in space with the surface that it shows; `None` in the plan, and until heights are known.
 pub fn space_sight<'a>(view: &View, session: &'a Session) -> Option<SpaceSight<'a>> {
@@ -129,7 +133,7 @@ impl Canvas {
         }
     }
 
-    /// The brush ring, draped on the surface.
+    /// The brush ring and its mirror images, draped on the surface.
     fn paint_ring(
         &self,
         ui: &Ui,
@@ -145,25 +149,64 @@ impl Canvas {
         if self.is_picking(ui.ctx(), tools) {
             return marks::paint_eyedropper(over.painter, pointer);
         }
-        let ring = |radius: f64, widths: [f32; 2]| {
-            let at = |n: u32| {
-                let angle = std::f64::consts::TAU * f64::from(n) / f64::from(RING_CORNERS);
-                let place = world + radius * DVec2::from_angle(angle);
-                ((over.screen_from_world)(place), sight.is_hidden(place))
-            };
-            let corners: Vec<_> = (0..=RING_CORNERS).map(at).collect();
-            for pair in corners.windows(2) {
-                let [(from, hidden), (to, also_hidden)] = [pair[0], pair[1]];
-                let [dark, bright] = if hidden || also_hidden { [30, 60] } else { [130, 255] };
-                let line = |width, color| over.painter.line_segment([from, to], Stroke::new(width, color));
-                line(widths[0], Color32::from_black_alpha(dark));
-                line(widths[1], Color32::from_white_alpha(bright));
+        if tools.paints() {
+            let bounds = state.session.document().settings().domain.bounds;
+            let mirror = tools.mirror(bounds);
+            paint_mirror_lines(over, sight, &mirror, bounds);
+            for image in mirror.images(world).skip(1) {
+                paint_loop(over, sight, (image, tools.radius), [2.5, 1.0], 0.5);
             }
-        };
-        ring(tools.radius, [3.5, 1.5]);
-        if tools.hardness > 0.0 {
-            ring(tools.radius * tools.hardness, [2.0, 1.0]);
         }
+        paint_loop(over, sight, (world, tools.radius), [3.5, 1.5], 1.0);
+        if tools.hardness > 0.0 {
+            paint_loop(over, sight, (world, tools.radius * tools.hardness), [2.0, 1.0], 1.0);
+        }
+    }
+}
+
+/// Draws a ring on the surface: a bright line on a dark one, with these widths in points. The middle and the
+/// radius are in world units.
+fn paint_loop(
+    over: &OverMesh<'_>,
+    sight: &SpaceSight<'_>,
+    (middle, radius): (DVec2, f64),
+    widths: [f32; 2],
+    opacity: f32,
+) {
+    let corners = (0..=RING_CORNERS).map(|n| {
+        let angle = std::f64::consts::TAU * f64::from(n) / f64::from(RING_CORNERS);
+        middle + radius * DVec2::from_angle(angle)
+    });
+    paint_draped(over, sight, corners, widths, opacity);
+}
+
+/// Draws a line through points in world units on the surface; faint where the surface hides it.
+fn paint_draped(
+    over: &OverMesh<'_>,
+    sight: &SpaceSight<'_>,
+    points: impl Iterator<Item = DVec2>,
+    widths: [f32; 2],
+    opacity: f32,
+) {
+    let places: Vec<_> =
+        points.map(|point| ((over.screen_from_world)(point), sight.is_hidden(point))).collect();
+    for pair in places.windows(2) {
+        let [(from, hidden), (to, also_hidden)] = [pair[0], pair[1]];
+        let [dark, bright] = if hidden || also_hidden { [30.0, 60.0] } else { [130.0, 255.0] };
+        let line = |width, color| over.painter.line_segment([from, to], Stroke::new(width, color));
+        line(widths[0], Color32::from_black_alpha((dark * opacity) as u8));
+        line(widths[1], Color32::from_white_alpha((bright * opacity) as u8));
+    }
+}
+
+/// Draws the lines in which strokes are repeated, across the domain.
+fn paint_mirror_lines(over: &OverMesh<'_>, sight: &SpaceSight<'_>, mirror: &Mirror, bounds: WorldRect) {
+    let (min, max) = (bounds.min, bounds.max);
+    let vertical = mirror.x.map(|x| [DVec2::new(x, min.y), DVec2::new(x, max.y)]);
+    let horizontal = mirror.y.map(|y| [DVec2::new(min.x, y), DVec2::new(max.x, y)]);
+    for [from, to] in [vertical, horizontal].into_iter().flatten() {
+        let points = (0..=MIRROR_PIECES).map(|n| from.lerp(to, f64::from(n) / f64::from(MIRROR_PIECES)));
+        paint_draped(over, sight, points, [2.5, 1.0], 0.4);
     }
 }
 

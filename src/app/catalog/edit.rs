@@ -33,6 +33,7 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(Edit, redo, Command::Edit(EditCommand::Redo))
             .id("redo")
             .keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
+            .ctrl(Key::Y)
             .enabled(can_redo && !in_polygon),
         CatalogItem::new(Edit, "Clear paint", Command::Edit(EditCommand::ClearPaint))
             .keys(Modifiers::COMMAND, Key::Backspace)

@@ -195,19 +195,6 @@ impl App {
         }
     }
 
-    /// Opens another document in place of the current one, and fits brush and view to it. This cannot be
-    /// undone: [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
-    fn show_document(&mut self, document: Document) {
-        self.session.replace_document(document);
-        self.jobs.work_for(self.session.document_id());
-        let settings = self.session.document().settings();
-        let extent = settings.domain.bounds.size().max_element();
-        self.tools.fit_to(extent, settings.transfer.h_min);
-        self.features.forget_document();
-        self.view.fit();
-        self.view.hidden_levels = 0;
-    }
-
     fn cancel_work(&mut self, id: WorkId) {
         match self.background.cancel(id) {
             Some((Aim::Read, name)) => {

@@ -59,27 +59,15 @@ impl App {
 
     pub(super) fn execute_on_document(&mut self, command: EditCommand, _: &Context) {
         match command {
-            EditCommand::Undo => self.keep_brush_share(|app| app.session.undo()),
-            EditCommand::Redo => self.keep_brush_share(|app| app.session.redo()),
+            EditCommand::Undo => self.session.undo(),
+            EditCommand::Redo => self.session.redo(),
             EditCommand::ClearPaint => self.session.document_mut().clear_paint(),
             EditCommand::Set(setting) => self.session.set(setting),
             EditCommand::EndGesture => self.session.end_gesture(),
             EditCommand::Consider(candidate) => self.session.consider(candidate),
-            EditCommand::KeepMesh => self.keep_brush_share(|app| _ = app.session.keep_mesh()),
+            EditCommand::KeepMesh => _ = self.session.keep_mesh(),
             EditCommand::ApplyAnyway => self.session.apply_anyway(),
             EditCommand::CancelUpdate => self.session.cancel_update(),
-        }
-    }
-
-    /// Runs an undo or a redo. Where that changes the domain, the brush keeps its share of it.
-    fn keep_brush_share(&mut self, step: fn(&mut Self)) {
-        let extent = |app: &Self| app.session.document().settings().domain.bounds.size().max_element();
-        let before = extent(self);
-        step(self);
-        let ratio = extent(self) / before;
-        if ratio != 1.0 {
-            self.tools.radius *= ratio;
-            self.tools.diameter *= ratio;
         }
     }
 
@@ -137,7 +125,8 @@ impl App {
             return self.session.document_mut().cancel_stroke();
         }
         if self.session.question().is_some() {
-            return self.keep_brush_share(|app| _ = app.session.keep_mesh());
+            self.session.keep_mesh();
+            return;
         }
         let gesture_ended = self.canvas.end_gesture_on_escape();
         let in_gesture = self.session.document().is_in_gesture();

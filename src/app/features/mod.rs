@@ -74,9 +74,9 @@ macro_rules! features {
                 had_something
             }
 
-            /// Forgets what belongs to the document: another one was opened.
-            pub fn forget_document(&mut self) {
-                $( self.$field.forget_document(); )*
+            /// Returns what is left when another document is opened.
+            pub fn for_next_document(self) -> Self {
+                Self { $( $field: self.$field.for_next_document(), )* }
             }
         }
 

@@ -31,8 +31,11 @@ pub trait Feature: Default {
         false
     }
 
-    /// Forgets what belongs to the document: another one was opened.
-    fn forget_document(&mut self) {}
+    /// Returns what is left when another document is opened: nothing but what belongs to the window, which a
+    /// feature names here.
+    fn for_next_document(self) -> Self {
+        Self::default()
+    }
 }
 
 /// The parts of a feature that the window shows.

@@ -15,9 +15,10 @@ pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     let on_earth = domain.on_earth(1.0, state.place());
     let extent = in_plane * on_earth;
     let mut radius = state.tools.radius * on_earth;
-    let slider = SliderRow::new("Radius", &mut radius, 1e-4 * extent..=0.5 * extent)
+    let least = state.view.least_brush_radius(in_plane).min(0.5 * in_plane) * on_earth;
+    let slider = SliderRow::new("Radius", &mut radius, least..=0.5 * extent)
         .logarithmic()
-        .typed_range(1e-4 * extent..=extent)
+        .typed_range(least..=extent)
         .default(Tools::for_domain(in_plane, 0.0).radius * on_earth)
         .unit(state.unit().symbol());
     let help = "Radius of the brush, in the unit of the document; with a projection on the Earth, where the pointer or the \

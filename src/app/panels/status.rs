@@ -65,7 +65,8 @@ fn pointer_cells(state: &FrameState<'_>) -> [StatusCell; 4] {
         let layer = StatusCell::new("by", shortened(layer), MOST_OF_NAME);
         [cell("x", x), cell("y", y), cell("h̄", target), layer]
     };
-    let Some(point) = state.pointer else { return cells([NONE; 4].map(String::from)) };
+    let pointer = state.pointer.filter(|_| !state.session.awaits_mesh());
+    let Some(point) = pointer else { return cells([NONE; 4].map(String::from)) };
     let step = state.view.world_per_px();
     let (document, follower) = (state.session.document(), state.session.follower());
     let decision = state.session.decision_at(point);
@@ -99,10 +100,13 @@ fn mesh_cells(state: &FrameState<'_>) -> [StatusCell; 3] {
         None => NONE.into(),
     };
     let deepest = session.level_counts().len().saturating_sub(1);
+    let values = [format::count(session.triangle_count() as u64), nodes, deepest.to_string()];
+    let [triangles, nodes, deepest] =
+        if session.awaits_mesh() { [NONE; 3].map(String::from) } else { values };
     [
-        StatusCell::new("triangles", format::count(session.triangle_count() as u64), 10),
+        StatusCell::new("triangles", triangles, 10),
         StatusCell::new("nodes", nodes, 10),
-        StatusCell::new("deepest level", deepest.to_string(), 2),
+        StatusCell::new("deepest level", deepest, 2),
     ]
 }
 

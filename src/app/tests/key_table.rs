@@ -13,8 +13,8 @@ use glam::dvec2;
 use super::{FREE, Kept, Window, choose, folder, key, notice, send, wait_until, window};
 use crate::app::catalog::catalog;
 use crate::app::command::{
-    Command, DomainCommand, InspectCommand, LayerCommand, PinsCommand, ShellCommand, StepCommand,
-    ThreatsCommand,
+    Command, DomainCommand, FileCommand, InspectCommand, LayerCommand, PinsCommand, ShellCommand,
+    SpaceCommand, StepCommand, ThreatsCommand, ViewCommand,
 };
 use crate::app::features::ROWS;
 use crate::app::features::domain::DomainToolMode;
@@ -24,18 +24,18 @@ use crate::app::features::threats::THREATS;
 use crate::app::kit::{CatalogItem, all_tools, conflicts, same_keys, shortcut_text};
 use meshbrush_core::layers::{LayerId, LayerKind, Threats};
 
-fn entries(window: &Window) -> Vec<CatalogItem> {
+pub fn entries(window: &Window) -> Vec<CatalogItem> {
     catalog(&window.state().state(None))
 }
 
 /// The entries in a state of the window.
-struct State {
-    name: String,
-    entries: Vec<CatalogItem>,
+pub struct State {
+    pub name: String,
+    pub entries: Vec<CatalogItem>,
 }
 
 /// Returns the entries in all states of tool, mode and selection, which are looked at once for all tests.
-fn states() -> &'static [State] {
+pub fn states() -> &'static [State] {
     static STATES: OnceLock<Vec<State>> = OnceLock::new();
     STATES.get_or_init(|| {
         let mut states = Vec::new();
@@ -47,7 +47,7 @@ fn states() -> &'static [State] {
 }
 
 /// Brings the window into each combination of tool, mode and selection, and calls `look` in each.
-fn in_every_state(look: &mut dyn FnMut(&Window, &str)) {
+pub fn in_every_state(look: &mut dyn FnMut(&mut Window, &str)) {
     let mut window = window();
     send(&mut window, Command::Layer(LayerCommand::Add(Box::new(LayerKind::Threats(Threats::default())))));
     let select = [
@@ -62,31 +62,42 @@ fn in_every_state(look: &mut dyn FnMut(&Window, &str)) {
     ];
     for (number, tool) in all_tools(ROWS).into_iter().enumerate() {
         send(&mut window, Command::Shell(ShellCommand::Use(tool)));
-        look(&window, tool.name);
+        look(&mut window, tool.name);
         for command in select.iter().take(if number == 0 { 7 } else { 5 }) {
             send(&mut window, command.clone());
             send(&mut window, Command::Shell(ShellCommand::Use(tool)));
-            look(&window, tool.name);
+            look(&mut window, tool.name);
         }
     }
     // Modes of tools, which select their tool.
     for item in entries(&window).into_iter().filter(|item| item.is_above && item.enabled) {
         if !matches!(item.command, Command::File(_) | Command::Path(_)) {
             send(&mut window, item.command);
-            look(&window, &item.title);
+            look(&mut window, &item.title);
         }
     }
     for corner in [dvec2(0.1, 0.1), dvec2(0.3, 0.1), dvec2(0.2, 0.3)] {
         send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
         send(&mut window, Command::Domain(DomainCommand::AddCorner(corner)));
-        look(&window, "a polygon");
+        look(&mut window, "a polygon");
     }
     send(&mut window, Command::Shell(ShellCommand::Escape));
     send(&mut window, Command::Steps(StepCommand::Begin(None)));
     wait_until(&mut window, |window| {
         entries(window).iter().any(|item| item.title == "Next step" && item.enabled)
     });
-    look(&window, "steps");
+    look(&mut window, "steps");
+    send(&mut window, Command::Shell(ShellCommand::Escape));
+    for (name, command) in [
+        ("presentation", Command::View(ViewCommand::TogglePresentation)),
+        ("presentation with a panel", Command::View(ViewCommand::TogglePanels)),
+        ("in space", Command::View(ViewCommand::Space(SpaceCommand::Toggle))),
+        ("a new document", Command::File(FileCommand::New)),
+        ("the help", Command::Shell(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys))),
+    ] {
+        send(&mut window, command);
+        look(&mut window, name);
+    }
 }
 
 /// Returns what two enabled entries share.

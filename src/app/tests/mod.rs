@@ -16,6 +16,7 @@ mod held_jobs;
 mod help;
 #[cfg(unix)]
 mod identity;
+mod key_presses;
 mod key_table;
 mod keyboard_walk;
 mod keys;
@@ -23,6 +24,7 @@ mod links;
 mod long_work;
 mod menus;
 mod messages;
+mod next_document;
 mod numbers;
 mod orientation;
 mod other_window;

@@ -19,6 +19,7 @@ use super::features::painting::{BRUSH, BrushMode, ERASER, Pen};
 use super::features::regions::RegionTool;
 use super::widgets::Hint;
 use crate::app::kit::{FrameState, Tool};
+use meshbrush_core::layers::Quantity;
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
 
@@ -36,6 +37,26 @@ pub enum PaintKind {
     Error,
 }
 
+impl PaintKind {
+    /// Returns the kind of paint of a layer with this quantity.
+    pub fn of(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Risk => Self::Risk,
+            Quantity::Diameter => Self::Diameter,
+            Quantity::Error => Self::Error,
+        }
+    }
+
+    /// Returns the quantity of layers that take this paint.
+    pub fn quantity(self) -> Quantity {
+        match self {
+            Self::Risk => Quantity::Risk,
+            Self::Diameter => Quantity::Diameter,
+            Self::Error => Quantity::Error,
+        }
+    }
+}
+
 /// The selected tool, and the settings of all tools.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tools {
@@ -49,6 +70,8 @@ pub struct Tools {
     pub kind: PaintKind,
     /// How a stroke of the brush changes the paint.
     pub mode: BrushMode,
+    /// The longer side of the domain that radius and diameter suit, in world units.
+    extent: f64,
     /// Radius of brush and eraser in world units.
     pub radius: f64,
     /// Hardness of brush and eraser, 0 to 1.
@@ -93,6 +116,7 @@ impl Tools {
             only_moves_view: false,
             kind: PaintKind::Risk,
             mode: BrushMode::BuildUp,
+            extent,
             radius: 0.06 * extent,
             hardness: 0.35,
             paint_strength: 0.8,
@@ -154,12 +178,32 @@ impl Tools {
         self.select(&BRUSH);
     }
 
-    /// Fits radius and diameter to another domain.
-    pub fn fit_to(&mut self, extent: f64, h_min: f64) {
-        let fitting = Self::for_domain(extent, h_min);
-        (self.radius, self.diameter) = (fitting.radius, fitting.diameter);
-        self.boundary.selected = None;
-        self.region.keep_out = None;
+    /// Returns what is left when another document is opened, whose domain is that of [`Self::for_domain`]:
+    /// only what is named here, which is about the hand of a person.
+    pub fn for_next_document(self, extent: f64, h_min: f64) -> Self {
+        Self {
+            tool: self.chosen,
+            chosen: self.chosen,
+            hardness: self.hardness,
+            paint_strength: self.paint_strength,
+            erase_strength: self.erase_strength,
+            risk: self.risk,
+            smoothing: self.smoothing,
+            pen: self.pen,
+            uses: self.uses,
+            ..Self::for_domain(extent, h_min)
+        }
+    }
+
+    /// Notes the longer side of the domain, in world units. Where it changed, the brush keeps its share of
+    /// it.
+    pub fn follow_extent(&mut self, extent: f64) {
+        let ratio = extent / self.extent;
+        if ratio != 1.0 {
+            self.radius *= ratio;
+            self.diameter *= ratio;
+            self.extent = extent;
+        }
     }
 
     /// Returns whether the selected tool shows the brush ring.

@@ -102,6 +102,17 @@ impl Follower {
         })
     }
 
+    /// Shows the bare rectangle of a document that has taken the place of another one, and nothing of the
+    /// former mesh any more. The next slice begins to make the mesh of the document.
+    pub fn show_bare(&mut self, document: &Document) {
+        let shown = Shown::bare(document.settings()).or_else(|| Shown::bare(&Settings::default()));
+        self.shown = shown.expect("the unit square has a lattice");
+        self.state = FollowState::InStep;
+        self.stopped = None;
+        self.revision += 1;
+        self.change = Some(MeshChange::Replaced);
+    }
+
     /// Follows a mesh that was made before, with these settings and the paint of the document as it was at
     /// the last call of [`Document::take_repainted`].
     pub fn of_built(settings: Settings, built: BuiltMesh) -> Self {

@@ -8,9 +8,9 @@ use super::pace::questions_per_thread;
 use super::pending::Pending;
 use super::rebuild::Rebuild;
 use super::{Document, Settings};
-use crate::build::{BuildError, BuiltMesh, Parts, RefinementCriterion};
-use crate::domain::DomainOnLattice;
-use crate::field::RefinementRule;
+use crate::build::{BuildError, BuiltMesh, MeshBuilder, Parts, RefinementCriterion};
+use crate::domain::{Domain, DomainOnLattice, DomainShape};
+use crate::field::{RefinementRule, Transfer};
 use crate::geometry::LatticePoint;
 use crate::layers::{PaintChange, PaintLayers, SizeField};
 use crate::mesh::{
@@ -106,6 +106,26 @@ impl Shown {
             Self { settings, domain, field, surface, mesh: Arc::new(mesh), updater, pending, upkeep };
         shown.repaint(repainted, paint);
         shown
+    }
+
+    /// Creates the mesh of the bare rectangle of some settings, with as few cells as possible and no layer:
+    /// it stands for a mesh that is yet to be made. `None` where there is no lattice.
+    pub(super) fn bare(wanted: &Settings) -> Option<Self> {
+        let settings = Settings {
+            name: wanted.name.clone(),
+            unit: wanted.unit,
+            domain: Domain { shape: DomainShape::Whole, ..wanted.domain.clone() },
+            spacing: wanted.domain.bounds.size().max_element(),
+            transfer: Transfer { h_max: f64::MAX, ..wanted.transfer },
+            layers: Vec::new(),
+            rule: wanted.rule,
+            ..Settings::default()
+        };
+        let mut builder = MeshBuilder::new(settings.mesh_spec().ok()?);
+        while builder.advance(None, usize::MAX).ok()? == Progress::More {}
+        let mut shown = Self::new(settings, builder.finish(), &[], &PaintLayers::default());
+        shown.upkeep = Upkeep::NewMesh;
+        Some(shown)
     }
 
     /// Notes where the paint changed. `paint` is the paint as it is now.

@@ -50,6 +50,35 @@ fn arrays(mesh: &Mesh) -> (Vec<meshbrush_mesh::geometry::LatticePoint>, Vec<mesh
 }
 
 #[test]
+fn the_bare_rectangle_stands_for_the_mesh_of_another_document_until_it_is_made() {
+    let (mut document, mut follower) = large();
+    let bounds = Rect::new(dvec2(-3.0, 2.0), dvec2(9.0, 5.0));
+    let domain = Domain::rectangle(bounds);
+    for edits in [false, true] {
+        let transfer = Transfer::between(0.002, 0.004);
+        let other =
+            Settings { domain: domain.clone(), transfer, spacing: 0.5, ..document.settings().clone() };
+        let other = Settings { layers: Layer::usual(LayerKind::constant(0.2)), ..other };
+        document.replace_with(Document::new(other, None).unwrap());
+        let revision = follower.revision();
+        follower.show_bare(&document);
+        assert!(follower.revision() > revision && follower.take_change() == Some(MeshChange::Replaced));
+        let (mesh, lattice) = (follower.mesh(), follower.mesh().lattice());
+        assert!(mesh.raw_triangle_count() < 20 && lattice.bounds() == bounds, "few cells, whatever h_max is");
+        assert!(!follower.is_in_step(&document));
+        document.set(Setting::LargestDiameter(0.3)).unwrap();
+        document.set(Setting::SmallestDiameter(0.1)).unwrap();
+        if edits {
+            follower.advance(&mut document, SLICE).unwrap();
+            paint(&mut document);
+            document.set(Setting::Gradation(Some(0.3))).unwrap();
+        }
+        settle(&mut follower, &mut document);
+        assert_as_from_scratch(&follower, &document);
+    }
+}
+
+#[test]
 fn a_mesh_that_is_held_is_copied_in_slices_and_stays_as_it_was() {
     let (mut document, mut follower) = large();
     let held = follower.shared_mesh();

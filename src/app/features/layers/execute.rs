@@ -10,7 +10,7 @@ use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
-use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind, Quantity};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerId, LayerKind};
 
 impl Feature for LayerEditor {
     type Command = LayerCommand;
@@ -76,11 +76,9 @@ impl Feature for LayerEditor {
 fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let document = ctx.session.document_mut();
     document.activate_layer(id);
-    match document.settings().layer(id).and_then(Layer::paints) {
-        Some(Quantity::Risk) => ctx.tools.kind = PaintKind::Risk,
-        Some(Quantity::Diameter) => ctx.tools.kind = PaintKind::Diameter,
-        Some(Quantity::Error) => ctx.tools.kind = PaintKind::Error,
-        None => {}
+    // Also where it was selected before, and another kind of paint was chosen since.
+    if let Some(quantity) = document.settings().layer(id).and_then(Layer::paints) {
+        ctx.tools.kind = PaintKind::of(quantity);
     }
     let layer = document.settings().layer(id);
     let Some(kind) = layer.map(|layer| &layer.kind) else { return };
@@ -138,8 +136,7 @@ fn duplicate_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     select_layer(copy_id, ctx);
 }
 
-/// Deletes a layer, and selects the one that was below it, or else the one above. The brush keeps what it
-/// paints.
+/// Deletes a layer, and selects the one that was below it, or else the one above.
 fn delete_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let layers = &ctx.session.document().settings().layers;
     let Some(place) = layers.iter().position(|layer| layer.id == id) else { return };

@@ -11,7 +11,7 @@ use crate::app::notices::Offer;
 use crate::app::readout::{Quantity, value_at};
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{NoPaintLayer, Setting};
-use meshbrush_core::layers::{Layer, LayerKind, Quantity as PaintedQuantity};
+use meshbrush_core::layers::{Layer, LayerKind};
 
 impl Feature for Painting {
     type Command = BrushCommand;
@@ -54,6 +54,7 @@ impl Feature for Painting {
     }
 
     fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
+        self.suit_selected_layer(ctx);
         let session = &*ctx.session;
         let counts = self.offer.as_mut().is_some_and(|offer| offer.advance(session, ctx.reproducible));
         self.offer.take_if(|offer| !offer.is_open(session));
@@ -63,13 +64,28 @@ impl Feature for Painting {
     fn put_down(&mut self, _ctx: &mut Ctx<'_>) -> bool {
         self.offer.take().is_some()
     }
-
-    fn forget_document(&mut self) {
-        *self = Self::default();
-    }
 }
 
 impl Painting {
+    /// Where another layer is selected, however that came about, the brush paints the quantity of that layer
+    /// from then on. Without a selected layer it paints what a layer takes, rather what it paints already.
+    fn suit_selected_layer(&mut self, ctx: &mut Ctx<'_>) {
+        let document = ctx.session.document();
+        let selected = document.active_layer();
+        if self.suited.replace(selected.map(|layer| layer.id)) == Some(selected.map(|layer| layer.id)) {
+            return;
+        }
+        let own = ctx.tools.kind.quantity();
+        let others = || document.settings().layers.iter().rev().filter_map(Layer::paints);
+        let quantity = match selected {
+            Some(layer) => layer.paints(),
+            None => others().find(|quantity| *quantity == own).or_else(|| others().next()),
+        };
+        if let Some(quantity) = quantity {
+            ctx.tools.kind = PaintKind::of(quantity);
+        }
+    }
+
     fn begin_stroke(&mut self, point: DVec2, ctx: &mut Ctx<'_>) {
         let Some(brush) = ctx.tools.brush() else { return };
         (self.next_offer, self.offer) = (None, None);
@@ -120,7 +136,7 @@ impl Painting {
 fn set_brush_radius(radius: f64, ctx: &mut Ctx<'_>) {
     let extent = ctx.session.document().settings().domain.bounds.size().max_element();
     if radius.is_finite() {
-        ctx.tools.radius = radius.clamp(1e-4 * extent, extent);
+        ctx.tools.radius = radius.clamp(ctx.view.least_brush_radius(extent).min(extent), extent);
     }
 }
 
@@ -163,7 +179,7 @@ fn pick_value(point: DVec2, ctx: &mut Ctx<'_>) {
 /// one that is visible and not locked, the highest of several.
 fn select_layer_painted_with(kind: PaintKind, ctx: &mut Ctx<'_>) {
     let document = ctx.session.document_mut();
-    let quantity = quantity_of(kind);
+    let quantity = kind.quantity();
     let takes = |layer: &&Layer| layer.paints() == Some(quantity);
     if document.active_layer().filter(takes).is_some() {
         return;
@@ -181,18 +197,10 @@ fn offer_paint_layer(problem: &NoPaintLayer, ctx: &mut Ctx<'_>) {
         NoPaintLayer::Locked { id, .. } => ("Unlock the layer", LayerCommand::Lock(*id, false)),
         NoPaintLayer::Hidden { id, .. } => ("Show the layer", LayerCommand::Show(*id, true)),
         NoPaintLayer::Missing(quantity) => {
-            let quantity = quantity.unwrap_or(quantity_of(ctx.tools.kind));
+            let quantity = quantity.unwrap_or(ctx.tools.kind.quantity());
             ("Add a paint layer", LayerCommand::Add(Box::new(LayerKind::Paint(quantity))))
         }
     };
     let offer = Offer { label, command: Command::Layer(command) };
     ctx.session.notices_mut().report_with_offer(problem, offer);
-}
-
-fn quantity_of(kind: PaintKind) -> PaintedQuantity {
-    match kind {
-        PaintKind::Risk => PaintedQuantity::Risk,
-        PaintKind::Diameter => PaintedQuantity::Diameter,
-        PaintKind::Error => PaintedQuantity::Error,
-    }
 }

@@ -21,6 +21,8 @@ pub use limit_offer::show as show_limit_offer;
 use options::{BRUSH_OPTIONS, ERASER_OPTIONS, brush_diameters};
 pub use pen::{Pen, PenEffect};
 
+use meshbrush_core::layers::LayerId;
+
 /// The stroke is in the document, and the settings of the brush are in [`Tools`](crate::app::tools::Tools).
 #[derive(Default)]
 pub struct Painting {
@@ -28,4 +30,6 @@ pub struct Painting {
     next_offer: Option<LimitOffer>,
     /// The offer to lower the smallest diameter.
     offer: Option<LimitOffer>,
+    /// The selected layer that the kind of paint was last made to suit.
+    suited: Option<Option<LayerId>>,
 }

@@ -10,7 +10,7 @@ use super::front::FrontFinder;
 use super::keep_out::load;
 use super::{
     AlternativesCommand, CORRIDOR, CostKind, FrontCommand, KeepOutCommand, OTHER_PATHS, PATH, PATH_COST,
-    PATH_PANEL, PathCommand, PathTool, Paths, ROLES, entries, export, marks,
+    PATH_PANEL, PathCommand, Paths, ROLES, entries, export, marks,
 };
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
@@ -89,10 +89,6 @@ impl Feature for Paths {
 
     fn put_down(&mut self, _: &mut Ctx<'_>) -> bool {
         self.tool.pending.take().is_some()
-    }
-
-    fn forget_document(&mut self) {
-        self.tool = PathTool::default();
     }
 }
 

@@ -54,10 +54,6 @@ impl Feature for Pins {
             PinsCommand::Export(path) => export_table(ctx.session, ctx.background, &path),
         }
     }
-
-    fn forget_document(&mut self) {
-        (self.selected, self.grip) = (None, None);
-    }
 }
 
 impl Pins {

@@ -9,6 +9,12 @@ impl Feature for Plots {
     type Command = PlotsCommand;
     const ROW: Row = Row { panels: &[&PLOTS], entries, ..Row::EMPTY };
 
+    /// Measurements of time are about no document.
+    fn for_next_document(self) -> Self {
+        let Self { kind, experiment, measuring, runs_done, last_level, runs, .. } = self;
+        Self { kind, experiment, measuring, runs_done, last_level, runs, ..Self::default() }
+    }
+
     fn execute(&mut self, command: PlotsCommand, ctx: &mut Ctx<'_>) {
         match command {
             PlotsCommand::Show(kind) => self.show(kind, ctx),

@@ -25,11 +25,6 @@ impl Feature for Report {
             }
         }
     }
-
-    /// A figure is shown as long as its document is open.
-    fn forget_document(&mut self) {
-        self.shown = None;
-    }
 }
 
 /// Opens the document of a figure, and then shows the figure.

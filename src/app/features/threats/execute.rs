@@ -43,10 +43,6 @@ impl Feature for ThreatEditor {
             ThreatsCommand::Save(path) => save_threats(ctx.session, ctx.background, &path),
         }
     }
-
-    fn forget_document(&mut self) {
-        *self = Self::default();
-    }
 }
 
 impl ThreatEditor {

@@ -1,0 +1,48 @@
+//! Another document takes the place of the one that is open. Of the former one nothing is left in the window:
+//! tools, view, canvas and features say what they keep, and begin anew with everything else, so that what is
+//! new in them is not forgotten here.
+
+use super::App;
+use super::canvas::Canvas;
+use super::session::Session;
+use super::size_change::SizeChange;
+use meshbrush_core::document::{Document, Pace};
+
+impl App {
+    /// Opens another document in place of the current one. This cannot be undone:
+    /// [`super::project::ProjectFile::ask_before_leaving`] asks before edits are lost.
+    pub(super) fn show_document(&mut self, document: Document) {
+        self.session.replace_document(document);
+        self.jobs.work_for(self.session.document_id());
+        let settings = self.session.document().settings();
+        let (extent, h_min) = (settings.domain.bounds.size().max_element(), settings.transfer.h_min);
+        self.tools = self.tools.clone().for_next_document(extent, h_min);
+        self.view = self.view.clone().for_next_document();
+        self.features = std::mem::take(&mut self.features).for_next_document();
+        let no_canvas = Canvas::new(None, &self.jobs);
+        self.canvas = std::mem::replace(&mut self.canvas, no_canvas).for_next_document();
+    }
+}
+
+impl Session {
+    /// Replaces the document by another one. This cannot be undone. Until its mesh is made, its bare
+    /// rectangle takes the place of the former mesh.
+    pub fn replace_document(&mut self, document: Document) {
+        self.cuts.discard(&mut self.document);
+        self.document.replace_with(document);
+        self.document_id = self.document_id.next();
+        self.follower.show_bare(&self.document);
+        self.bare_revision = Some(self.follower.revision());
+        // Its triangles can be a thousand times as dear.
+        self.pace = Pace::default();
+        self.brake.release();
+        self.size_change = SizeChange::default();
+        self.query(None);
+        self.notices.dismiss();
+    }
+
+    /// Returns whether the document was just opened, and no mesh of it was made yet.
+    pub fn awaits_mesh(&self) -> bool {
+        self.bare_revision == Some(self.follower.revision())
+    }
+}
