@@ -20,7 +20,7 @@ use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::path::Weights;
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_io::io::Meter;
-use meshbrush_io::io::project::{Project, write as write_project};
+use meshbrush_io::io::project::{Project, from_bytes, write as write_project};
 use meshbrush_io::io::recipe::{OpenedRecipe, RecipeFiles, open};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
@@ -287,8 +287,10 @@ fn settings(random: &mut fastrand::Rng) -> Settings {
         1 => KeptParts::Largest,
         _ => KeptParts::Share(between(random, 0.0, 0.2)),
     };
+    let most_pins = [4, 60][random.usize(..2)];
+    let pins = random.usize(..most_pins);
     let settings = Settings {
-        pins: Arc::new((0..random.usize(..4)).map(|_| point(random)).collect()),
+        pins: Arc::new((0..pins).map(|_| point(random)).collect()),
         paths: Arc::new(paths(random)),
         boundary,
         cleaning: Cleaning { parts, keeps_pinches: random.bool() },
@@ -341,6 +343,22 @@ fn document(random: &mut fastrand::Rng) -> Document {
         document.end_stroke();
     }
     document
+}
+
+#[test]
+fn random_documents_are_equal_when_they_are_saved_and_opened() {
+    for seed in seeds(50) {
+        let project = Project::of(&document(&mut fastrand::Rng::with_seed(2000 + seed)));
+        let written = |project: &Project| {
+            let mut bytes = Vec::new();
+            write_project(&mut bytes, project).unwrap();
+            bytes
+        };
+        let bytes = written(&project);
+        let opened = from_bytes(&bytes, "a.meshbrush".as_ref()).unwrap();
+        assert!(opened == project, "seed {seed}");
+        assert!(written(&opened) == bytes, "seed {seed}");
+    }
 }
 
 /// Returns the fingerprint of the mesh in the window and the number of triangles that it exports.

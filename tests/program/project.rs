@@ -18,6 +18,7 @@ use meshbrush_core::layers::{
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
 use meshbrush_core::path::Weights;
 use meshbrush_core::raster::{Raster, RasterPyramid, Tile, TilePlace};
+use meshbrush_io::io::geojson;
 use meshbrush_io::io::project::{self, Project};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -312,11 +313,15 @@ fn settings_are_readable_text_and_unzip_unpacks_them() {
     fs::write(&file, bytes_of(&Project::of(document))).unwrap();
     let script = "import sys, zipfile, json\nz = zipfile.ZipFile(sys.argv[1])\nassert z.testzip() is None\n\
                   print(z.namelist(), json.loads(z.read('settings.json'))['max_triangles'], \
-                  json.loads(z.read('domain.geojson'))['type'])";
+                  len(z.read('domain.0')))";
     let python = Command::new("python3").args(["-c", script]).arg(&file).output();
     let Ok(python) = python else { return }; // no Python on this machine
     let said = String::from_utf8_lossy(&python.stdout);
-    let expected = "['settings.json', 'domain.geojson', 'paint.1', 'paint.2'] 123457 MultiPolygon";
+    let region = document.settings().domain.region().unwrap();
+    let rings = region.rings().count();
+    // Numbers of points, lines, polygons, rings of each polygon, and points of each ring; then the points.
+    let length = 12 + 4 * region.polygons().len() + 4 * rings + 16 * region.corner_count();
+    let expected = format!("['settings.json', 'domain.0', 'paint.1', 'paint.2'] 123457 {length}");
     assert_eq!(said.trim(), expected, "{}", String::from_utf8_lossy(&python.stderr));
 }
 
@@ -446,7 +451,7 @@ fn archives_packed_by_other_tools_are_opened() {
 }
 
 /// The version that the program writes.
-const VERSION: &str = "\"version\": 11";
+const VERSION: &str = "\"version\": 12";
 
 /// Returns the settings as if an older program had written them.
 fn of_version(text: &str, version: u32) -> String {
@@ -457,10 +462,10 @@ fn of_version(text: &str, version: u32) -> String {
 #[test]
 fn a_newer_version_is_named() {
     let newer = rewritten(|text| {
-        let newer = text.replace(VERSION, "\"version\": 12, \"seasons\": [1, 2]");
+        let newer = text.replace(VERSION, "\"version\": 13, \"seasons\": [1, 2]");
         newer.replace(concat!("Meshbrush ", env!("CARGO_PKG_VERSION")), "Meshbrush 9.9")
     });
-    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 12", "up to version 11"]);
+    refused(&newer, &[NAME, "settings.json", "Meshbrush 9.9", "version 13", "up to version 12"]);
 }
 
 /// The curve from risk to diameter ended at the smallest diameter.
@@ -481,6 +486,26 @@ fn projects_of_versions_2_4_and_5_open() {
         let older = rewritten(|text| of_version(text, version));
         assert!(opened(&older).unwrap() == small(), "version {version}");
     }
+    refused(&rewritten(|text| of_version(text, 1)), &["version 1 of its format", "reads versions 2 to 12"]);
+}
+
+/// The polygons of the domain were text, and all points stood in the settings.
+#[test]
+fn a_project_of_version_11_opens() {
+    let older = packed(unpacked(&bytes_of(&small())).into_iter().map(|(name, content)| match &name[..] {
+        "settings.json" => {
+            let text = of_version(str::from_utf8(&content).unwrap(), 11);
+            let (before, after) = text.split_once(",\n    \"polygons\": \"domain.0\"").unwrap();
+            (name, [before, after].concat().into())
+        }
+        "domain.0" => {
+            let mut text = Vec::new();
+            geojson::write(&mut text, small().settings.domain.region().unwrap().polygons()).unwrap();
+            ("domain.geojson".to_owned(), text)
+        }
+        _ => (name, content),
+    }));
+    assert!(opened(&older).unwrap() == small());
 }
 
 #[test]
@@ -588,7 +613,8 @@ fn declared_sizes_take_no_memory() {
     let bytes = bytes_of(&small());
     let directory = bytes.windows(4).rposition(|four| four == b"PK\x01\x02").unwrap();
     // The paint announces bytes that it does not have: few enough to try, and too many for so small a file.
-    for (declared, word) in [(900_000_000u32, "damaged"), (3_000_000_000, "would take more than 1 GB")] {
+    for (declared, word) in [(900_000_000u32, "damaged"), (3_000_000_000, "the limit is 1,000,000,000 bytes")]
+    {
         let mut bomb = bytes.clone();
         bomb[directory + 24..directory + 28].copy_from_slice(&declared.to_le_bytes());
         refused(&bomb, &["paint", word]);
@@ -624,7 +650,7 @@ fn paint_of_all_layers_together_is_limited_by_the_size_of_the_file() {
     let declared = |at: usize| u32::from_le_bytes(bytes[at + 24..][..4].try_into().unwrap());
     // The last part declares all that the others leave, or one byte more.
     let left = 1_000_000_000 - declared(first) - declared(second);
-    for (declared, word) in [(left, "damaged"), (left + 1, "would take more than 1 GB")] {
+    for (declared, word) in [(left, "damaged"), (left + 1, "the limit is 1,000,000,000 bytes")] {
         let mut bomb = bytes.clone();
         bomb[third + 24..][..4].copy_from_slice(&declared.to_le_bytes());
         refused(&bomb, &["paint", word]);
@@ -690,93 +716,6 @@ fn paint_with_impossible_values_is_refused() {
     paint.copy_from_slice(&valid);
     paint.push(0);
     refused(&packed(parts.clone()), &["paint"]);
-}
-
-/// What version 1 wrote: a base field, and two rasters of paint in common tiles of 64 × 64 pixels.
-fn version_1() -> Vec<u8> {
-    let settings = r#"{
-  "format": "Meshbrush project", "version": 1, "written_by": "Meshbrush 0.1.0", "name": "Old",
-  "domain": { "bounds": [0.0, 0.0, 2.0, 1.0], "shape": "whole" },
-  "boundary": { "on_outline_with_diameter": 0.01 },
-  "spacing": 0.25, "transfer": { "h_min": 0.02, "h_max": 0.5, "shape": 1.0 },
-  "base": { "risk_image": { "name": "old.png", "bounds": [0.0, 0.0, 2.0, 1.0], "columns": 2, "rows": 1 } },
-  "rule": "area", "resolution": 150, "max_triangles": 1000000, "max_memory": 1000000000
-}"#;
-    let planes = |values: &[f32]| -> Vec<u8> {
-        (0..4).flat_map(|plane| values.iter().map(move |value| value.to_be_bytes()[plane])).collect()
-    };
-    let mut tiles = Vec::new();
-    // Full tiles in columns 0 and 1; the last of three columns is 22 pixels wide, the second row 11 high.
-    for (column, row, pixels) in [(0u16, 0u16, 64 * 64), (1, 1, 64 * 11), (2, 0, 22 * 64)] {
-        tiles.extend([column.to_le_bytes(), row.to_le_bytes()].concat());
-        tiles.push(if column == 1 { 2 } else { 3 });
-        let risks: Vec<f32> = (0..pixels).map(|n| old_risk(column.into(), n)).collect();
-        let diameters: Vec<f32> = (0..pixels).map(|n| old_diameter(row.into(), n)).collect();
-        if column != 1 {
-            tiles.extend(planes(&risks));
-        }
-        tiles.extend(planes(&diameters));
-    }
-    let parts =
-        [("settings.json", settings.into()), ("base.risk", planes(&[0.25, 0.75])), ("paint.tiles", tiles)];
-    packed(parts.map(|(name, content)| (name.to_owned(), content)))
-}
-
-fn old_risk(column: u32, n: u32) -> f32 {
-    if column == 1 { 0.0 } else { ((n * 7 + column) % 5) as f32 / 4.0 }
-}
-
-fn old_diameter(row: u32, n: u32) -> f32 {
-    if (n + row).is_multiple_of(3) { f32::INFINITY } else { 0.05 + ((n * 11 + row) % 7) as f32 }
-}
-
-#[test]
-fn projects_of_version_1_open_with_the_same_paint() {
-    let project = opened(&version_1()).unwrap();
-    let layers = &project.settings.layers;
-    let raster = Raster::from_values(project.settings.domain.bounds, [2, 1], vec![0.25, 0.75]);
-    assert_eq!(*layers, Layer::usual(raster_layer("old.png", raster)));
-    let sampled = |id: u32, at| project.paint.get(LayerId(id)).unwrap().sample(at);
-    for (x, y) in (0..75).flat_map(|y| (0..150).map(move |x| (x, y))) {
-        let (column, row) = (x / 64, y / 64);
-        let columns = if column == 2 { 22 } else { 64 };
-        let n = y % 64 * columns + x % 64;
-        let is_painted = [(0, 0), (1, 1), (2, 0)].contains(&(column, row));
-        let expected =
-            if is_painted { (old_diameter(row, n), old_risk(column, n)) } else { (f32::INFINITY, 0.0) };
-        let at = (dvec2(x.into(), y.into()) + 0.5) / 75.0;
-        assert_eq!((sampled(1, at), sampled(2, at)), expected, "pixel {x}, {y}");
-    }
-    // It is saved in the present version, and meshed.
-    let again = opened(&bytes_of(&project)).unwrap();
-    assert!(again == project);
-    let mesh =
-        |project: Project| Follower::new(&mut project.into_document().unwrap()).unwrap().mesh().fingerprint();
-    assert_eq!(mesh(again), mesh(project));
-}
-
-#[test]
-fn projects_of_version_1_with_an_impossible_resolution_are_refused() {
-    let bytes = version_1();
-    for resolution in ["0", "15", "2049", "4000000000"] {
-        let mut parts = unpacked_plain(&bytes);
-        let text = String::from_utf8(parts[0].1.clone()).unwrap();
-        parts[0].1 = text.replace("150", resolution).into_bytes();
-        refused(&packed(parts), &["settings.json", "resolution", "2,048"]);
-    }
-}
-
-/// Returns the parts of an archive of stored parts.
-fn unpacked_plain(mut bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
-    let mut parts = Vec::new();
-    while bytes.starts_with(b"PK\x03\x04") {
-        let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
-        let (size, name) = (word(18), word(26) & 0xffff);
-        let content = bytes[30 + name..][..size].to_vec();
-        parts.push((String::from_utf8(bytes[30..30 + name].to_vec()).unwrap(), content));
-        bytes = &bytes[30 + name + size..];
-    }
-    parts
 }
 
 fn folder(name: &str) -> PathBuf {

@@ -130,7 +130,20 @@ impl Domain {
             return Err(RegionError::TooLarge);
         }
         check_complexity(polygons, &bounds)?;
-        Self::of_region(Region::new(polygons, bounds))
+        let region = Region::new(polygons, bounds);
+        // Every crossing becomes a corner.
+        match region.corner_count() {
+            corners if corners > MOST_CORNERS => Err(RegionError::TooManyCorners { corners }),
+            _ => Self::of_region(region),
+        }
+    }
+
+    /// Checks that [`Self::of_stored_polygons`] takes the polygons of a region.
+    ///
+    /// # Errors
+    /// Fails when they are too complex.
+    pub fn check_stored_polygons(polygons: &[Polygon], bounds: &Rect) -> Result<(), RegionError> {
+        check_complexity(polygons, bounds)
     }
 
     /// Returns the domain with exactly these polygons in `bounds`, which must be proper, if they are the

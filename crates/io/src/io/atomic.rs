@@ -33,9 +33,30 @@ pub fn exists(path: &Path) -> bool {
     if disk::is_in_memory() { disk::is_file(path) } else { path.exists() }
 }
 
-/// Returns why no file can be written at a path, as the end of a sentence; `None` if nothing is known against
-/// it.
+/// Returns why no file should be written at a path, as the end of a sentence; `None` if nothing is known
+/// against it.
 pub fn obstacle(path: &Path) -> Option<String> {
+    place_obstacle(path).or_else(|| {
+        let advice = "allow it to be written, or choose another name";
+        is_read_only(path).then(|| format!("the file is read-only; {advice}"))
+    })
+}
+
+/// Returns whether a file exists that its owner keeps from being changed. It can be replaced nevertheless
+/// where its folder can be written: callers ask first.
+pub fn is_read_only(path: &Path) -> bool {
+    let target = if disk::is_in_memory() { None } else { behind_links(path).ok() };
+    let Some(target) = target else { return false };
+    let refuses = || {
+        let opened = File::options().write(true).open(&target);
+        let kinds = [io::ErrorKind::PermissionDenied, io::ErrorKind::ReadOnlyFilesystem];
+        opened.is_err_and(|error| kinds.contains(&error.kind()))
+    };
+    fs::metadata(&target).is_ok_and(|found| found.is_file() && (found.permissions().readonly() || refuses()))
+}
+
+/// Returns why no file can be written at a path, as the end of a sentence.
+fn place_obstacle(path: &Path) -> Option<String> {
     if disk::is_in_memory() {
         return None;
     }
@@ -133,7 +154,7 @@ impl Draft {
             let target = path.to_owned();
             return Ok(Self { target, temporary: None, in_memory: Some(content), _lock: None });
         }
-        if let Some(obstacle) = obstacle(path) {
+        if let Some(obstacle) = place_obstacle(path) {
             return Err(io::Error::other(obstacle));
         }
         let target = behind_links(path).map_err(io::Error::other)?;
@@ -351,6 +372,22 @@ mod tests {
         std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
         let circle = write_file(&folder.join("circle"), |out| out.write_all(b"new")).unwrap_err();
         assert_eq!(circle.to_string(), "its links point to each other in a circle");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_read_only_file_is_an_obstacle_and_replaced_only_by_those_who_ask() {
+        let folder = folder("read-only");
+        let path = folder.join("a.meshbrush");
+        assert!(obstacle(&path).is_none() && !is_read_only(&path), "there is no file");
+        fs::write(&path, "old").unwrap();
+        assert!(obstacle(&path).is_none() && !is_read_only(&path));
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        assert!(is_read_only(&path) && obstacle(&path).unwrap().contains("the file is read-only"));
+        write_file(&path, |out| out.write_all(b"new")).unwrap();
+        assert!(fs::read(&path).unwrap() == b"new" && is_read_only(&path), "it stays read-only");
         fs::remove_dir_all(folder).unwrap();
     }
 

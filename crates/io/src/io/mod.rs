@@ -96,7 +96,7 @@ pub mod world_file;
 
 use std::io::{self, Write};
 
-pub use atomic::{exists, make_folder, obstacle, remove_new, write_file, write_file_metered};
+pub use atomic::{exists, is_read_only, make_folder, obstacle, remove_new, write_file, write_file_metered};
 pub use claim::Claim;
 pub use coordinate_system::{CoordinateKind, CoordinateSystem};
 pub use coordinates::{DocumentPlane, FileCoordinates};

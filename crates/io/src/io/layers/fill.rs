@@ -33,23 +33,23 @@ pub trait LayerData {
     /// Fails when they cannot be read, or a value is not valid.
     fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, Self::Error>;
 
-    /// Returns the threats of a table.
+    /// Returns the threats of a layer whose threats are not in place.
     ///
     /// # Errors
-    /// Fails when they cannot be read.
-    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, Self::Error>;
+    /// Fails when they cannot be read, or one cannot be used.
+    fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, Self::Error>;
 
-    /// Returns the points, lines and polygons of a file.
+    /// Returns the points, lines and polygons of a layer whose shapes are not in place.
     ///
     /// # Errors
-    /// Fails when they cannot be read.
-    fn shapes(&mut self, file: &Path) -> Result<ShapeList, Self::Error>;
+    /// Fails when they cannot be read, or there is no distance to them.
+    fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, Self::Error>;
 
-    /// Returns the polygons of a file.
+    /// Returns the mask of a layer whose mask is not in place: that of `file`, where masks are in files.
     ///
     /// # Errors
-    /// Fails when they cannot be read.
-    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, Self::Error>;
+    /// Fails when it cannot be read, or masks nothing.
+    fn mask(&mut self, layer: &SavedLayer, file: &Path) -> Result<Mask, Self::Error>;
 }
 
 impl SavedLayer {
@@ -63,22 +63,17 @@ impl SavedLayer {
         let kind = match self.checked(D::STORED)? {
             CheckedKind::Complete(kind) => kind,
             CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?, reading },
-            CheckedKind::Threats(list) => {
-                let list = list.map_or_else(|| data.threats(self.path()), Ok)?;
-                let threats = Threats::new(list);
-                LayerKind::Threats(threats.map_err(|(number, error)| {
-                    self.error(format_args!("threat {} cannot be used. {error}", number + 1))
-                })?)
-            }
+            CheckedKind::Threats(Some(list)) => LayerKind::Threats(self.indexed_threats(list)?),
+            CheckedKind::Threats(None) => LayerKind::Threats(data.threats(self)?),
             CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
-                let to = match self.shapes_of(to, data)? {
+                let to = match self.target_of(to, data)? {
                     Ok(shapes) => DistanceTo::Shapes { name: self.file_name(), shapes },
                     Err(boundary) => boundary,
                 };
                 LayerKind::Distance { to, at_zero, slope, range }
             }
             CheckedKind::Corridor(along, Growth { at_zero, slope, range }, width) => {
-                let to = match self.shapes_of(along, data)? {
+                let to = match self.target_of(along, data)? {
                     Ok(lines) => DistanceTo::Corridor { lines, width },
                     Err(boundary) => boundary,
                 };
@@ -98,7 +93,8 @@ impl SavedLayer {
         Ok(Layer { id, name: self.shown_name().to_owned(), visible, locked, combine, mask, kind })
     }
 
-    fn path(&self) -> &Path {
+    /// Returns the file with its data; empty without one.
+    pub fn path(&self) -> &Path {
         self.file.as_deref().unwrap_or(Path::new(""))
     }
 
@@ -107,27 +103,50 @@ impl SavedLayer {
     }
 
     /// Returns the shapes of a distance, or the boundary of the domain that it is to.
-    fn shapes_of<D: LayerData>(
+    fn target_of<D: LayerData>(
         &self,
         to: CheckedShapes,
         data: &mut D,
     ) -> Result<Result<Shapes, DistanceTo>, D::Error> {
-        let list = match to {
-            CheckedShapes::Boundary(to) => return Ok(Err(to)),
-            CheckedShapes::File => data.shapes(self.path())?,
-            CheckedShapes::InPlace(list) => list,
-        };
-        Ok(Ok(Shapes::new(list, true).map_err(|error| self.error(error))?))
+        match to {
+            CheckedShapes::Boundary(to) => Ok(Err(to)),
+            CheckedShapes::File => data.shapes(self).map(Ok),
+            CheckedShapes::InPlace(list) => Ok(Ok(self.indexed_shapes(list)?)),
+        }
     }
 
     fn loaded_mask<D: LayerData>(&self, data: &mut D) -> Result<Option<Mask>, D::Error> {
-        let polygons = match (self.mask_in_place()?, &self.mask_file) {
-            (Some(polygons), _) => polygons,
-            (None, Some(file)) => data.polygons(file)?,
-            (None, None) => return Ok(None),
-        };
-        let mask = Mask::new(&polygons);
-        Ok(Some(mask.map_err(|error| self.error(format_args!("its mask cannot be used. {error}")))?))
+        match (self.mask_in_place()?, &self.mask_file) {
+            (Some(polygons), _) => Ok(Some(self.mask_of_polygons(&polygons)?)),
+            (None, Some(file)) => data.mask(self, file).map(Some),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Returns threats with an index.
+    ///
+    /// # Errors
+    /// Fails with the first threat that cannot be used.
+    pub fn indexed_threats(&self, list: Vec<Threat>) -> Result<Threats, TextError> {
+        Threats::new(list).map_err(|(number, error)| {
+            self.error(format_args!("threat {} cannot be used. {error}", number + 1))
+        })
+    }
+
+    /// Returns shapes with an index.
+    ///
+    /// # Errors
+    /// Fails when there is no distance to them.
+    pub fn indexed_shapes(&self, list: ShapeList) -> Result<Shapes, TextError> {
+        Shapes::new(list, true).map_err(|error| self.error(error))
+    }
+
+    /// Returns the mask of polygons.
+    ///
+    /// # Errors
+    /// Fails when they are no mask.
+    pub fn mask_of_polygons(&self, polygons: &[Polygon]) -> Result<Mask, TextError> {
+        Mask::new(polygons).map_err(|error| self.error(format_args!("its mask cannot be used. {error}")))
     }
 
     /// Returns an error with the name of the layer.

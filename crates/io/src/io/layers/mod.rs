@@ -21,16 +21,22 @@ mod depth;
 mod fill;
 mod rasters;
 mod saved;
+mod saved_lists;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod words;
 
+/// Most threats, and most points of shapes or of a mask, that stand beside the other keys of a layer. More
+/// are in a file beside a recipe, and in a part of a project.
+pub const MOST_IN_PLACE: usize = 20;
+
 pub use check_layer::{CheckedKind, CheckedShapes, FindFile, Growth, Stored, compiled, each};
 pub use checks::{point, points, positive_length, rect_of, rings};
 pub use fill::{LayerData, TextError};
 pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader};
-pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat, saved_polygon};
+pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat};
+pub use saved_lists::saved_polygon;
 pub use words::{
     SavedCombine, SavedDepthSize, SavedDistanceTo, SavedKind, SavedLaw, SavedNorm, SavedPositive,
     SavedQuantity,

@@ -1,6 +1,5 @@
 use std::path::PathBuf;
 
-use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -9,10 +8,7 @@ use super::{
 };
 use crate::io::RasterFormat;
 use crate::io::settings::SavedBoundaryType;
-use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{
-    DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, ShapeList, Straits, Threat, ThreatLaw,
-};
+use meshbrush_core::layers::{DistanceTo, FeatureSize, Layer, LayerKind, RasterReading, Straits};
 use meshbrush_core::raster::RasterValues;
 
 /// A layer as a text has it. Which keys it may have depends on its kind.
@@ -226,6 +222,16 @@ impl SavedLayer {
 
     /// Returns a layer of a stack, but for data that has no form as text: `file` names where that is.
     pub fn of(layer: &Layer, file: Option<PathBuf>) -> Self {
+        Self {
+            shapes: Self::shapes_of(layer),
+            threats: Self::threats_of(layer),
+            mask: Self::mask_of(layer),
+            ..Self::without_lists(layer, file)
+        }
+    }
+
+    /// Returns a layer as [`Self::of`] does, without its shapes, its threats and its mask.
+    pub fn without_lists(layer: &Layer, file: Option<PathBuf>) -> Self {
         let kind = match &layer.kind {
             LayerKind::Paint(quantity) => {
                 Self { quantity: Some((*quantity).into()), ..Self::of_kind(SavedKind::Paint) }
@@ -248,10 +254,7 @@ impl SavedLayer {
                 },
                 ..Self::of_kind(SavedKind::Raster)
             },
-            LayerKind::Threats(threats) => {
-                let threats = threats.list().iter().copied().map(SavedThreat::from).collect();
-                Self { threats: Some(threats), ..Self::of_kind(SavedKind::Threats) }
-            }
+            LayerKind::Threats(_) => Self::of_kind(SavedKind::Threats),
             LayerKind::Distance { to, at_zero, slope, range } => {
                 Self::of_distance(to, [*at_zero, *slope, *range])
             }
@@ -267,14 +270,12 @@ impl SavedLayer {
                 Self::of_widths(SavedKind::FeatureSize, *across, found.between())
             }
         };
-        let mask = layer.mask.as_ref().map(|mask| mask.polygons().iter().map(saved_polygon).collect());
         Self {
             name: Some(layer.name.clone()),
             visible: layer.visible,
             locked: layer.locked,
             combine: layer.combine.into(),
             file,
-            mask,
             ..kind
         }
     }
@@ -295,7 +296,6 @@ impl SavedLayer {
             to: SavedDistanceTo::of(to),
             pieces: names,
             types,
-            shapes: to.shapes().map(|shapes| SavedShape::of_list(shapes.list())),
             width: if let DistanceTo::Corridor { width, .. } = to { Some(*width) } else { None },
             at_zero: Some(at_zero),
             slope: Some(slope),
@@ -391,44 +391,6 @@ impl SavedLayer {
             ("at_most", self.at_most.is_some()),
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
-    }
-}
-
-impl SavedShape {
-    fn of_list(list: &ShapeList) -> Vec<Self> {
-        let points = list.points.iter().map(|point| Self::Point(point.to_array()));
-        let line = |line: &Vec<DVec2>| Self::Line(line.iter().map(DVec2::to_array).collect());
-        let polygons = list.polygons.iter().map(|polygon| Self::Polygon(saved_polygon(polygon)));
-        points.chain(list.lines.iter().map(line)).chain(polygons).collect()
-    }
-}
-
-/// Returns a polygon as a text has it.
-pub fn saved_polygon(polygon: &Polygon) -> SavedPolygon {
-    polygon.iter().map(|ring| ring.iter().map(DVec2::to_array).collect()).collect()
-}
-
-impl From<SavedThreat> for Threat {
-    fn from(saved: SavedThreat) -> Self {
-        let SavedThreat { x, y, range, peak, law } = saved;
-        let law = match law {
-            SavedLaw::Radar => ThreatLaw::Radar,
-            SavedLaw::Gaussian => ThreatLaw::Gaussian,
-            SavedLaw::Disc => ThreatLaw::Disc,
-        };
-        Self { at: DVec2::new(x, y), range, peak, law }
-    }
-}
-
-impl From<Threat> for SavedThreat {
-    fn from(threat: Threat) -> Self {
-        let Threat { at, range, peak, law } = threat;
-        let law = match law {
-            ThreatLaw::Radar => SavedLaw::Radar,
-            ThreatLaw::Gaussian => SavedLaw::Gaussian,
-            ThreatLaw::Disc => SavedLaw::Disc,
-        };
-        Self { x: at.x, y: at.y, range, peak, law }
     }
 }
 

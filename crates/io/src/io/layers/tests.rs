@@ -3,8 +3,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::io::KeyFault;
-use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{LayerId, ShapeList, Threat};
+use meshbrush_core::layers::{LayerId, Mask, Shapes, Threats};
 use meshbrush_core::raster::RasterPyramid;
 
 fn saved(json: &str) -> SavedLayer {
@@ -240,15 +239,15 @@ impl LayerData for InMemory {
         unreachable!("no layer has a raster")
     }
 
-    fn threats(&mut self, _: &Path) -> Result<Vec<Threat>, Fault> {
+    fn threats(&mut self, _: &SavedLayer) -> Result<Threats, Fault> {
         unreachable!("threats are in place")
     }
 
-    fn shapes(&mut self, _: &Path) -> Result<ShapeList, Fault> {
+    fn shapes(&mut self, _: &SavedLayer) -> Result<Shapes, Fault> {
         unreachable!("shapes are in place")
     }
 
-    fn polygons(&mut self, _: &Path) -> Result<Vec<Polygon>, Fault> {
+    fn mask(&mut self, _: &SavedLayer, _: &Path) -> Result<Mask, Fault> {
         unreachable!("masks are in place")
     }
 }

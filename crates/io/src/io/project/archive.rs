@@ -4,7 +4,8 @@
 //! so that equal parts give equal bytes. Read are also archives that other tools repacked (stored entries,
 //! extra fields, another order), if they are not encrypted and below 4 GiB.
 
-use std::io::{self, Read, Write};
+use std::collections::BTreeMap;
+use std::io::{self, BufWriter, Read, Write};
 
 use crc32fast::Hasher;
 use flate2::Compression;
@@ -12,6 +13,7 @@ use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 
 use super::super::{Flaw, Meter};
+use super::limits::{Limits, Sizes, TooLarge};
 use meshbrush_mesh::text::excerpt;
 
 /// The bytes with which every archive begins.
@@ -22,9 +24,9 @@ const END: u32 = u32::from_le_bytes(*b"PK\x05\x06");
 const END_BYTES: usize = 22;
 const CENTRAL_BYTES: usize = 46;
 const LOCAL_BYTES: usize = 30;
-/// Most parts of an archive that is read.
-const MOST_PARTS: usize = 4096;
 const DEFLATED: u16 = 8;
+/// Bytes that are packed at once.
+const BUFFER: usize = 1 << 16;
 /// 1 January 1980, the first date of the format.
 const NO_DATE: u16 = 0x21;
 
@@ -40,15 +42,15 @@ pub struct ArchivePart<'a> {
 
 /// The parts of an archive with their names.
 #[derive(Debug, Default)]
-pub struct Archive<'a>(Vec<(&'a str, ArchivePart<'a>)>);
+pub struct Archive<'a>(BTreeMap<&'a str, ArchivePart<'a>>);
 
 impl<'a> Archive<'a> {
     /// Reads the directory without unpacking anything.
     ///
     /// # Errors
     /// Fails when the bytes are not an archive, are cut off or damaged, or use features of the format that
-    /// are not supported.
-    pub fn open(bytes: &'a [u8]) -> Result<Self, Flaw> {
+    /// are not supported, and when a part declares more bytes than the limits allow.
+    pub fn open(bytes: &'a [u8], limits: Limits) -> Result<Self, Flaw> {
         if !bytes.starts_with(FIRST_BYTES) {
             return Err(Flaw::Syntax(match bytes {
                 [] => "the file is empty. Use another copy.".into(),
@@ -60,65 +62,44 @@ impl<'a> Archive<'a> {
         let (start, length) = (start as usize, length as usize);
         let directory = start.checked_add(length).and_then(|stop| bytes.get(start..stop));
         let mut rest = directory.ok_or(Flaw::Damaged)?;
-        if usize::from(count) > MOST_PARTS {
-            return Err(Flaw::Syntax(format!("a project has a few parts, and this archive has {count}.")));
-        }
-        let mut parts = Vec::new();
+        let (mut parts, mut sizes) = (BTreeMap::new(), Sizes::new(limits));
         for _ in 0..count {
             let (name, part, after) = entry(bytes, rest, start)?;
-            if parts.iter().any(|(other, _)| *other == name) {
+            sizes.add(name, part.size, part.packed.len() as u64).map_err(flaw)?;
+            if parts.insert(name, part).is_some() {
                 return Err(Flaw::Syntax(format!("there are two parts called {}.", excerpt(40, name))));
             }
-            parts.push((name, part));
             rest = after;
         }
+        sizes.finish(bytes.len() as u64).map_err(flaw)?;
         // With a wrong count, parts that a project need not have would go unnoticed.
         if rest.is_empty() { Ok(Self(parts)) } else { Err(Flaw::Damaged) }
     }
 
     /// Returns the part with this name.
     pub fn part(&self, name: &str) -> Option<&ArchivePart<'a>> {
-        self.0.iter().find(|(other, _)| *other == name).map(|(_, part)| part)
+        self.0.get(name)
     }
 }
 
 impl<'a> ArchivePart<'a> {
-    /// Returns the number of bytes in the archive.
-    pub fn packed_bytes(&self) -> u64 {
-        self.packed.len() as u64
-    }
-
-    /// The number of unpacked bytes, as declared.
-    pub fn declared_bytes(&self) -> u64 {
-        self.size
-    }
-
     /// Returns a reader that unpacks the part. The meter counts the packed bytes. Memory is allocated for
     /// what is read, not for what is declared.
-    ///
-    /// # Errors
-    /// Fails when the part declares more than `most` bytes.
-    pub fn unpack(&self, most: u64, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
-        if self.size > most {
-            return Err(Flaw::Syntax(format!(
-                "it declares {} bytes, and {most} is the limit here.",
-                self.size
-            )));
-        }
+    pub fn unpack(&self, meter: &Meter) -> Unpacking<'a> {
         let packed = meter.count(self.packed);
         let bytes: Box<dyn Read + 'a> = match self.method {
             DEFLATED => Box::new(DeflateDecoder::new(packed)),
             _ => Box::new(packed),
         };
-        Ok(Unpacking { bytes, left: self.size, crc: Hasher::new(), expected: self.crc })
+        Unpacking { bytes, left: self.size, crc: Hasher::new(), expected: self.crc }
     }
 
     /// Returns all bytes of the part.
     ///
     /// # Errors
-    /// Fails as [`Self::unpack`] does, and when the bytes are damaged.
-    pub fn bytes(&self, most: u64, meter: &Meter) -> Result<Vec<u8>, Flaw> {
-        let mut unpacking = self.unpack(most, meter)?;
+    /// Fails when the bytes are damaged.
+    pub fn bytes(&self, meter: &Meter) -> Result<Vec<u8>, Flaw> {
+        let mut unpacking = self.unpack(meter);
         let mut bytes = Vec::new();
         unpacking.read_to_end(&mut bytes).map_err(|_| Flaw::Damaged)?;
         unpacking.finish()?;
@@ -145,9 +126,9 @@ impl Read for Unpacking<'_> {
 }
 
 impl Unpacking<'_> {
-    /// Returns whether all declared bytes were read.
-    pub fn is_at_end(&self) -> bool {
-        self.left == 0
+    /// Returns the number of declared bytes that were not read yet.
+    pub fn left(&self) -> u64 {
+        self.left
     }
 
     /// Checks the part after its last byte.
@@ -206,6 +187,16 @@ fn entry<'a>(
     Ok((text, ArchivePart { packed, method, size: u64::from(size), crc }, after))
 }
 
+fn flaw(problem: TooLarge) -> Flaw {
+    Flaw::Syntax(format!("{problem}."))
+}
+
+impl From<TooLarge> for io::Error {
+    fn from(problem: TooLarge) -> Self {
+        Self::other(problem)
+    }
+}
+
 fn u16_at(bytes: &[u8], at: usize) -> Result<u16, Flaw> {
     bytes.get(at..).and_then(|rest| rest.first_chunk()).map(|b| u16::from_le_bytes(*b)).ok_or(Flaw::Damaged)
 }
@@ -220,18 +211,19 @@ pub struct ArchiveWriter<W> {
     written: u32,
     directory: Vec<u8>,
     count: u16,
+    sizes: Sizes,
 }
 
 impl<W: Write> ArchiveWriter<W> {
-    /// Creates an archive without parts.
-    pub fn new(out: W) -> Self {
-        Self { out, written: 0, directory: Vec::new(), count: 0 }
+    /// Creates an archive without parts, which will not pass the limits.
+    pub fn new(out: W, limits: Limits) -> Self {
+        Self { out, written: 0, directory: Vec::new(), count: 0, sizes: Sizes::new(limits) }
     }
 
     /// Adds a part. The meter counts its bytes before packing.
     ///
     /// # Errors
-    /// Fails with the errors of the output and of `write`, when the archive would pass 4 GiB, and when the
+    /// Fails with the errors of the output and of `write`, when the archive would pass a limit, and when the
     /// work was cancelled.
     pub fn add(
         &mut self,
@@ -240,16 +232,21 @@ impl<W: Write> ArchiveWriter<W> {
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> io::Result<()> {
         let mut packing = Packing::new();
-        write(&mut meter.count(&mut packing))?;
+        // Texts come in pieces of a few bytes, and the packer takes a microsecond for each piece.
+        let mut buffered = BufWriter::with_capacity(BUFFER, meter.count(&mut packing));
+        write(&mut buffered)?;
+        buffered.flush()?;
+        drop(buffered);
         self.add_packed(name, packing)
     }
 
     /// Adds a part that was packed.
     ///
     /// # Errors
-    /// Fails with the errors of the output, and when the archive would pass 4 GiB.
+    /// Fails with the errors of the output, and when the archive would pass a limit.
     pub fn add_packed(&mut self, name: &str, packing: Packing) -> io::Result<()> {
         let (packed, size, crc) = packing.finish()?;
+        self.sizes.add(name, size, packed.len() as u64)?;
         let (packed_size, size) = (small(packed.len() as u64)?, small(size)?);
         // The fields from "version needed" to "length of extra fields" are the same in both headers. Bit 11:
         // the name is UTF-8.
@@ -277,8 +274,9 @@ impl<W: Write> ArchiveWriter<W> {
     /// Writes the directory, which completes the archive.
     ///
     /// # Errors
-    /// Fails with the errors of the output.
+    /// Fails with the errors of the output, and when the archive would pass a limit.
     pub fn finish(mut self) -> io::Result<W> {
+        self.sizes.finish(u64::from(self.written) + (self.directory.len() + END_BYTES) as u64)?;
         let mut end = END.to_le_bytes().to_vec();
         for word in [0, 0, self.count, self.count] {
             end.extend(word.to_le_bytes());

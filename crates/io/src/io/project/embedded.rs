@@ -1,26 +1,23 @@
 //! Settings and pixels as parts of another file: settings as values of JSON, pixels as an archive.
 
 use std::io::{self, Write};
-use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
 use super::archive::Archive;
-use super::settings::{Parts, Saved};
-use super::{
-    DOMAIN, Flaw, Meter, Packed, PartNames, PlacedFlaw, Project, SETTINGS, paint, parts, write_parts,
-};
-use meshbrush_core::document::{Picture, Settings};
+use super::limits::Limits;
+use super::part_names::PartData;
+use super::part_reader::PartReader;
+use super::settings::Saved;
+use super::{Flaw, Meter, PartNames, PlacedFlaw, Project, SETTINGS, paint, parts, write_parts};
+use meshbrush_core::document::Settings;
 use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{PaintLayers, RasterReading};
-use meshbrush_core::raster::{Raster, RasterPyramid};
-use meshbrush_mesh::geometry::Rect;
+use meshbrush_core::layers::PaintLayers;
 
-/// Settings as values of JSON, but for polygons and the pixels of rasters.
+/// Settings as values of JSON, but for polygons of the domain, long lists of points and pixels.
 pub type SettingsValues = Map<String, Value>;
 
-/// Returns the values of settings, with the keys of `settings.json`. Rasters and the background picture have
-/// the given names.
+/// Returns the values of settings, with the keys of `settings.json`. Parts have the given names.
 pub fn values_of(settings: &Settings, names: &PartNames) -> SettingsValues {
     match serde_json::to_value(Saved::of(settings, names)) {
         Ok(Value::Object(values)) => values,
@@ -43,19 +40,19 @@ pub fn settings_of(
     let text = serde_json::to_vec(values).map_err(io::Error::from)?;
     let meter = &Meter::default();
     let archive = archive_of(pixels)?;
-    let packed = Packed { archive: &archive, names, meter };
-    Saved::parse(&text)?.into_settings(&mut WithPolygons { polygons, packed })
+    Saved::parse(&text)?.into_settings(&mut PartReader { archive: &archive, names, meter, polygons })
 }
 
-/// Writes an archive of the rasters that have no name yet, and of the paint. Returns whether there is
-/// anything in it.
+/// Writes an archive of the data that has no name yet, except for the polygons of the domain, and of the
+/// paint. Returns whether there is anything in it.
 ///
 /// # Errors
-/// Fails with the errors of `out`.
+/// Fails with the errors of `out`, and when a part is beyond its limit.
 pub fn write_pixels(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<bool> {
-    let new = names.add(&project.settings);
+    let mut new = names.add(&project.settings);
+    new.retain(|(_, data)| !matches!(data, PartData::Region(_)));
     let mut pixels = parts(project, names, &new);
-    pixels.retain(|(name, _)| name != SETTINGS && name != DOMAIN);
+    pixels.retain(|(name, _)| name != SETTINGS);
     write_parts(out, &pixels, &Meter::default())?;
     Ok(!pixels.is_empty())
 }
@@ -69,30 +66,5 @@ pub fn paint_of(pixels: Option<&[u8]>, settings: &Settings) -> Result<PaintLayer
 }
 
 fn archive_of(pixels: Option<&[u8]>) -> Result<Archive<'_>, Flaw> {
-    pixels.map_or_else(|| Ok(Archive::default()), Archive::open)
-}
-
-/// Parts of an archive, with polygons that are not part of it.
-struct WithPolygons<'b, 'a> {
-    polygons: Option<Vec<Polygon>>,
-    packed: Packed<'b, 'a>,
-}
-
-impl Parts for WithPolygons<'_, '_> {
-    fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw> {
-        let missing = || Flaw::Syntax("the polygons of the domain are missing.".into()).into();
-        self.polygons.take().ok_or_else(missing)
-    }
-
-    fn background(&mut self, name: &str) -> Result<Arc<Picture>, PlacedFlaw> {
-        self.packed.background(name)
-    }
-
-    fn raster(&mut self, part: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
-        self.packed.raster(part, bounds, size)
-    }
-
-    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw> {
-        self.packed.base(bounds, size, reading)
-    }
+    pixels.map_or_else(|| Ok(Archive::default()), |bytes| Archive::open(bytes, Limits::PROJECT))
 }

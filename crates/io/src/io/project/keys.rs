@@ -43,14 +43,14 @@ const PLACES: [(&str, &str); 32] = [
 
 /// The keys of the present version. If they change, raise [`VERSION`]: otherwise an older program says that a
 /// key is unknown, in place of "written by a newer program".
-const KEYS_OF_VERSION: (u64, &str) = (11, KEYS);
+const KEYS_OF_VERSION: (u64, &str) = (12, KEYS);
 
 const KEYS: &str = "\
-: format version written_by name unit background domain boundary cleaning boundary_marks pins paths \
-    spacing transfer base resolution layers gradation rule max_triangles max_memory
+: format version written_by name unit background domain boundary cleaning boundary_marks pins pins_part \
+    paths spacing transfer layers gradation rule max_triangles max_memory
 unit: none m km degrees
 background: name part bounds opacity
-domain: bounds shape projection
+domain: bounds shape polygons projection
 domain.shape: whole formula polygons
 boundary: report fitted_with_diameter on_outline_with_diameter
 cleaning: parts keep_pinches
@@ -62,10 +62,10 @@ boundary_marks.types.type: open land no-slip land natural land inflow no-slip in
 paths: routes names cost keep_out clearance
 paths.cost: weights formula
 paths.cost.weights: length risk
-paths.keep_out: name polygons
+paths.keep_out: name polygons part
 transfer: h_min h_risk h_max shape
 rule: vertex area
-layers: id layer raster
+layers: id layer raster shapes threats mask
 layers.raster: part bounds columns rows
 layers.layer: kind name visible locked combine mask mask_file quantity formula file layer bounds as \
     curve threats to pieces types shapes width at_zero slope range between diameter positive offset size depth_from depth_to \

@@ -4,18 +4,20 @@
 //!
 //! - `settings.json`: `format`, `version`, the program that wrote it, and all settings; numbers read back
 //!   exactly.
-//! - `domain.geojson`, if the domain has polygons: their corners in world units.
-//! - `raster.N` for each raster that layers read, numbered from 0 in the order of the layers: 32-bit floats,
-//!   row by row from the lowest, NaN where there is no value.
+//! - `domain.N`, if the domain has polygons.
+//! - `raster.N` for each raster that layers read: 32-bit floats, row by row from the lowest, NaN where there
+//!   is no value.
+//! - `shapes.N`, `threats.N` and `polygons.N` for shapes, threats, masks and keep-out regions of more than
+//!   20 points, `points.N` for more than 20 pins: 64-bit floats ([`lists`]). Fewer are in `settings.json`.
 //! - `background.png`, if there is a picture behind the mesh.
 //! - `paint.ID` for each paint layer with paint: its tiles of 32 × 32 pixels.
 //!
-//! Layers have the vocabulary of recipes ([`super::layers`]). Threats, shapes and masks are in
-//! `settings.json`.
+//! Parts of a kind are numbered from 0 in the order of the layers. Layers have the vocabulary of recipes
+//! ([`super::layers`]). All limits are in [`limits`]: writing and reading check them alike.
 //!
-//! Version 1 had one base field (`base.risk` or `base.diameter`) and two rasters of paint (`paint.tiles`) in
-//! place of the layers. Version 2 had no pins, paths and corridors. In version 3 the curve from risk to
-//! diameter ended at the smallest diameter, and paths had no names.
+//! Up to version 11 all points and threats were in `settings.json`, and the polygons of the domain in
+//! `domain.geojson`. Version 2 had no pins, paths and corridors. In version 3 the curve from risk to diameter
+//! ended at the smallest diameter, and paths had no names. Version 1, which had no layers, is not read.
 //!
 //! Pixels are stored as four planes of bytes, the most significant bytes of all numbers first, which packs to
 //! half the size. Tiles are ordered by column, then row; blank tiles are omitted. The CRC-32 of the archive
@@ -23,17 +25,18 @@
 //! opened gives the same file. The history is not saved.
 //!
 //! The version grows whenever an older program could not read the file correctly, which includes any new
-//! field or word: a test keeps the list of all of them. A program reads all versions up to its own.
+//! field or word: a test keeps the list of all of them. A program reads the versions from 2 up to its own.
 
 mod archive;
 pub(super) mod embedded;
 #[cfg(test)]
 mod keys;
-mod old_tiles;
-mod old_version;
+mod limits;
+mod lists;
 mod packing;
 mod painted;
 mod part_names;
+mod part_reader;
 mod paths;
 mod pixels;
 mod saved_background;
@@ -42,53 +45,35 @@ mod stored_layers;
 mod tiled;
 
 use std::borrow::Cow;
-use std::io::{self, Cursor, Read, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
-use std::sync::Arc;
 
 use super::error::{Flaw, PlacedFlaw, ReadError};
-use super::{FileStamp, Meter, geojson, png};
+use super::{FileStamp, Meter};
 use crate::io::disk::File;
 use archive::{Archive, ArchivePart, ArchiveWriter};
-use meshbrush_core::document::{Document, Picture, Settings};
-use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{Layer, LayerId, PaintLayers, Quantity, RasterReading};
-use meshbrush_core::raster::{Raster, RasterPyramid, TiledRaster};
-use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::excerpt;
-use old_version::OLD_PAINT;
+use limits::Limits;
+use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers, Quantity};
+use meshbrush_core::raster::TiledRaster;
+use meshbrush_mesh::text::Bytes;
 pub use packing::ProjectPacking;
-use painted::Allowance;
-use part_names::NewParts;
+use part_names::PartData;
 pub(super) use part_names::PartNames;
-use settings::{Parts, Saved};
+use part_reader::{PartReader, in_part, part};
+use settings::Saved;
 
 /// The extension of project files.
 pub const ENDING: &str = "meshbrush";
 
 /// The version that is written, and the newest that is read.
-const VERSION: u64 = 11;
+const VERSION: u64 = 12;
 const FORMAT: &str = "Meshbrush project";
 
 const SETTINGS: &str = "settings.json";
-const DOMAIN: &str = "domain.geojson";
-/// The name of a part with the pixels of a raster in error messages.
-const RASTER: &str = "raster";
-const BASE_RISK: &str = "base.risk";
-const BASE_DIAMETER: &str = "base.diameter";
 const BACKGROUND: &str = "background.png";
 /// The name of the parts with paint in error messages.
 const PAINT: &str = "paint";
-const OLD_TILES: &str = "paint.tiles";
-
-/// Largest file read: the limit of the archive.
-const MOST_BYTES: u64 = u32::MAX as u64;
-/// Most bytes of the settings: enough for a name for each of 300,000 islands.
-const MOST_SETTINGS: u64 = 64 << 20;
-/// Most bytes of the background picture, packed.
-const MOST_BACKGROUND: u64 = 128 << 20;
-/// Most bytes of the polygons, more than a million corners need.
-const MOST_POLYGONS: u64 = 128 << 20;
 
 /// The saved part of a document.
 ///
@@ -143,18 +128,18 @@ pub fn read_stamped(path: &Path, meter: &Meter) -> Result<(Document, FileStamp),
         let mut bytes = Vec::new();
         let file = File::open(path)?;
         meter.expect(2 * file.length()?);
-        let mut file = meter.count(file.take(MOST_BYTES + 1));
+        let most = Limits::PROJECT.file;
+        let mut file = meter.count(file.take(most + 1));
         (&mut file).take(archive::FIRST_BYTES.len() as u64).read_to_end(&mut bytes)?;
         if bytes != archive::FIRST_BYTES {
             return Ok(bytes); // another kind of file, however long: these bytes suffice to refuse it
         }
         file.read_to_end(&mut bytes)?;
-        if bytes.len() as u64 > MOST_BYTES {
-            let limit = MOST_BYTES >> 20;
-            return Err(Flaw::Syntax(format!(
-                "the file is larger than {limit} MiB, the limit for a project."
-            ))
-            .into());
+        if bytes.len() as u64 > most {
+            let limit = Bytes(most as usize);
+            return Err(
+                Flaw::Syntax(format!("the file is larger than {limit}, the limit for a project.")).into()
+            );
         }
         Ok(bytes)
     };
@@ -180,15 +165,15 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// Writes a project.
 ///
 /// # Errors
-/// Fails with the errors of `out`.
+/// Fails with the errors of `out`, and when a part is beyond its limit.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
     write_named(out, project, &mut PartNames::default())
 }
 
-/// Writes a project without the rasters and pictures that have a name already, and names the others.
+/// Writes a project without the data that have a name already, and names the others.
 ///
 /// # Errors
-/// Fails with the errors of `out`.
+/// Fails as [`write()`] does.
 pub(super) fn write_named(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<()> {
     let new = names.add(&project.settings);
     write_parts(out, &parts(project, names, &new), &Meter::default())
@@ -215,7 +200,7 @@ pub fn write_metered(out: &mut dyn Write, project: &Project, meter: &Meter) -> i
 /// A part of the archive: its name, and a function that writes its bytes.
 type ToWrite<'a> = (Cow<'static, str>, Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>);
 
-fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a NewParts) -> Vec<ToWrite<'a>> {
+fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a [(String, PartData)]) -> Vec<ToWrite<'a>> {
     let Project { settings, paint } = project;
     let mut parts: Vec<ToWrite> = vec![(
         SETTINGS.into(),
@@ -224,15 +209,8 @@ fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a NewParts) -> V
             writeln!(out)
         }),
     )];
-    if let Some(region) = settings.domain.region() {
-        parts.push((DOMAIN.into(), Box::new(|out| geojson::write(out, region.polygons()))));
-    }
-    for (name, raster) in &new.rasters {
-        parts.push((name.clone().into(), Box::new(|out| pixels::write_raster(out, raster.raster()))));
-    }
-    if let Some((name, picture)) = &new.picture {
-        let write = |mut out: &mut dyn Write| png::write(&mut out, picture.size, &picture.rgba);
-        parts.push((name.clone().into(), Box::new(write)));
+    for (name, data) in new {
+        parts.push((name.clone().into(), Box::new(|out| data.write(out))));
     }
     for (id, raster) in
         paint.iter().filter(|(id, raster)| settings.layer(*id).is_some() && !raster.is_blank())
@@ -248,7 +226,7 @@ fn paint_part(id: LayerId) -> String {
 }
 
 fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Result<()> {
-    let mut archive = ArchiveWriter::new(out);
+    let mut archive = ArchiveWriter::new(out, Limits::PROJECT);
     for (name, write) in parts {
         archive.add(name, meter, write)?;
     }
@@ -261,34 +239,26 @@ fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
 
 /// Reads a project that [`write_named`] wrote; `names` are the rasters and pictures read so far.
 pub(super) fn parse_named(bytes: &[u8], names: &mut PartNames, meter: &Meter) -> Result<Project, PlacedFlaw> {
-    let archive = Archive::open(bytes)?;
-    let text = part(&archive, SETTINGS)?.bytes(MOST_SETTINGS, meter);
+    let archive = Archive::open(bytes, Limits::PROJECT)?;
+    let text = part(&archive, SETTINGS)?.bytes(meter);
     let text = text.map_err(|flaw| in_part(flaw, SETTINGS))?;
     let saved = Saved::parse(&text).map_err(|flaw| flaw.within(SETTINGS))?;
-    let old_paint_size = saved.old_paint_size().map_err(|flaw| flaw.within(SETTINGS))?;
-    let packed = &mut Packed { archive: &archive, names, meter };
-    let settings = saved.into_settings(packed).map_err(|flaw| match flaw.place {
+    let parts = &mut PartReader { archive: &archive, names, meter, polygons: None };
+    let settings = saved.into_settings(parts).map_err(|flaw| match flaw.place {
         super::Place::Part(..) => flaw,
         _ => flaw.within(SETTINGS),
     })?;
-    let paint = match old_paint_size {
-        Some(size) => old_paint(&archive, size, settings.domain.bounds, meter)
-            .map_err(|flaw| in_part(flaw, OLD_TILES))?,
-        None => paint(&archive, &settings, meter)?,
-    };
+    let paint = paint(&archive, &settings, meter)?;
     Ok(Project { settings, paint })
 }
 
 /// Returns the pixels of the paint layers.
 fn paint(archive: &Archive, settings: &Settings, meter: &Meter) -> Result<PaintLayers, PlacedFlaw> {
     let mut paint = PaintLayers::default();
-    let mut allowance = Allowance::for_parts(paint_parts(archive, settings).map(|(_, _, part)| part));
     for (id, quantity, part) in paint_parts(archive, settings) {
-        let raster = allowance.unpack(part, meter).and_then(|mut unpacking| {
-            let raster = painted::read(&mut unpacking, quantity)?;
-            unpacking.finish()?;
-            Ok(raster)
-        });
+        let mut unpacking = part.unpack(meter);
+        let raster = painted::read(&mut unpacking, quantity);
+        let raster = raster.and_then(|raster| unpacking.finish().map(|()| raster));
         paint.insert(id, raster.map_err(|flaw| in_part(flaw, PAINT))?);
     }
     Ok(paint)
@@ -301,22 +271,6 @@ fn paint_parts<'b, 'a>(
 ) -> impl Iterator<Item = (LayerId, Quantity, &'b ArchivePart<'a>)> {
     let part = |layer: &Layer| Some((layer.id, layer.paints()?, archive.part(&paint_part(layer.id))?));
     settings.layers.iter().filter_map(part)
-}
-
-/// Returns the pixels of the paint in version 1.
-fn old_paint(archive: &Archive, size: [u32; 2], bounds: Rect, meter: &Meter) -> Result<PaintLayers, Flaw> {
-    let part = archive.part(OLD_TILES).ok_or(Flaw::Damaged)?;
-    let mut unpacking = part.unpack(pixels::most_tile_bytes(size), meter)?;
-    let tiles = pixels::read_tiles(&mut unpacking, size)?;
-    unpacking.finish()?;
-    let mut paint = PaintLayers::default();
-    for (id, quantity) in OLD_PAINT.into_iter().zip([Quantity::Diameter, Quantity::Risk]) {
-        let raster = tiled::from_old_tiles(&bounds, size, &tiles, quantity);
-        if !raster.is_blank() {
-            paint.insert(id, raster);
-        }
-    }
-    Ok(paint)
 }
 
 /// Writes an archive of the tiles in which the paint of layers differs from an earlier state.
@@ -348,100 +302,13 @@ pub(super) fn read_paint_changes(
     settings: &Settings,
     paint: &mut PaintLayers,
 ) -> Result<(), Flaw> {
-    let archive = Archive::open(bytes)?;
-    let mut allowance = Allowance::for_parts(paint_parts(&archive, settings).map(|(_, _, part)| part));
+    let archive = Archive::open(bytes, Limits::PROJECT)?;
     for (id, quantity, part) in paint_parts(&archive, settings) {
-        let mut unpacking = allowance.unpack(part, &Meter::default())?;
+        let mut unpacking = part.unpack(&Meter::default());
         let (grid, changes) = painted::read_changes(&mut unpacking, quantity)?;
         unpacking.finish()?;
         let raster = paint.get_or_insert(id, || TiledRaster::new(grid, quantity.blank()));
         painted::apply(raster, changes);
     }
     Ok(())
-}
-
-fn part<'b, 'a>(archive: &'b Archive<'a>, name: &str) -> Result<&'b ArchivePart<'a>, PlacedFlaw> {
-    let missing = || {
-        let problem = match name {
-            SETTINGS => format!("this is not a Meshbrush project: it has no {name}."),
-            _ => format!("the project has no part {}. Use another copy.", excerpt(40, name)),
-        };
-        Flaw::Syntax(problem).into()
-    };
-    archive.part(name).ok_or_else(missing)
-}
-
-fn in_part(flaw: Flaw, part: &'static str) -> PlacedFlaw {
-    PlacedFlaw::from(flaw).within(part)
-}
-
-/// Unpacks the parts that the settings refer to.
-struct Packed<'b, 'a> {
-    archive: &'b Archive<'a>,
-    names: &'b mut PartNames,
-    meter: &'b Meter,
-}
-
-impl Packed<'_, '_> {
-    /// Unpacks `count` pixels with `read`. Errors call the part `what`.
-    fn unpack<T>(
-        &self,
-        name: &str,
-        what: &'static str,
-        [columns, rows]: [u32; 2],
-        read: impl FnOnce(&mut archive::Unpacking) -> Result<T, Flaw>,
-    ) -> Result<T, PlacedFlaw> {
-        let bytes = 4 * u64::from(columns) * u64::from(rows);
-        let read = part(self.archive, name)?.unpack(bytes, self.meter).and_then(|mut unpacking| {
-            let read = read(&mut unpacking)?;
-            unpacking.finish()?;
-            Ok(read)
-        });
-        read.map_err(|flaw| in_part(flaw, what))
-    }
-}
-
-impl Parts for Packed<'_, '_> {
-    fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw> {
-        let text = part(self.archive, DOMAIN)?.bytes(MOST_POLYGONS, self.meter);
-        let text = text.map_err(|flaw| in_part(flaw, DOMAIN))?;
-        geojson::parse(&text[..])
-            .map(|outline| geojson::without_names(outline.polygons))
-            .map_err(|flaw| flaw.within(DOMAIN))
-    }
-
-    fn background(&mut self, name: &str) -> Result<Arc<Picture>, PlacedFlaw> {
-        if let Some(picture) = self.names.picture(name) {
-            return Ok(picture.clone());
-        }
-        let bytes = part(self.archive, name)?.bytes(MOST_BACKGROUND, self.meter);
-        let picture = bytes.and_then(|bytes| png::decode_picture(Cursor::new(bytes)));
-        let picture = Arc::new(picture.map_err(|flaw| in_part(flaw, BACKGROUND))?);
-        self.names.insert_picture(name, picture.clone());
-        Ok(picture)
-    }
-
-    fn raster(&mut self, name: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
-        if let Some(raster) = self.names.raster(name) {
-            let is_alike = raster.raster().bounds() == bounds && raster.raster().size() == size;
-            let problem = "two layers disagree about its size or place.";
-            return match is_alike {
-                true => Ok(raster.clone()),
-                false => Err(in_part(Flaw::Syntax(problem.into()), RASTER)),
-            };
-        }
-        let read = |input: &mut archive::Unpacking| pixels::read_values(input, bounds, size);
-        let raster = Arc::new(RasterPyramid::new(self.unpack(name, RASTER, size, read)?));
-        self.names.insert_raster(name, raster.clone());
-        Ok(raster)
-    }
-
-    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw> {
-        let is_risk = *reading == RasterReading::Risk;
-        let name = if is_risk { BASE_RISK } else { BASE_DIAMETER };
-        self.unpack(name, name, size, |input| match is_risk {
-            true => pixels::read_risks(input, bounds, size),
-            false => pixels::read_diameters(input, bounds, size),
-        })
-    }
 }

@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 
 use super::archive::{ArchiveWriter, Packing};
-use super::part_names::{NewParts, PartNames};
+use super::limits::Limits;
+use super::part_names::{PartData, PartNames};
 use super::{Project, parts};
 
 /// The work of [`write()`](super::write()), in slices. The file has the same content, and more bytes: it is
@@ -11,7 +12,7 @@ use super::{Project, parts};
 pub struct ProjectPacking {
     project: Project,
     names: PartNames,
-    new: NewParts,
+    new: Vec<(String, PartData)>,
     /// How many parts are packed.
     packed: usize,
     /// The part that is being packed.
@@ -32,14 +33,14 @@ impl ProjectPacking {
     pub fn new(project: Project) -> Self {
         let mut names = PartNames::default();
         let new = names.add(&project.settings);
-        let archive = Some(ArchiveWriter::new(Vec::new()));
+        let archive = Some(ArchiveWriter::new(Vec::new(), Limits::PROJECT));
         Self { project, names, new, packed: 0, part: None, archive }
     }
 
     /// Packs about so many bytes. Returns those of the file once all are packed, and nothing after that.
     ///
     /// # Errors
-    /// Fails when a part cannot be written, or the file would be larger than 4 GiB.
+    /// Fails when a part cannot be written, or is beyond its limit.
     pub fn advance(&mut self, bytes: usize) -> io::Result<Option<Vec<u8>>> {
         let Some(mut archive) = self.archive.take() else { return Ok(None) };
         match self.part.take() {

@@ -6,48 +6,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::super::{Flaw, Meter};
-use super::archive::{ArchivePart, Unpacking};
+use super::super::Flaw;
+use super::archive::Unpacking;
 use super::tiled::{self, ChangedTiles};
 use meshbrush_core::layers::Quantity;
 use meshbrush_core::raster::{PixelGrid, TiledRaster, ValueRanges};
-use meshbrush_mesh::text::Bytes;
-
-/// Bytes of unpacked paint that a file of any size may have: 250 million pixels.
-const ALWAYS_ALLOWED: u64 = 1_000_000_000;
-/// Beyond that, the most unpacked bytes for a packed one. Strokes pack to a half or a tenth.
-const MOST_RATIO: u64 = 40;
-
-/// The bytes of paint that may be unpacked from a file, all layers together.
-pub struct Allowance {
-    total: u64,
-    left: u64,
-}
-
-impl Allowance {
-    /// Returns the allowance for a file with these parts of paint.
-    pub fn for_parts<'p, 'a: 'p>(parts: impl Iterator<Item = &'p ArchivePart<'a>>) -> Self {
-        let packed: u64 = parts.map(ArchivePart::packed_bytes).sum();
-        let total = ALWAYS_ALLOWED.max(packed.saturating_mul(MOST_RATIO));
-        Self { total, left: total }
-    }
-
-    /// Returns a reader that unpacks a part.
-    ///
-    /// # Errors
-    /// Fails when it declares more bytes than are left.
-    pub fn unpack<'a>(&mut self, part: &ArchivePart<'a>, meter: &Meter) -> Result<Unpacking<'a>, Flaw> {
-        let size = part.declared_bytes();
-        self.left = self.left.checked_sub(size).ok_or_else(|| {
-            let limit = Bytes(self.total as usize);
-            Flaw::Syntax(format!(
-                "unpacked, the paint of all layers would take more than {limit}, the limit for a file of this size. \
-                 Use another copy."
-            ))
-        })?;
-        part.unpack(size, meter)
-    }
-}
 
 /// Writes all pixels of a layer.
 ///

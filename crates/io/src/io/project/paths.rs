@@ -5,7 +5,10 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::part_names::{PartData, PartNames};
+use super::part_reader::PartReader;
 use crate::io::Flaw;
+use crate::io::error::PlacedFlaw;
 use crate::io::layers::{SavedPolygon, rings, saved_polygon};
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan};
 use meshbrush_core::field::CostFormula;
@@ -40,7 +43,11 @@ fn is_zero(value: &f64) -> bool {
 #[serde(deny_unknown_fields)]
 struct SavedKeepOut {
     name: String,
-    polygons: Vec<SavedPolygon>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    polygons: Option<Vec<SavedPolygon>>,
+    /// The part with its polygons, where they have many points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    part: Option<String>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
@@ -51,7 +58,7 @@ enum SavedCost {
 }
 
 impl SavedPaths {
-    pub(super) fn of(paths: &PathPlan) -> Self {
+    pub(super) fn of(paths: &PathPlan, names: &PartNames) -> Self {
         let route = |route: &Vec<DVec2>| route.iter().map(DVec2::to_array).collect();
         let cost = match &paths.cost {
             PathCost::Weighted(Weights { length, risk }) => {
@@ -64,7 +71,7 @@ impl SavedPaths {
             routes: paths.routes.iter().map(route).collect(),
             names: paths.names.clone(),
             cost: (!is_usual).then_some(cost),
-            keep_out: paths.keep_out.iter().map(SavedKeepOut::of).collect(),
+            keep_out: paths.keep_out.iter().map(|region| SavedKeepOut::of(region, names)).collect(),
             clearance: paths.clearance,
         }
     }
@@ -77,7 +84,7 @@ impl SavedPaths {
     ///
     /// # Errors
     /// Fails when the formula or a region is not valid.
-    pub(super) fn load(self) -> Result<Arc<PathPlan>, Flaw> {
+    pub(super) fn load(self, parts: &mut PartReader) -> Result<Arc<PathPlan>, PlacedFlaw> {
         let route = |route: Vec<[f64; 2]>| route.into_iter().map(DVec2::from_array).collect();
         let cost = match self.cost {
             None => PathCost::default(),
@@ -88,7 +95,8 @@ impl SavedPaths {
                 })?)
             }
         };
-        let keep_out = self.keep_out.into_iter().map(SavedKeepOut::load).collect::<Result<_, _>>()?;
+        let keep_out =
+            self.keep_out.into_iter().map(|region| region.load(parts)).collect::<Result<_, _>>()?;
         let routes = self.routes.into_iter().map(route).collect();
         let plan = PathPlan { routes, names: Vec::new(), cost, keep_out, clearance: self.clearance };
         Ok(Arc::new(plan.with_names(self.names)))
@@ -96,21 +104,27 @@ impl SavedPaths {
 }
 
 impl SavedKeepOut {
-    fn of(KeepOut { name, mask }: &KeepOut) -> Self {
-        Self { name: name.clone(), polygons: mask.polygons().iter().map(saved_polygon).collect() }
+    fn of(KeepOut { name, mask }: &KeepOut, names: &PartNames) -> Self {
+        let part = PartData::of_mask(mask).and_then(|data| names.of(&data).map(str::to_owned));
+        let polygons = part.is_none().then(|| mask.polygons().iter().map(saved_polygon).collect());
+        Self { name: name.clone(), polygons, part }
     }
 
-    fn load(self) -> Result<KeepOut, Flaw> {
-        let Self { name, polygons } = self;
-        let polygons = polygons.iter().map(|polygon| rings(polygon)).collect::<Result<Vec<_>, _>>();
-        let mask = polygons.map_err(|fault| fault.to_string());
-        let mask = mask.and_then(|polygons| Mask::new(&polygons).map_err(|error| error.to_string()));
-        match mask {
-            Ok(mask) => Ok(KeepOut { name, mask }),
-            Err(problem) => {
-                let name = excerpt(40, &name);
-                Err(Flaw::Syntax(format!("the keep-out region “{name}” is not valid: {problem}")))
+    fn load(self, parts: &mut PartReader) -> Result<KeepOut, PlacedFlaw> {
+        let Self { name, polygons, part } = self;
+        let invalid = |problem: String| {
+            let name = excerpt(40, &name);
+            Flaw::Syntax(format!("the keep-out region “{name}” is not valid: {problem}"))
+        };
+        let mask = match (part, polygons) {
+            (Some(part), _) => parts.mask(&part)?,
+            (None, polygons) => {
+                let rings = polygons.iter().flatten().map(|polygon| rings(polygon));
+                let polygons =
+                    rings.collect::<Result<Vec<_>, _>>().map_err(|fault| invalid(fault.to_string()))?;
+                Mask::new(&polygons).map_err(|error| invalid(error.to_string()))?
             }
-        }
+        };
+        Ok(KeepOut { name, mask })
     }
 }

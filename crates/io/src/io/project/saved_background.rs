@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::super::Flaw;
 use super::super::error::PlacedFlaw;
 use super::BACKGROUND;
-use super::part_names::PartNames;
-use super::settings::{Parts, corners, rect};
+use super::part_names::{PartData, PartNames};
+use super::part_reader::PartReader;
+use super::settings::{corners, rect};
 use meshbrush_core::document::Background;
 
 #[derive(Serialize, Deserialize)]
@@ -23,11 +24,11 @@ pub(super) struct SavedBackground {
 impl SavedBackground {
     pub fn of(background: &Background, names: &PartNames) -> Self {
         let Background { name, bounds, opacity, picture } = background;
-        let part = names.of_picture(picture).to_owned();
+        let part = names.of(&PartData::Picture(picture.clone())).unwrap_or_default().to_owned();
         Self { name: name.clone(), part, bounds: corners(*bounds), opacity: *opacity }
     }
 
-    pub fn load(self, parts: &mut impl Parts) -> Result<Background, PlacedFlaw> {
+    pub fn load(self, parts: &mut PartReader) -> Result<Background, PlacedFlaw> {
         let picture = parts.background(&self.part)?;
         if !(0.0..=1.0).contains(&self.opacity) {
             let problem =

@@ -9,21 +9,23 @@ use super::super::Flaw;
 use super::super::error::PlacedFlaw;
 use super::super::json::{self, JsonFlaw};
 use super::super::settings::{SavedName, SavedPieceType, SavedRule, SavedUnit, marks_of, saved_marks};
-use super::old_version::SavedBase;
-use super::part_names::PartNames;
+use super::part_names::{PartData, PartNames};
+use super::part_reader::PartReader;
 use super::paths::SavedPaths;
 use super::saved_background::SavedBackground;
 use super::stored_layers::{StoredLayer, check_raster_sizes};
 use super::{FORMAT, VERSION};
-use meshbrush_core::document::{Picture, Settings};
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, Polygon};
+use meshbrush_core::document::Settings;
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::field::{Formula, Transfer};
-use meshbrush_core::layers::RasterReading;
-use meshbrush_core::raster::{Raster, RasterPyramid, is_raster_size};
+use meshbrush_core::raster::is_raster_size;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts, MOST_TRIANGLES};
 use meshbrush_mesh::text::{Grouped, Number, excerpt};
+
+/// The oldest version that is read.
+const OLDEST_VERSION: u64 = 2;
 
 /// The fields that every version of the format has.
 #[derive(Deserialize)]
@@ -57,19 +59,16 @@ pub(super) struct Saved {
     /// x and y of each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pins: Vec<[f64; 2]>,
+    /// The part with the pins, where there are many.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pins_part: Option<String>,
     /// Missing in files of older versions.
     #[serde(default, skip_serializing_if = "SavedPaths::is_empty")]
     paths: SavedPaths,
     spacing: f64,
     transfer: SavedTransfer,
-    /// In version 1: the field under the paint, and the pixels of the paint along the longer side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    base: Option<SavedBase>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) resolution: Option<u32>,
-    /// Since version 2, from the bottom to the top.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    layers: Option<Vec<StoredLayer>>,
+    /// From the bottom to the top.
+    layers: Vec<StoredLayer>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     gradation: Option<f64>,
     rule: SavedRule,
@@ -84,6 +83,9 @@ pub(super) struct SavedDomain {
     /// x and y of the lower left corner, then of the upper right one.
     pub(super) bounds: [f64; 4],
     shape: SavedShape,
+    /// The part with its polygons, since version 12.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    polygons: Option<String>,
     /// As PROJ writes it; since version 6.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     projection: Option<String>,
@@ -94,7 +96,7 @@ pub(super) struct SavedDomain {
 enum SavedShape {
     Whole,
     Formula(String),
-    /// Polygons, which are in the part `domain.geojson`.
+    /// Polygons, which are a part of their own.
     Polygons,
 }
 
@@ -194,18 +196,6 @@ pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
     if is_raster_size(size) { Ok(size) } else { Err(Flaw::Size { columns, rows }) }
 }
 
-/// Access to the other parts that the settings refer to.
-pub(super) trait Parts {
-    /// Returns the polygons of the domain.
-    fn polygons(&mut self) -> Result<Vec<Polygon>, PlacedFlaw>;
-    /// Returns the picture behind the mesh.
-    fn background(&mut self, part: &str) -> Result<Arc<Picture>, PlacedFlaw>;
-    /// Returns the pixels of a raster of [columns, rows], which layers read.
-    fn raster(&mut self, part: &str, bounds: Rect, size: [u32; 2]) -> Result<Arc<RasterPyramid>, PlacedFlaw>;
-    /// Returns the pixels of the base field in version 1, likewise.
-    fn base(&mut self, bounds: Rect, size: [u32; 2], reading: &RasterReading) -> Result<Raster, PlacedFlaw>;
-}
-
 impl SavedTransfer {
     fn of(Transfer { h_min, h_risk, h_max, shape }: Transfer) -> Self {
         Self { h_min, h_risk: (h_risk != h_min).then_some(h_risk), h_max, shape }
@@ -219,8 +209,10 @@ impl From<SavedTransfer> for Transfer {
 }
 
 impl Saved {
-    /// Returns the settings, whose rasters and pictures have the given names.
+    /// Returns the settings, whose parts have the given names.
     pub(super) fn of(settings: &Settings, names: &PartNames) -> Self {
+        let name_of = |data: PartData| names.of(&data).map(str::to_owned);
+        let pins_part = PartData::of_pins(&settings.pins).and_then(name_of);
         Self {
             format: FORMAT.into(),
             version: VERSION,
@@ -235,6 +227,7 @@ impl Saved {
                     DomainShape::Formula(formula) => SavedShape::Formula(formula.source().into()),
                     DomainShape::Region(_) => SavedShape::Polygons,
                 },
+                polygons: settings.domain.region().cloned().map(PartData::Region).and_then(name_of),
                 projection: settings.domain.projection.map(|projection| projection.to_string()),
             },
             boundary: match settings.boundary {
@@ -244,13 +237,15 @@ impl Saved {
             },
             cleaning: settings.cleaning.into(),
             boundary_marks: SavedMarks::of(&settings.boundary_marks),
-            pins: settings.pins.iter().map(DVec2::to_array).collect(),
-            paths: SavedPaths::of(&settings.paths),
+            pins: match &pins_part {
+                Some(_) => Vec::new(),
+                None => settings.pins.iter().map(DVec2::to_array).collect(),
+            },
+            pins_part,
+            paths: SavedPaths::of(&settings.paths, names),
             spacing: settings.spacing,
             transfer: SavedTransfer::of(settings.transfer),
-            base: None,
-            resolution: None,
-            layers: Some(settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect()),
+            layers: settings.layers.iter().map(|layer| StoredLayer::of(layer, names)).collect(),
             gradation: settings.gradation,
             rule: settings.rule.into(),
             max_triangles: settings.max_triangles,
@@ -271,6 +266,13 @@ impl Saved {
             ))
             .into());
         }
+        if head.version < OLDEST_VERSION {
+            let problem = format!(
+                "the project has version {} of its format, and this program reads versions {OLDEST_VERSION} to {VERSION}.",
+                head.version
+            );
+            return Err(Flaw::Syntax(problem).into());
+        }
         if head.version > VERSION {
             let by = if head.written_by.is_empty() {
                 "a newer program".into()
@@ -289,7 +291,7 @@ impl Saved {
     }
 
     /// Returns the settings, after all checks.
-    pub(super) fn into_settings(self, parts: &mut impl Parts) -> Result<Settings, PlacedFlaw> {
+    pub(super) fn into_settings(self, parts: &mut PartReader) -> Result<Settings, PlacedFlaw> {
         if !(2..=MOST_TRIANGLES).contains(&self.max_triangles) {
             return Err(Flaw::Syntax(format!(
                 "\"max_triangles\" is {}, and a budget must be between 2 and {}.",
@@ -304,18 +306,11 @@ impl Saved {
         let shape = match self.domain.shape {
             SavedShape::Whole => DomainShape::Whole,
             SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
-            SavedShape::Polygons => {
-                Domain::of_stored_polygons(parts.polygons()?, bounds).map_err(sentence)?.shape
-            }
+            SavedShape::Polygons => parts.domain(self.domain.polygons.as_deref(), bounds)?,
         };
-        let layers = match (self.layers, self.base) {
-            (Some(layers), _) => {
-                check_raster_sizes(&layers)?;
-                layers.into_iter().map(|layer| layer.into_layer(parts)).collect()
-            }
-            (None, Some(base)) => base.into_layers(parts),
-            (None, None) => Err(sentence("the settings are not valid: there are no layers.")),
-        }?;
+        check_raster_sizes(&self.layers)?;
+        let layers =
+            self.layers.into_iter().map(|layer| layer.into_layer(parts)).collect::<Result<_, _>>()?;
         let background = self.background.map(|saved| saved.load(parts)).transpose()?;
         let settings = Settings {
             name: self.name,
@@ -329,8 +324,11 @@ impl Saved {
             },
             cleaning: self.cleaning.into(),
             boundary_marks: Arc::new(self.boundary_marks.load()),
-            pins: Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
-            paths: self.paths.load()?,
+            pins: match self.pins_part {
+                Some(part) => parts.pins(&part)?,
+                None => Arc::new(self.pins.into_iter().map(DVec2::from_array).collect()),
+            },
+            paths: self.paths.load(parts)?,
             spacing: self.spacing,
             transfer: self.transfer.into(),
             layers,

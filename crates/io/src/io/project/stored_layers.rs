@@ -9,18 +9,17 @@ use serde::{Deserialize, Serialize};
 use super::super::error::PlacedFlaw;
 use super::super::layers::{LayerData, SavedLayer, Stored, TextError};
 use super::super::{Flaw, KeyFault};
-use super::part_names::PartNames;
-use super::settings::{Parts, checked_size, corners, rect};
+use super::part_names::{PartData, PartNames};
+use super::part_reader::PartReader;
+use super::settings::{checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
-use meshbrush_core::domain::Polygon;
-use meshbrush_core::layers::{Layer, LayerId, ShapeList, Threat};
+use meshbrush_core::layers::{Layer, LayerId, Mask, Shapes, Threats};
 use meshbrush_core::raster::{RasterPyramid, check_values};
 use meshbrush_mesh::text::Grouped;
 
-/// A layer with its identifier, and the place of its pixels if it reads a raster.
+/// A layer with its identifier, and the parts with its data.
 ///
-/// Threats, shapes and masks are in place. `file` is the name of the file that the data come from, for a
-/// person.
+/// `file` is the name of the file that the data come from, for a person.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct StoredLayer {
@@ -29,6 +28,13 @@ pub(super) struct StoredLayer {
     layer: SavedLayer,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     raster: Option<StoredRaster>,
+    /// The parts of shapes, threats and masks that are too long for the layer itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shapes: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    threats: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    mask: Option<String>,
 }
 
 /// A raster without its pixels.
@@ -60,34 +66,55 @@ pub(super) fn check_raster_sizes(layers: &[StoredLayer]) -> Result<(), Flaw> {
 
 impl StoredLayer {
     pub(super) fn of(layer: &Layer, names: &PartNames) -> Self {
+        let id = layer.id.0;
+        let name_of = |data: Option<PartData>| names.of(&data?).map(str::to_owned);
         let raster = layer.kind.raster_source().map(|source| {
             let raster = source.raster.raster();
             let [columns, rows] = raster.size();
-            let part = names.of_raster(&source.raster).to_owned();
+            let part = name_of(PartData::raster_of(layer)).unwrap_or_default();
             StoredRaster { part, bounds: corners(raster.bounds()), columns, rows }
         });
+        let [shapes, threats] = [PartData::shapes_of(layer), PartData::threats_of(layer)].map(name_of);
+        let mask = name_of(layer.mask.as_ref().and_then(PartData::of_mask));
         let file = layer.kind.file_name().map(PathBuf::from);
-        Self { id: layer.id.0, layer: SavedLayer::of(layer, file), raster }
+        let in_place = SavedLayer::without_lists(layer, file);
+        let layer = SavedLayer {
+            shapes: if shapes.is_none() { SavedLayer::shapes_of(layer) } else { None },
+            threats: if threats.is_none() { SavedLayer::threats_of(layer) } else { None },
+            mask: if mask.is_none() { SavedLayer::mask_of(layer) } else { None },
+            ..in_place
+        };
+        Self { id, layer, raster, shapes, threats, mask }
     }
 
-    pub(super) fn into_layer(self, parts: &mut impl Parts) -> Result<Layer, PlacedFlaw> {
-        let Self { id, layer, raster } = self;
+    pub(super) fn into_layer(self, parts: &mut PartReader) -> Result<Layer, PlacedFlaw> {
+        let Self { id, mut layer, raster, shapes, threats, mask } = self;
+        // As in a recipe, a file stands for data that is elsewhere.
+        if shapes.is_some() || threats.is_some() {
+            layer.file.get_or_insert_default();
+        }
+        if mask.is_some() {
+            layer.mask_file.get_or_insert_default();
+        }
         let checked = layer.checked(Stored::InProject);
         checked.map_err(|fault| {
             let problem = format!("the layer “{}” is not valid. {fault}", layer.shown_name());
             PlacedFlaw::from(Flaw::Syntax(problem))
         })?;
-        layer.load(LayerId(id), &mut InProject { parts, raster })
+        layer.load(LayerId(id), &mut InProject { parts, raster, shapes, threats, mask })
     }
 }
 
-/// The data of a layer of a project. Only rasters are parts of their own.
-struct InProject<'a, P> {
-    parts: &'a mut P,
+/// The data of a layer of a project, by the names of their parts.
+struct InProject<'p, 'b, 'a> {
+    parts: &'p mut PartReader<'b, 'a>,
     raster: Option<StoredRaster>,
+    shapes: Option<String>,
+    threats: Option<String>,
+    mask: Option<String>,
 }
 
-impl<P: Parts> LayerData for InProject<'_, P> {
+impl LayerData for InProject<'_, '_, '_> {
     type Error = PlacedFlaw;
 
     const STORED: Stored = Stored::InProject;
@@ -96,40 +123,50 @@ impl<P: Parts> LayerData for InProject<'_, P> {
         let stored = self.raster.as_ref();
         let stored = stored.ok_or_else(|| layer.error("its pixels are not part of the project."))?;
         let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
-        let raster =
-            self.parts.raster(&stored.part, bounds, size).map_err(|PlacedFlaw { place, flaw }| {
-                let flaw = match flaw {
-                    Flaw::Io(error) => Flaw::Io(error),
-                    flaw => Flaw::Syntax(format!(
-                        "the pixels of the layer “{}” cannot be read: {flaw}",
-                        layer.shown_name()
-                    )),
-                };
-                PlacedFlaw { place, flaw }
-            })?;
+        let raster = self.parts.raster(&stored.part, bounds, size);
+        let raster = raster.map_err(|flaw| of_layer(flaw, layer, "pixels"))?;
         if let Some(values) = layer.raster_values() {
             check_values(&raster, values).map_err(|problem| layer.error(problem))?;
         }
         Ok(raster)
     }
 
-    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, PlacedFlaw> {
-        Err(not_in_place(file))
+    fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, PlacedFlaw> {
+        let threats = self.parts.threats(named(self.threats.as_ref(), layer)?);
+        threats.map_err(|flaw| of_layer(flaw, layer, "threats"))
     }
 
-    fn shapes(&mut self, file: &Path) -> Result<ShapeList, PlacedFlaw> {
-        Err(not_in_place(file))
+    fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, PlacedFlaw> {
+        let shapes = self.parts.shapes(named(self.shapes.as_ref(), layer)?);
+        shapes.map_err(|flaw| of_layer(flaw, layer, "shapes"))
     }
 
-    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, PlacedFlaw> {
-        Err(not_in_place(file))
+    fn mask(&mut self, layer: &SavedLayer, _: &Path) -> Result<Mask, PlacedFlaw> {
+        let mask = self.parts.mask(named(self.mask.as_ref(), layer)?);
+        mask.map_err(|flaw| of_layer(flaw, layer, "mask"))
     }
 }
 
-fn not_in_place(file: &Path) -> PlacedFlaw {
-    let problem = "a layer names the file";
-    Flaw::Syntax(format!("{problem} {}, and a project holds the data of its layers itself.", file.display()))
-        .into()
+/// Returns the part with the data of a layer.
+fn named<'n>(part: Option<&'n String>, layer: &SavedLayer) -> Result<&'n str, PlacedFlaw> {
+    let missing = || {
+        Flaw::Syntax(format!(
+            "the layer “{}” names a file, and a project holds the data of its layers itself.",
+            layer.shown_name()
+        ))
+    };
+    Ok(part.ok_or_else(missing)?)
+}
+
+/// Returns the flaw of a part as one of the data of a layer.
+fn of_layer(PlacedFlaw { place, flaw }: PlacedFlaw, layer: &SavedLayer, what: &str) -> PlacedFlaw {
+    let flaw = match flaw {
+        Flaw::Io(error) => Flaw::Io(error),
+        flaw => {
+            Flaw::Syntax(format!("the {what} of the layer “{}” cannot be read: {flaw}", layer.shown_name()))
+        }
+    };
+    PlacedFlaw { place, flaw }
 }
 
 impl From<KeyFault> for PlacedFlaw {

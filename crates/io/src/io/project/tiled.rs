@@ -10,11 +10,9 @@ use std::sync::Arc;
 
 use super::super::Flaw;
 use super::archive::Unpacking;
-use super::old_tiles::{Tiles, tile_area};
 use super::pixels::{is_risk, read_floats, write_floats};
 use meshbrush_core::layers::Quantity;
 use meshbrush_core::raster::{PixelGrid, TILE, Tile, TilePlace, TiledRaster};
-use meshbrush_mesh::geometry::Rect;
 
 const PIXELS: usize = (TILE * TILE) as usize;
 
@@ -57,7 +55,7 @@ pub fn read_raster(input: &mut Unpacking, grid: PixelGrid, quantity: Quantity) -
 /// order, or a value cannot be painted.
 pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<ChangedTiles, Flaw> {
     let mut tiles = ChangedTiles::new();
-    while !input.is_at_end() {
+    while input.left() > 0 {
         let mut head = [0; 10];
         input.read_exact(&mut head).map_err(|_| Flaw::Damaged)?;
         let [depth, has_pixels, a, b, c, d, e, f, g, h] = head;
@@ -71,31 +69,6 @@ pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<Changed
         tiles.insert(place, tile);
     }
     Ok(tiles)
-}
-
-/// Returns the raster with the pixels of a project of version 1: tiles of 64 × 64 pixels over `bounds`, which
-/// has `size` = [columns, rows] pixels.
-pub fn from_old_tiles(bounds: &Rect, size: [u32; 2], tiles: &Tiles, quantity: Quantity) -> TiledRaster {
-    let blank = quantity.blank();
-    let mut raster = TiledRaster::new(PixelGrid::filling(bounds, size), blank);
-    for (&old_place, pixels) in tiles {
-        let values = match quantity {
-            Quantity::Risk => &pixels.risk,
-            // Such old projects have no errors.
-            Quantity::Diameter | Quantity::Error => &pixels.diameter,
-        };
-        let mut new = BTreeMap::new();
-        let painted = tile_area(old_place, size).pixels().zip(values).filter(|(_, value)| **value != blank);
-        for ((x, y), &value) in painted {
-            let [x, y] = [x, y].map(|n| n as i32);
-            let tile = new.entry(TilePlace::of_pixel(0, x, y)).or_insert_with(|| Tile::filled(blank));
-            tile.set(x % TILE, y % TILE, value);
-        }
-        for (place, tile) in new {
-            raster.exchange(place, Some(Arc::new(tile)));
-        }
-    }
-    raster
 }
 
 fn write_tile(out: &mut dyn Write, place: TilePlace, tile: Option<&Tile>) -> io::Result<()> {
@@ -128,25 +101,26 @@ mod tests {
     use glam::dvec2;
 
     use super::super::archive::{Archive, ArchiveWriter};
-    use super::super::old_tiles::TilePixels;
+    use super::super::limits::Limits;
     use super::*;
     use crate::io::Meter;
     use meshbrush_core::paint::{Brush, DiameterChange, Medium, Stroke};
-    use meshbrush_core::raster::{PixelRect, ValueRanges};
+    use meshbrush_core::raster::ValueRanges;
+    use meshbrush_mesh::geometry::Rect;
 
     const NAME: &str = "paint.tiles";
 
     fn packed(write: impl Fn(&mut dyn Write) -> io::Result<()>) -> Vec<u8> {
         let mut bytes = Vec::new();
-        let mut archive = ArchiveWriter::new(&mut bytes);
+        let mut archive = ArchiveWriter::new(&mut bytes, Limits::PROJECT);
         archive.add(NAME, &Meter::default(), write).unwrap();
         archive.finish().unwrap();
         bytes
     }
 
     fn unpacked<T>(bytes: &[u8], read: impl Fn(&mut Unpacking) -> Result<T, Flaw>) -> Result<T, Flaw> {
-        let archive = Archive::open(bytes)?;
-        let mut input = archive.part(NAME).unwrap().unpack(u64::MAX, &Meter::default())?;
+        let archive = Archive::open(bytes, Limits::PROJECT)?;
+        let mut input = archive.part(NAME).unwrap().unpack(&Meter::default());
         let result = read(&mut input)?;
         input.finish()?;
         Ok(result)
@@ -241,34 +215,6 @@ mod tests {
         for length in [1, 9, 10, 500, bytes.len() - 1] {
             let short = packed(|out| out.write_all(&bytes[..length]));
             assert!(unpacked(&short, |input| read_changes(input, Quantity::Risk)).is_err(), "{length} bytes");
-        }
-    }
-
-    #[test]
-    fn old_tiles_give_the_same_pixels() {
-        let mut random = fastrand::Rng::with_seed(2);
-        let size = [150, 97];
-        let all = PixelRect { min: [0, 0], max: size };
-        let grid = PixelGrid::filling(&bounds(), size);
-        let old: Tiles = [[0, 0], [2, 1], [1, 0]]
-            .map(|place| {
-                let count = tile_area(place, size).pixels().count();
-                let mut values = |blank: f32| -> Box<[f32]> {
-                    (0..count).map(|_| if random.bool() { blank } else { random.f32() }).collect()
-                };
-                (place, TilePixels { risk: values(0.0), diameter: values(f32::INFINITY) })
-            })
-            .into();
-        for quantity in [Quantity::Risk, Quantity::Diameter] {
-            let raster = from_old_tiles(&bounds(), size, &old, quantity);
-            for (x, y) in all.pixels() {
-                let expected = old.get(&[x / 64, y / 64]).map_or(quantity.blank(), |tile| {
-                    let columns = if x / 64 == 2 { 150 - 128 } else { 64 };
-                    let index = (y % 64 * columns + x % 64) as usize;
-                    if quantity == Quantity::Risk { tile.risk[index] } else { tile.diameter[index] }
-                });
-                assert_eq!(raster.sample(grid.square(0, x as i32, y as i32).center()), expected);
-            }
         }
     }
 }

@@ -5,23 +5,20 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::super::atomic::{Draft, put_in_place};
-use super::super::layers::SavedLayer;
+use super::super::atomic::{Draft, obstacle, put_in_place};
+use super::super::layers::{MOST_IN_PLACE, SavedLayer};
 use super::super::project::{self, Project};
 use super::super::settings::{SavedKeepOut, SavedSettings};
 use super::super::{Meter, asc, geojson, shapes, threats};
-use super::to_text;
+use super::{MOST_BYTES, to_text, too_long};
 use meshbrush_core::document::{KeepOut, Settings};
-use meshbrush_core::domain::Polygon;
+use meshbrush_core::domain::{MOST_CORNERS, Polygon, RegionError};
 use meshbrush_core::layers::{
     DistanceTo, Layer, LayerKind, Mask, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes, Surface,
     SurfaceSource, Threats,
 };
 use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::geometry::Rect;
-
-/// Most threats, and most points of shapes or of a mask, that are written into the recipe itself.
-const MOST_IN_PLACE: usize = 20;
 
 /// The extension of polygons and shapes.
 const GEOJSON: &str = "geojson";
@@ -104,11 +101,20 @@ impl RecipeFiles {
         self.files.iter().map(|(path, _)| path.as_path())
     }
 
-    /// Writes all files, or none if that fails or is cancelled. Existing files are replaced.
+    /// Writes all files, or none if that fails or is cancelled. Existing files are replaced, but for
+    /// read-only ones.
     ///
     /// # Errors
-    /// Fails with the errors of the file system, and when the work was cancelled.
+    /// Fails with the errors of the file system, when the work was cancelled, and when a file is read-only or
+    /// would be too large to be read.
     pub fn write(&self, meter: &Meter) -> io::Result<()> {
+        for (path, content) in &self.files {
+            let problem = obstacle(path).or_else(|| content.problem());
+            if let Some(problem) = problem {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                return Err(io::Error::other(format!("{name}: {problem}")));
+            }
+        }
         let draft = |(path, content): &(PathBuf, Content)| {
             Draft::write(path, meter, |out| content.write(&mut meter.count(out)))
         };
@@ -118,6 +124,21 @@ impl RecipeFiles {
 }
 
 impl Content {
+    /// Returns why it could not be read after it is written, as a sentence without its full stop.
+    fn problem(&self) -> Option<String> {
+        let problem = match self {
+            Self::Recipe(text) => (text.len() as u64 > MOST_BYTES).then(too_long),
+            Self::Shapes(list) => shapes::check(list.list()).err().map(|flaw| flaw.to_string()),
+            Self::Polygons(polygons) => {
+                let corners = polygons.iter().flatten().map(Vec::len).sum();
+                let error = RegionError::TooManyCorners { corners };
+                (corners > MOST_CORNERS).then(|| error.to_string())
+            }
+            Self::Threats(_) | Self::Grid(..) | Self::Paint(_) => None,
+        };
+        problem.map(|sentence| sentence.trim_end_matches('.').to_owned())
+    }
+
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         match self {
             Self::Recipe(text) => out.write_all(text.as_bytes()),

@@ -20,7 +20,7 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
-use meshbrush_core::layers::{Layer, LayerId, PaintLayers, ShapeList, Shapes, Threat};
+use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, Shapes, Threats};
 use meshbrush_core::raster::{RasterPyramid, RasterValues};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
@@ -272,21 +272,21 @@ impl LayerData for Files<'_> {
         })
     }
 
-    fn threats(&mut self, file: &Path) -> Result<Vec<Threat>, LoadError> {
-        Ok(threats::read(file, self.loading.meter)?)
+    fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, LoadError> {
+        Ok(layer.indexed_threats(threats::read(layer.path(), self.loading.meter)?)?)
     }
 
-    fn shapes(&mut self, file: &Path) -> Result<ShapeList, LoadError> {
-        let Self { loading, plane, .. } = self;
+    fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, LoadError> {
+        let (Self { loading, plane, .. }, file) = (self, layer.path());
         let read = match loading.given.shapes(file) {
             Some(text) => shape_format::placed_shapes(shapes::read_from(text, file)?, plane.as_ref(), file)?,
             None => shape_format::read_shapes(file, plane.as_ref(), loading.meter)?,
         };
-        Ok(read.shapes)
+        Ok(layer.indexed_shapes(read.shapes)?)
     }
 
-    fn polygons(&mut self, file: &Path) -> Result<Vec<Polygon>, LoadError> {
-        Storage::polygons(self, file)
+    fn mask(&mut self, layer: &SavedLayer, file: &Path) -> Result<Mask, LoadError> {
+        Ok(layer.mask_of_polygons(&self.polygons(file)?)?)
     }
 }
 

@@ -32,8 +32,14 @@ pub use write::to_text;
 /// The extension of recipes.
 pub const ENDING: &str = "toml";
 
-/// Largest file read: room for a hundred thousand threats.
+/// Largest recipe that is written or read: room for a hundred thousand threats.
 const MOST_BYTES: u64 = 16 << 20;
+
+/// Returns a sentence without its full stop about a recipe that is longer than [`MOST_BYTES`].
+fn too_long() -> String {
+    let limit = MOST_BYTES >> 20;
+    format!("the recipe is larger than {limit} MiB; put long lists into files that the recipe names")
+}
 
 /// Reads a recipe, and checks every value that can be checked without reading the files that it names.
 ///
@@ -45,9 +51,7 @@ pub fn read(path: &Path) -> Result<Recipe, ReadError> {
         let mut bytes = Vec::new();
         File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > MOST_BYTES {
-            let limit = MOST_BYTES >> 20;
-            let advice = "Put long lists into files that the recipe names";
-            return Err(Flaw::Syntax(format!("the recipe is larger than {limit} MiB. {advice}.")).into());
+            return Err(Flaw::Syntax(format!("{}.", too_long())).into());
         }
         String::from_utf8(bytes).map_err(|error| {
             let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&b| b == b'\n').count();

@@ -11,7 +11,7 @@ use super::super::project::{PartNames, Project};
 use super::saved::{SavedEdit, SavedSettings};
 use meshbrush_core::document::{Document, Example};
 
-/// Most bytes of the text that is read: links have a hundredth of it.
+/// Most bytes of the text that is written or read: links have a hundredth of it.
 const MOST_BYTES: u64 = 1 << 20;
 
 /// The examples that documents begin with by their names. They need no data, and must stay as they are.
@@ -30,17 +30,17 @@ struct SavedGestures {
 }
 
 /// Returns the edits of a document since they are recorded, with the document before them, as packed bytes.
-/// `None` where they are not recorded, or do not lead to the document as it is.
+/// `None` where they are not recorded, do not lead to the document as it is, or are too long.
 pub fn write(document: &Document) -> Option<Vec<u8>> {
     let recording = document.recording().filter(|recording| !recording.is_full())?;
     let before = Document::new(recording.settings().clone(), Some(recording.paint().clone())).ok()?;
     let start = Project::of(&before);
     let example = STARTS.into_iter().find(|example| Project::of(&as_recorded(*example)) == start);
     let (mut names, mut replayed) = (PartNames::default(), before);
-    let start = SavedSettings::whole(&start, &mut names);
+    let start = SavedSettings::whole(&start, &mut names).ok()?;
     let mut edits = Vec::new();
     for recorded in recording.edits() {
-        edits.push(SavedEdit::of(&recorded.edit, replayed.settings(), &mut names));
+        edits.push(SavedEdit::of(&recorded.edit, replayed.settings(), &mut names).ok()?);
         replayed.apply(&recorded.edit).ok()?;
     }
     if Project::of(&replayed) != Project::of(document) {
@@ -49,7 +49,11 @@ pub fn write(document: &Document) -> Option<Vec<u8>> {
     let example = example.map(|example| example.name().to_owned());
     let saved = SavedGestures { start: example.is_none().then_some(start), example, edits };
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::best());
-    packed.write_all(&serde_json::to_vec(&saved).ok()?).ok()?;
+    let text = serde_json::to_vec(&saved).ok()?;
+    if text.len() as u64 > MOST_BYTES {
+        return None;
+    }
+    packed.write_all(&text).ok()?;
     packed.finish().ok()
 }
 
@@ -79,7 +83,7 @@ pub fn read(bytes: &[u8]) -> Result<Document, String> {
             let example = STARTS.into_iter().find(|example| example.name() == name);
             let example = example.ok_or("it begins with an example that is not known.")?;
             let document = as_recorded(example);
-            _ = SavedSettings::whole(&Project::of(&document), &mut names);
+            SavedSettings::whole(&Project::of(&document), &mut names).map_err(|error| error.to_string())?;
             document
         }
         (None, Some(start)) => {

@@ -14,7 +14,8 @@
 //!   change, with null for a key that is removed. The background picture is left out: it does not change the
 //!   mesh.
 //! - `polygons` beside it are those of the domain, where it has others than before.
-//! - `pixels` beside it is a ZIP archive in base64: rasters that no line before has, at the start also paint.
+//! - `pixels` beside it is a ZIP archive in base64: rasters and long lists of points that no line before has,
+//!   at the start also paint.
 //! - A point of the `path` of a stroke is x and y in world units, and size and strength of the brush there
 //!   where they are not 1.
 //! - An edit gives a `mesh`, or `no_mesh` and the reason.
@@ -35,6 +36,14 @@ pub const ENDING: &str = "jsonl";
 const FORMAT: &str = "Meshbrush recording";
 /// The version that is written, and the newest that is read.
 const VERSION: u64 = 1;
+
+/// Most bytes of a file that is written or read.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// Returns a sentence without its full stop about a recording that is longer than [`MOST_BYTES`].
+fn too_long() -> String {
+    format!("it is larger than {} MiB, the limit for a recording", MOST_BYTES >> 20)
+}
 
 /// Work on a mesh between two checks of the meter: some milliseconds.
 const SLICE: usize = 1 << 16;

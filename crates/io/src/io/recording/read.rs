@@ -7,12 +7,9 @@ use super::super::error::{Flaw, Place, PlacedFlaw, ReadError};
 use super::super::json::{self, JsonFlaw};
 use super::super::project::{PartNames, Project};
 use super::saved::{SavedHead, SavedMesh, SavedStart, SavedStep};
-use super::{FORMAT, VERSION};
+use super::{FORMAT, MOST_BYTES, VERSION, too_long};
 use crate::io::disk::File;
 use meshbrush_mesh::text::excerpt;
-
-/// Largest file read.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// A recording that was read: the document at the start, and the edits.
 #[derive(Debug)]
@@ -38,9 +35,7 @@ pub fn read(path: &Path) -> Result<RecordingFile, ReadError> {
         let mut bytes = Vec::new();
         File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
         if bytes.len() as u64 > MOST_BYTES {
-            let limit = MOST_BYTES >> 20;
-            let problem = format!("the file is larger than {limit} MiB, the limit for a recording.");
-            return Err(Flaw::Syntax(problem).into());
+            return Err(Flaw::Syntax(format!("{}.", too_long())).into());
         }
         Ok(bytes)
     };

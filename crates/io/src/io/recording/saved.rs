@@ -1,5 +1,7 @@
 //! The lines of the file.
 
+use std::io;
+
 use base64::prelude::{BASE64_STANDARD, Engine};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -102,23 +104,29 @@ pub struct SavedSettings {
 
 impl SavedSettings {
     /// Returns a whole document.
-    pub fn whole(project: &Project, names: &mut PartNames) -> Self {
-        let pixels = pixels_of(project, names);
+    ///
+    /// # Errors
+    /// Fails when a part of it is beyond its limit.
+    pub fn whole(project: &Project, names: &mut PartNames) -> io::Result<Self> {
+        let pixels = pixels_of(project, names)?;
         let polygons = polygons_of(&project.settings);
-        Self { settings: values_of(&project.settings, names), polygons, pixels }
+        Ok(Self { settings: values_of(&project.settings, names), polygons, pixels })
     }
 
     /// Returns the change from one state of the settings to another.
-    pub fn change(before: &Settings, after: &Settings, names: &mut PartNames) -> Self {
+    ///
+    /// # Errors
+    /// Fails as [`Self::whole`] does.
+    pub fn change(before: &Settings, after: &Settings, names: &mut PartNames) -> io::Result<Self> {
         let project = Project { settings: after.clone(), paint: PaintLayers::default() };
-        let pixels = pixels_of(&project, names);
+        let pixels = pixels_of(&project, names)?;
         let (old, mut settings) = (values_of(before, names), values_of(after, names));
         let removed: Vec<_> = old.keys().filter(|key| !settings.contains_key(*key)).cloned().collect();
         settings.retain(|key, value| old.get(key) != Some(value));
         settings.extend(removed.into_iter().map(|key| (key, serde_json::Value::Null)));
         let is_same_outline = before.domain.region() == after.domain.region();
         let polygons = polygons_of(after).filter(|_| !is_same_outline);
-        Self { settings, polygons, pixels }
+        Ok(Self { settings, polygons, pixels })
     }
 
     /// Returns the whole document.
@@ -161,10 +169,10 @@ fn polygons_from(saved: Vec<SavedPolygon>) -> Vec<Polygon> {
     saved.into_iter().map(|polygon| polygon.into_iter().map(ring).collect()).collect()
 }
 
-fn pixels_of(project: &Project, names: &mut PartNames) -> Option<String> {
+fn pixels_of(project: &Project, names: &mut PartNames) -> io::Result<Option<String>> {
     let mut bytes = Vec::new();
-    let has_any = write_pixels(&mut bytes, project, names).expect("memory takes all bytes");
-    has_any.then(|| BASE64_STANDARD.encode(&bytes))
+    let has_any = write_pixels(&mut bytes, project, names)?;
+    Ok(has_any.then(|| BASE64_STANDARD.encode(&bytes)))
 }
 
 fn decoded(pixels: Option<&str>) -> Result<Option<Vec<u8>>, Flaw> {
@@ -284,16 +292,19 @@ impl From<Medium> for SavedMedium {
 }
 
 impl SavedEdit {
-    /// Returns the edit as it is written. `before` and `after` are the settings before and after it.
-    pub fn of(edit: &Edit, before: &Settings, names: &mut PartNames) -> Self {
-        match edit {
+    /// Returns the edit as it is written. `before` are the settings before it.
+    ///
+    /// # Errors
+    /// Fails when a part of its settings is beyond its limit.
+    pub fn of(edit: &Edit, before: &Settings, names: &mut PartNames) -> io::Result<Self> {
+        Ok(match edit {
             Edit::Stroke(stroke) => Self::Stroke((&**stroke).into()),
-            Edit::Settings(after) => Self::Set(SavedSettings::change(before, after, names)),
+            Edit::Settings(after) => Self::Set(SavedSettings::change(before, after, names)?),
             Edit::Clear(layers) => Self::Clear(layers.iter().map(|layer| layer.0).collect()),
             Edit::CopyPaint { from, to } => Self::CopyPaint { from: from.0, to: to.0 },
             Edit::Undo => Self::Undo,
             Edit::Redo => Self::Redo,
-        }
+        })
     }
 
     /// Returns the edit of a document with the settings `before`.
