@@ -12,7 +12,7 @@ use meshbrush_core::layers::PaintLayers;
 use meshbrush_core::outline::DerivedMesh;
 use meshbrush_io::io::recipe::{self, LoadedDocument, Loading};
 use meshbrush_io::io::settings::SavedSettings;
-use meshbrush_io::io::{TextValue, project, write_file_metered};
+use meshbrush_io::io::{TextValue, obstacle, project, write_file_metered};
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_mesh::mesh::{Limits, MemoryLimit, Progress, RefineError};
 use numpy::{PyArray2, PyReadonlyArray2};
@@ -174,6 +174,9 @@ impl Document {
             let ending = path.extension().unwrap_or_default();
             if ending.eq_ignore_ascii_case(recipe::ENDING) {
                 return recipe::RecipeFiles::new(&project, &path).write(&watch.meter).map(|_| ());
+            }
+            if let Some(problem) = obstacle(&path) {
+                return Err(std::io::Error::other(problem));
             }
             write_file_metered(&path, &watch.meter, |out| project::write_metered(out, &project, &watch.meter))
         })?;

@@ -9,7 +9,7 @@ use eframe::egui::Context;
 use super::busy::Busy;
 use super::command::{Command, Opened};
 use super::document_id::DocumentId;
-use super::home::Home;
+use super::home::{Home, Loss};
 use super::jobs::{Job, Jobs, Kind, Taken};
 use super::threads::Threads;
 use meshbrush_io::io::{self, Meter};
@@ -48,8 +48,8 @@ pub enum Outcome {
         /// The version.
         version: u64,
     },
-    /// The document was not saved to this file, because somebody else changed it.
-    ChangedOnDisk(PathBuf),
+    /// The document was not saved to this file, because this would be lost.
+    NotReplaced(PathBuf, Loss),
     /// Saving was cancelled: a sentence about it.
     SavingCancelled(String),
     /// The document was not saved: a sentence about it.

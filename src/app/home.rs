@@ -68,45 +68,71 @@ impl Claims {
 /// The contents that a file must have to be replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expected {
-    /// It is replaced whatever it contains.
+    /// It is replaced whatever it contains, even if it is read-only.
     Anything,
-    /// These contents. If they are not known, no existing file is replaced.
+    /// It is replaced whatever it contains, unless it is read-only.
+    Writable,
+    /// These contents, and it is not read-only. If they are not known, no existing file is replaced.
     Contents(Option<FileStamp>),
 }
 
-/// Writes a version of the document on another thread, unless the file has other contents than are expected.
+/// The loss if a file is replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// The contents of the file.
+    Contents,
+    /// A version that somebody else saved to the document's own file since it was read.
+    OtherVersion,
+    /// A file that is read-only, so that nobody changes it by accident.
+    ReadOnly,
+    /// The document of another window that has the file open.
+    OtherWindow,
+}
+
+/// What became of a file that was to be written.
+enum Written {
+    Saved(FileStamp),
+    /// It stays as it was, because this would be lost.
+    Kept(Loss),
+}
+
+/// Writes a version of the document on another thread, unless the file is not as it is expected to be.
 pub fn write(path: PathBuf, project: Project, version: u64, expected: Expected, background: &mut Background) {
     let (aim, file) = (Aim::Save(version), path.clone());
     background.start(aim, &path, move |meter| match write_expected(&file, &project, expected, meter) {
-        Ok(Some(stamp)) => Outcome::Saved { home: Home { path: file, stamp: Some(stamp) }, version },
-        Ok(None) => Outcome::ChangedOnDisk(file),
+        Ok(Written::Saved(stamp)) => {
+            Outcome::Saved { home: Home { path: file, stamp: Some(stamp) }, version }
+        }
+        Ok(Written::Kept(loss)) => Outcome::NotReplaced(file, loss),
         Err(_) if meter.is_cancelled() => Outcome::SavingCancelled(cancelled(aim, &file)),
         Err(error) => Outcome::NotSaved(format!("{} could not be saved: {error}.", file.display())),
     });
 }
 
-/// Writes a project, and returns the stamp of its file; `None` if the file has other contents than are
-/// expected, and stays as it is.
+/// Writes a project, unless its file is not as it is expected to be.
 fn write_expected(
     file: &Path,
     project: &Project,
     expected: Expected,
     meter: &Meter,
-) -> std::io::Result<Option<FileStamp>> {
+) -> std::io::Result<Written> {
     if let Expected::Contents(expected) = expected {
         let found = FileStamp::of_file(file, meter)?;
         if found.is_some() && found != expected {
-            return Ok(None);
+            return Ok(Written::Kept(Loss::OtherVersion));
         }
     }
-    let mut stamp = None;
+    if expected != Expected::Anything && io::is_read_only(file) {
+        return Ok(Written::Kept(Loss::ReadOnly));
+    }
+    let mut written = None;
     io::write_file_metered(file, meter, |out| {
         let mut out = Stamping::new(out);
         io::project::write_metered(&mut out, project, meter)?;
-        stamp = Some(out.stamp());
+        written = Some(Written::Saved(out.stamp()));
         Ok(())
     })?;
-    Ok(stamp)
+    written.ok_or_else(|| std::io::Error::other("nothing was written"))
 }
 
 /// Reads a project, which is shown once it is read.

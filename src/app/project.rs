@@ -7,8 +7,8 @@ use eframe::egui::{Context, ViewportCommand};
 use super::background::Background;
 use super::command::{Command, FigureCommand, FileCommand};
 use super::file_kinds::{files_that_open, opened_by_ending};
-use super::home::{self, Claims, Expected, Home};
-use super::replacing::{Loss, Replacing};
+use super::home::{self, Claims, Expected, Home, Loss};
+use super::replacing::Replacing;
 use super::session::Session;
 use super::widgets::Answer;
 use meshbrush_io::io;
@@ -316,13 +316,14 @@ impl ProjectFile {
         self.replacing = Some(Replacing { files, loss, command });
     }
 
-    /// Asks whether to replace the document's own file, which somebody else changed.
-    pub fn ask_about_other_version(&mut self, path: PathBuf) {
+    /// Asks whether to replace a file although this is lost.
+    pub fn ask_to_save_over(&mut self, path: PathBuf, loss: Loss) {
         self.save_again = None;
-        self.ask(vec![path.clone()], Loss::OtherVersion, Command::File(FileCommand::SaveOver(path)));
+        self.ask(vec![path.clone()], loss, Command::File(FileCommand::SaveOver(path)));
     }
 
-    /// Saves the document, unless somebody else saved to the same file, or may do so: then the user is asked.
+    /// Saves the document, unless somebody else saved to the same file, or may do so, or it is read-only:
+    /// then the user is asked.
     pub fn save_to(&mut self, path: PathBuf, session: &mut Session, background: &mut Background) {
         let path = with_ending(path);
         if self.claims.is_open_elsewhere(&path) {
@@ -333,7 +334,7 @@ impl ProjectFile {
             );
         }
         let own = self.home.as_ref().filter(|home| home.path == path);
-        let expected = own.map_or(Expected::Anything, |home| Expected::Contents(home.stamp));
+        let expected = own.map_or(Expected::Writable, |home| Expected::Contents(home.stamp));
         self.save(path, expected, session, background);
     }
 

@@ -6,6 +6,7 @@ use eframe::egui::Context;
 
 use super::command::{Command, FileCommand};
 use super::files::listed;
+use super::home::Loss;
 use super::widgets::ConfirmDialog;
 use crate::app::kit::FrameState;
 
@@ -17,17 +18,6 @@ pub struct Replacing {
     pub loss: Loss,
     /// The command that replaces them.
     pub command: Command,
-}
-
-/// The loss if a file is replaced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Loss {
-    /// The contents of the file.
-    Contents,
-    /// A version that somebody else saved to the document's own file since it was read.
-    OtherVersion,
-    /// The document of another window that has the file open.
-    OtherWindow,
 }
 
 /// Asks about unsaved edits and existing files.
@@ -65,6 +55,10 @@ impl Replacing {
             Loss::OtherVersion => {
                 "It is not as it was when this document was opened or saved: somebody else changed it. What they saved \
                  will be lost. Cancel, and save this document under another name to keep both."
+            }
+            Loss::ReadOnly => {
+                "It is read-only, so somebody wants to keep it as it is. Its present contents will be lost. Cancel, and save \
+                 this document under another name to keep both."
             }
             Loss::OtherWindow => {
                 "It is open in another window of Meshbrush, too. What that window saved, or saves later, and what you save \

@@ -11,7 +11,7 @@ use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
-use crate::app::home::{self, Home};
+use crate::app::home::{self, Home, Loss};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
@@ -267,9 +267,9 @@ impl App {
                 self.project.belongs_to(Some(home), version, true);
                 self.finish_saving();
             }
-            Outcome::ChangedOnDisk(path) => {
+            Outcome::NotReplaced(path, loss) => {
                 self.dialogs.succeed(false);
-                self.project.ask_about_other_version(path);
+                self.project.ask_to_save_over(path, loss);
             }
             Outcome::SavingCancelled(text) => {
                 self.dialogs.succeed(false);
@@ -312,10 +312,12 @@ impl App {
                 self.session.tell(format!("The document that was open before was saved to {file}."));
                 self.project.note_recent(home.path);
             }
-            Outcome::ChangedOnDisk(path) => self.session.report(format!(
-                "The document that was open before was not saved to {}: somebody else changed that file.",
-                path.display()
-            )),
+            Outcome::NotReplaced(path, loss) => {
+                let reason = if loss == Loss::ReadOnly { "it is read-only" } else { "somebody else changed it" };
+                let path = path.display();
+                let text = format!("The document that was open before was not saved to {path}: {reason}.");
+                self.session.report(text);
+            }
         }
         self.project.save_again(&mut self.session, &mut self.background);
     }

@@ -84,6 +84,37 @@ fn a_project_that_somebody_changed_is_not_replaced_without_a_question() {
 }
 
 #[test]
+fn a_read_only_project_is_not_replaced_without_a_question() {
+    let file = folder("read-only").join("a.meshbrush");
+    let _ = fs::remove_file(&file); // of an earlier run
+    write(&file, Settings::default());
+    let mut permissions = fs::metadata(&file).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&file, permissions).unwrap();
+    let mut window = window();
+    open(&mut window, &file);
+    let last = painted(&mut window, 0.9);
+    save(&mut window, &file);
+    assert!(asks(&window, &file));
+    press(&mut window, "Cancel");
+    assert!(project::read(&file).unwrap().paint().is_blank());
+    save(&mut window, &file);
+    press(&mut window, "Replace");
+    wait_until(&mut window, |window| !window.state().project.is_edited(window.state().session()));
+    assert!(*project::read(&file).unwrap().paint() == last);
+    // It stays read-only, so the next one is a question, too; also where another document is saved there.
+    paint(&mut window, 0.5);
+    save(&mut window, &file);
+    assert!(asks(&window, &file));
+    press(&mut window, "Cancel");
+    send(&mut window, Command::File(FileCommand::New));
+    press(&mut window, "Do not save");
+    send(&mut window, Command::File(FileCommand::SaveTo(file.clone())));
+    wait_until(&mut window, |window| asks(window, &file));
+    assert!(*project::read(&file).unwrap().paint() == last);
+}
+
+#[test]
 fn two_windows_with_one_project_know_of_each_other() {
     let (locks, file) = (folder("locks"), folder("both").join("a.meshbrush"));
     write(&file, Settings::default());
