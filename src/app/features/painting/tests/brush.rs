@@ -152,8 +152,12 @@ fn tag_and_hint_say_that_there_is_no_layer_to_paint_on() {
     assert!(tag(LayerCommand::Lock(layer, false), "Drag to paint risk").starts_with('+'));
     let hidden = tag(LayerCommand::Show(layer, false), "a click offers to show it");
     assert_eq!(hidden, "no change: “Painted risk” is hidden");
-    let deleted = tag(LayerCommand::Delete(layer), "No layer takes this paint: a click offers one");
-    assert_eq!(deleted, "no change: no layer for painted risk");
+    send(&mut window, Command::Layer(LayerCommand::Delete(layer)));
+    assert_eq!(window.state().tools().kind, PaintKind::Diameter, "the layer that is selected now");
+    brush(&mut window, BrushCommand::Kind(PaintKind::Risk));
+    let deleted = hover(&mut window, FREE);
+    assert!(window.query_by_label_contains("No layer takes this paint: a click offers one").is_some());
+    assert_eq!(deleted.as_deref(), Some("no change: no layer for painted risk"));
     key(&mut window, Modifiers::NONE, Key::E);
     hover(&mut window, FREE);
     assert!(price_tag(&window).is_some());
