@@ -18,12 +18,12 @@ use crate::values::Table;
 /// Fails where it is none.
 pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, JsError> {
     let bounds = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
-    if bounds.is_proper() && bounds.size().is_finite() {
+    if bounds.is_proper() {
         return Ok(bounds);
     }
     Err(error(format_args!(
-        "The bounds {x0}, {y0}, {x1}, {y1} are no rectangle: give [x0, y0, x1, y1] with finite numbers, x0 less than x1 and \
-         y0 less than y1."
+        "The bounds {x0}, {y0}, {x1}, {y1} are no rectangle: give [x0, y0, x1, y1] with {}.",
+        Rect::PROPER
     )))
 }
 

@@ -47,10 +47,10 @@ pub fn raster_of(
     name: &str,
 ) -> PyResult<Raster> {
     let bounds = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
-    if !(bounds.is_proper() && bounds.size().is_finite()) {
+    if !bounds.is_proper() {
         return Err(mesh_error(format!(
-            "{name}: the bounds {x0}, {y0}, {x1}, {y1} are no rectangle: give (x0, y0, x1, y1) with finite numbers, x0 less \
-             than x1 and y0 less than y1."
+            "{name}: the bounds {x0}, {y0}, {x1}, {y1} are no rectangle: give (x0, y0, x1, y1) with {}.",
+            Rect::PROPER
         )));
     }
     let untyped = values.cast::<PyUntypedArray>()?;

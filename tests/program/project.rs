@@ -709,7 +709,7 @@ fn paint_with_impossible_values_is_refused() {
             let (_, paint) = parts.last_mut().unwrap();
             paint.copy_from_slice(&valid);
             paint[8 * number..][..8].copy_from_slice(&impossible.to_le_bytes());
-            refused(&packed(parts.clone()), &["paint", "damaged"]);
+            refused(&packed(parts.clone()), &["paint", "cannot be painted"]);
         }
     }
     let (_, paint) = parts.last_mut().unwrap();

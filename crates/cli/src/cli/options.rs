@@ -263,9 +263,7 @@ fn parse_domain(text: &str) -> Result<[f64; 4], Failure> {
     };
     let domain = Rect::new(DVec2::new(*x0, *y0), DVec2::new(*x1, *y1));
     if !domain.is_proper() {
-        let problem =
-            format!("--domain {text}: all four numbers must be finite, X0 less than X1 and Y0 less than Y1");
-        return Err(Failure::Usage(format!("{problem}.")));
+        return Err(Failure::Usage(format!("--domain {text}: write x0,y0,x1,y1 with {}.", Rect::PROPER)));
     }
     Ok([*x0, *y0, *x1, *y1])
 }

@@ -11,6 +11,14 @@ use crate::text::short_name;
 /// Pixels of depth 0 along the longer side of the domain. Strokes choose their depth by their radius.
 const COARSEST_PIXELS: f64 = 1024.0;
 
+/// Most layers of a document: each question about a size asks all of them.
+pub(super) const MOST_LAYERS: usize = 1000;
+
+/// Checks that there are not too many layers.
+pub(super) fn check_count(layers: &[Layer]) -> Result<(), SettingsError> {
+    if layers.len() > MOST_LAYERS { Err(SettingsError::Layers(layers.len())) } else { Ok(()) }
+}
+
 /// Why nothing can be painted with a brush.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoPaintLayer {

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Background, PathPlan};
+use super::{Background, PathPlan, layers};
 use crate::build::MeshSpec;
 use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain};
 use crate::field::{RefinementRule, Transfer, TransferError, checked_target};
@@ -80,6 +80,9 @@ pub enum SettingsError {
     /// A path is impossible.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// Too many layers.
+    #[error("The document has {} layers, and the limit is {}.", Grouped(*_0), Grouped(layers::MOST_LAYERS))]
+    Layers(usize),
     /// The domain is empty.
     #[error("Nothing would be left of the domain: keep some of it.")]
     EmptyDomain,
@@ -182,7 +185,7 @@ impl Settings {
         self.lattice()?;
         self.transfer.checked()?;
         if let Some(Background { bounds, .. }) = self.background
-            && !(bounds.is_proper() && bounds.size().is_finite())
+            && !bounds.is_proper()
         {
             return Err(SettingsError::BackgroundBounds);
         }
@@ -216,6 +219,7 @@ impl Settings {
     }
 
     fn check_layers(&self) -> Result<(), SettingsError> {
+        layers::check_count(&self.layers)?;
         let mut ids = BTreeSet::new();
         for layer in &self.layers {
             if !ids.insert(layer.id) {

@@ -69,9 +69,14 @@ pub enum RegionError {
     /// They cover no area.
     #[error("The polygons cover no area: a ring needs three corners that are not on one line.")]
     NoArea,
-    /// The width or height of the polygons is not finite.
-    #[error("The polygons reach too far: their width and height must be finite numbers.")]
-    TooLarge,
+    /// They are too large or too small.
+    #[error(
+        "The polygons are too large or too small: their width and their height must lie between {:e} and {:e}, and no \
+         coordinate beyond that. Check the unit of the coordinates.",
+        Rect::SHORTEST_SIDE,
+        Rect::LONGEST_SIDE
+    )]
+    Extent,
     /// Too many corners.
     #[error(
         "The polygons have {} corners, and the limit is {}. Simplify the outline first, to the detail that the \
@@ -125,9 +130,10 @@ impl Domain {
     /// Fails when the polygons cover no area, or are too large or too complex.
     pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
         let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
-        let bounds = points.reduce(|a, b| a.union(&b)).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
-        if !bounds.size().is_finite() {
-            return Err(RegionError::TooLarge);
+        let bounds = points.reduce(|a, b| a.union(&b)).ok_or(RegionError::NoArea)?;
+        if !bounds.is_proper() {
+            let is_flat = bounds.size().min_element() == 0.0;
+            return Err(if is_flat { RegionError::NoArea } else { RegionError::Extent });
         }
         check_complexity(polygons, &bounds)?;
         let region = Region::new(polygons, bounds);

@@ -49,9 +49,7 @@ impl Mask {
         let corners = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
         let domain = match corners.reduce(|a, b| a.union(&b)) {
             // The polygons of another mask stay as they are: a saved mask is read back exactly.
-            Some(bounds) if bounds.is_proper() && bounds.size().is_finite() => {
-                Domain::of_stored_polygons(polygons.to_vec(), bounds)?
-            }
+            Some(bounds) if bounds.is_proper() => Domain::of_stored_polygons(polygons.to_vec(), bounds)?,
             _ => Domain::of_polygons(polygons)?,
         };
         let region = domain.region().ok_or(RegionError::NoArea)?;

@@ -20,6 +20,16 @@ impl PixelGrid {
         Self { origin: bounds.min, pixel: bounds.size() / size }
     }
 
+    /// Returns whether the pixels are as large as those of a raster over a proper rectangle, and as near. All
+    /// grids that are read are checked with this.
+    pub fn is_proper(&self) -> bool {
+        let shortest = Rect::SHORTEST_SIDE / f64::from(super::LONGEST_SIDE);
+        self.pixel.min_element() >= shortest
+            && self.pixel.max_element() <= Rect::LONGEST_SIDE
+            && self.origin.abs().max_element() <= Rect::LONGEST_SIDE
+            && !(self.pixel.is_nan() || self.origin.is_nan())
+    }
+
     /// Returns the rectangle of the square in column `x` and row `y` at a scale, see [`ValueRanges`], in
     /// world units.
     pub fn square(&self, scale: i32, x: i32, y: i32) -> Rect {

@@ -15,7 +15,7 @@ use super::coordinate_system::CoordinateSystem;
 use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::samples::single;
+use super::samples::{no_rectangle, single};
 use super::{FileGrid, Flaw, GridPlace, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
@@ -258,11 +258,7 @@ impl Header {
         let min =
             DVec2::new(corner("xllcorner", "xllcenter", cell.x)?, corner("yllcorner", "yllcenter", cell.y)?);
         let bounds = Rect::new(min, upper_corner(min, cell, size));
-        if bounds.is_proper() {
-            Ok(bounds)
-        } else {
-            Err(Flaw::Syntax(format!("with cells of {} × {} the grid covers no rectangle.", cell.x, cell.y)))
-        }
+        if bounds.is_proper() { Ok(bounds) } else { Err(no_rectangle(cell.x, cell.y)) }
     }
 }
 

@@ -95,8 +95,8 @@ pub fn decode(
     let values = values(&mut *source, &grid, &spans, meter)?;
     let bounds = place.over.unwrap_or_else(|| Rect::new(corner(&spans, 0), corner(&spans, 1)));
     if !bounds.is_proper() {
-        let problem = "its pixels are too small for their distance from zero";
-        return Err(Flaw::Syntax(format!("{problem}: they cover no rectangle.")));
+        let problem = "its pixels are too small or too far from zero";
+        return Err(Flaw::Syntax(format!("{problem}: they cover no rectangle with {}.", Rect::PROPER)));
     }
     Ok(FileGrid { raster: Raster::from_values(bounds, size(&spans), values), system })
 }

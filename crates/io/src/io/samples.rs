@@ -1,6 +1,7 @@
 //! The samples of rasters in files, which become values in single precision.
 
 use super::Flaw;
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{Number, excerpt};
 
 /// Returns a sample in single precision, as rasters have it; NaN has no value. `remedy` says what helps where
@@ -74,7 +75,10 @@ fn no_number(text: &str) -> String {
 /// Returns the sentence for a rectangle that has no area, with the size of a pixel in world units.
 pub(super) fn no_rectangle(width: f64, height: f64) -> Flaw {
     let [width, height] = [width, height].map(Number);
-    Flaw::Syntax(format!("with pixels of {width} × {height} the raster covers no rectangle."))
+    Flaw::Syntax(format!(
+        "with pixels of {width} × {height} the raster covers no rectangle with {}.",
+        Rect::PROPER
+    ))
 }
 
 #[cfg(test)]

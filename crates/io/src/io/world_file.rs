@@ -7,6 +7,7 @@ use glam::dvec2;
 
 use super::disk::{self, File};
 use super::error::{Flaw, PlacedFlaw, ReadError};
+use super::samples::no_rectangle;
 use meshbrush_mesh::geometry::Rect;
 
 /// Returns the endings of the world file beside a picture, in the order of search: of `.png`, these are
@@ -60,7 +61,8 @@ fn bounds(text: &str, [columns, rows]: [u32; 2]) -> Result<Rect, String> {
     }
     let corner = dvec2(x - width / 2.0, y + height / 2.0);
     let size = dvec2(width * f64::from(columns), height * f64::from(rows));
-    Ok(Rect::new(dvec2(corner.x, corner.y - size.y), dvec2(corner.x + size.x, corner.y)))
+    let bounds = Rect::new(dvec2(corner.x, corner.y - size.y), dvec2(corner.x + size.x, corner.y));
+    if bounds.is_proper() { Ok(bounds) } else { Err(no_rectangle(width, height).to_string()) }
 }
 
 #[cfg(test)]

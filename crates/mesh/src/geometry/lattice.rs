@@ -55,11 +55,6 @@ pub struct Lattice {
     step: DVec2,
 }
 
-/// The shortest and the longest side of a domain, in world units: the areas of triangles are finite numbers,
-/// and not zero.
-const SHORTEST_SIDE: f64 = 1e-120;
-const LONGEST_SIDE: f64 = 1e150;
-
 /// Why no coarse grid could be made.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -120,10 +115,12 @@ impl fmt::Display for GridError {
             ),
             Self::Size { size } => write!(
                 f,
-                "A domain of {} × {} cannot be meshed: its width and its height must lie between \
-                 {SHORTEST_SIDE:e} and {LONGEST_SIDE:e}. Check the unit of the coordinates.",
+                "A domain of {} × {} cannot be meshed: its width and its height must lie between {:e} and {:e}, and no \
+                 coordinate beyond that. Check the unit of the coordinates.",
                 Number(size.x),
-                Number(size.y)
+                Number(size.y),
+                Rect::SHORTEST_SIDE,
+                Rect::LONGEST_SIDE
             ),
             Self::Spacing { spacing } => write!(
                 f,
@@ -172,11 +169,11 @@ impl Lattice {
     /// # Ok::<(), meshbrush_mesh::geometry::GridError>(())
     /// ```
     pub fn covering(bounds: Rect, spacing: f64, max_triangles: usize) -> Result<Self, GridError> {
-        if !(bounds.is_proper() && bounds.size().is_finite()) {
+        let size = bounds.size();
+        if !(size.is_finite() && size.cmpgt(DVec2::ZERO).all()) {
             return Err(GridError::NotARectangle { bounds });
         }
-        let size = bounds.size();
-        if size.min_element() < SHORTEST_SIDE || size.max_element() > LONGEST_SIDE {
+        if !bounds.is_proper() {
             return Err(GridError::Size { size });
         }
         if !(spacing > 0.0 && spacing.is_finite()) {

@@ -10,6 +10,14 @@ pub struct Rect {
 }
 
 impl Rect {
+    /// Shortest side of a proper rectangle: areas and ratios of lengths are finite, and not zero.
+    pub const SHORTEST_SIDE: f64 = 1e-120;
+    /// Longest side of a proper rectangle, and its farthest coordinate.
+    pub const LONGEST_SIDE: f64 = 1e150;
+    /// What [`Self::is_proper`] asks for, as a part of a sentence.
+    pub const PROPER: &str = "finite numbers, x0 less than x1 and y0 less than y1, sides between 1e-120 and 1e150 and no \
+                              coordinate beyond ±1e150";
+
     /// Returns the rectangle with the given lower left and upper right corners.
     pub const fn new(min: DVec2, max: DVec2) -> Self {
         Self { min, max }
@@ -59,8 +67,15 @@ impl Rect {
         Self::new(self.min - DVec2::splat(margin), self.max + DVec2::splat(margin))
     }
 
-    /// Returns whether both sides are positive and all numbers are finite.
+    /// Returns whether calculations with the rectangle stay within f64: both sides are from
+    /// [`Self::SHORTEST_SIDE`] to [`Self::LONGEST_SIDE`], and no coordinate is farther from 0 than that. All
+    /// rectangles that are read are checked with this.
     pub fn is_proper(&self) -> bool {
-        self.min.is_finite() && self.max.is_finite() && self.min.cmplt(self.max).all()
+        let size = self.size();
+        let reach = self.min.abs().max(self.max.abs());
+        size.min_element() >= Self::SHORTEST_SIDE
+            && size.max_element() <= Self::LONGEST_SIDE
+            && reach.max_element() <= Self::LONGEST_SIDE
+            && !size.is_nan()
     }
 }

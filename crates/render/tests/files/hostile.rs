@@ -423,7 +423,7 @@ fn an_odd_outline_covers_its_first_ring_without_its_holes() {
     );
     assert_eq!(far, Ok(11.5));
     assert_eq!(area("[[[7,7],[7,7],[7,7]]]"), Err(RegionError::NoArea));
-    assert_eq!(area("[[[-1e308,0],[1e308,0],[0,1]]]"), Err(RegionError::TooLarge));
+    assert_eq!(area("[[[-1e308,0],[1e308,0],[0,1]]]"), Err(RegionError::Extent));
 }
 
 #[test]

@@ -215,7 +215,7 @@ impl GridOnLattice {
     fn lines(&self, scale: i32, axis: usize) -> Lines {
         Lines {
             origin: self.origin[axis],
-            spacing: self.steps[axis] * power_of_two(scale),
+            spacing: (self.steps[axis] * power_of_two(scale)).min(f64::MAX),
             per_step: self.pixels_per_step[axis] * power_of_two(-scale),
         }
     }
@@ -288,6 +288,11 @@ impl GridOnLattice {
     }
 }
 
+/// Lines this far from the origin of the lattice, in steps, are beyond it, and sums of them are numbers.
+const BEYOND: f64 = (1_i64 << 44) as f64;
+/// No line is farther from the first one: a raster has no pixel there.
+const FARTHEST_LINE: i64 = 1 << 60;
+
 /// Parallel lines at equal distances, rounded down to the lattice.
 struct Lines {
     /// The lattice coordinate of line 0, not rounded.
@@ -302,7 +307,8 @@ impl Lines {
     /// Returns the lattice coordinate of line `n`.
     #[inline]
     fn line(&self, n: i64) -> i64 {
-        floor(self.origin + n as f64 * self.spacing + ROUNDING)
+        let line = self.origin + n as f64 * self.spacing + ROUNDING;
+        floor(line.clamp(-BEYOND, BEYOND))
     }
 
     /// Returns the first and the last gap between lines that have cells from `first` to `last`. Gap n follows
@@ -321,18 +327,52 @@ impl Lines {
     /// Returns the gap that has a cell, and the line where that gap ends.
     #[inline]
     fn gap_and_end(&self, cell: i64) -> (i64, i64) {
-        let mut n = floor((cell as f64 - self.origin) * self.per_step);
-        let mut end = self.line(n + 1);
+        let n = floor((cell as f64 - self.origin) * self.per_step).clamp(-FARTHEST_LINE, FARTHEST_LINE);
+        let end = self.line(n + 1);
         // The product is rounded, and so are the lines.
-        while end <= cell {
-            n += 1;
-            end = self.line(n + 1);
+        if end <= cell {
+            let next = self.line(n + 2);
+            return if next > cell { (n + 1, next) } else { self.gap_after(n + 2, cell) };
         }
-        while self.line(n) > cell {
-            end = self.line(n);
-            n -= 1;
+        let start = self.line(n);
+        if start <= cell {
+            return (n, end);
         }
-        (n, end)
+        if self.line(n - 1) <= cell { (n - 1, start) } else { self.gap_before(n - 1, cell) }
+    }
+
+    /// Returns the gap that has a cell, and the line where that gap ends, from a line at or before the cell.
+    ///
+    /// Where lines are many to a lattice step, or far from the origin, many of them are rounded to the same
+    /// place: the steps double.
+    #[cold]
+    fn gap_after(&self, mut before: i64, cell: i64) -> (i64, i64) {
+        let mut step = 1;
+        while before < FARTHEST_LINE && self.line(before + step) <= cell {
+            before += step;
+            step = (2 * step).min(FARTHEST_LINE - before);
+        }
+        self.gap_between(before, before + step.max(1), cell)
+    }
+
+    /// Returns the same from a line after the cell.
+    #[cold]
+    fn gap_before(&self, mut after: i64, cell: i64) -> (i64, i64) {
+        let mut step = 1;
+        while after > -FARTHEST_LINE && self.line(after - step) > cell {
+            after -= step;
+            step = (2 * step).min(after + FARTHEST_LINE);
+        }
+        self.gap_between(after - step.max(1), after, cell)
+    }
+
+    /// Returns the same from a line at or before the cell and one after it.
+    fn gap_between(&self, mut before: i64, mut after: i64, cell: i64) -> (i64, i64) {
+        while after - before > 1 {
+            let middle = before.midpoint(after);
+            *(if self.line(middle) <= cell { &mut before } else { &mut after }) = middle;
+        }
+        (before, self.line(after))
     }
 }
 
@@ -351,7 +391,7 @@ fn joined_range(raster: &impl ValueRanges, scale: i32, low: [i64; 2], high: [i64
 #[inline]
 fn floor(v: f64) -> i64 {
     let truncated = v as i64;
-    truncated - i64::from((truncated as f64) > v)
+    truncated.saturating_sub(i64::from((truncated as f64) > v))
 }
 
 #[cfg(test)]
@@ -379,6 +419,27 @@ mod tests {
             let (gap, end) = lines.gap_and_end(cell);
             assert!(lines.line(gap) <= cell && cell < end, "{origin} {spacing} {cell}: {gap} {end}");
             assert_eq!(end, lines.line(gap + 1), "{origin} {spacing} {cell}");
+        }
+    }
+
+    /// Lines that are many to a lattice step, or so far away that neighbours are rounded to one place: each
+    /// answer takes few steps, or this test does not end.
+    #[test]
+    fn lines_of_any_distance_and_origin_are_found() {
+        let mut random = fastrand::Rng::with_seed(3);
+        for _ in 0..20_000 {
+            let spacing = libm::exp2(1800.0 * random.f64() - 900.0);
+            let cell = random.i64(..1 << 31);
+            let near = cell as f64 + random.f64() + [0.0, 1.0 - ROUNDING][random.usize(..2)];
+            let far = (random.f64() - 0.5) * libm::exp2(900.0 * random.f64());
+            let origin = if random.bool() { near } else { far };
+            let lines = Lines { origin, spacing, per_step: 1.0 / spacing };
+            let (gap, end) = lines.gap_and_end(cell);
+            let [low, high] = lines.between([cell, cell + random.i64(..100)]);
+            assert!(low == gap && low <= high, "{origin} {spacing} {cell}: {gap} {low} {high}");
+            if gap.abs() < FARTHEST_LINE {
+                assert!(lines.line(gap) <= cell && cell < end, "{origin} {spacing} {cell}: {gap} {end}");
+            }
         }
     }
 

@@ -22,15 +22,13 @@ pub(super) fn number_where(value: f64, holds: bool, rule: &str) -> Result<f64, K
 /// Returns the rectangle of x₀, y₀, x₁, y₁.
 ///
 /// # Errors
-/// Fails when a number is not finite, or the first corner is not the lower left one.
+/// Fails when it is not proper.
 pub fn rect_of([x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, KeyFault> {
     let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
-    if rect.is_proper() && rect.size().is_finite() {
+    if rect.is_proper() {
         return Ok(rect);
     }
-    Err(KeyFault::here(
-        "these are no rectangle: write [x0, y0, x1, y1] with finite numbers, x0 less than x1 and y0 less than y1.",
-    ))
+    Err(KeyFault::here(format!("these are no rectangle: write [x0, y0, x1, y1] with {}.", Rect::PROPER)))
 }
 
 /// Returns a point of finite coordinates, in world units.

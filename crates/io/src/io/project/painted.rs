@@ -11,6 +11,8 @@ use super::archive::Unpacking;
 use super::tiled::{self, ChangedTiles};
 use meshbrush_core::layers::Quantity;
 use meshbrush_core::raster::{PixelGrid, TiledRaster, ValueRanges};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::Number;
 
 /// Writes all pixels of a layer.
 ///
@@ -85,6 +87,13 @@ fn read_grid(input: &mut Unpacking) -> Result<PixelGrid, Flaw> {
         Ok(f64::from_le_bytes(bytes))
     };
     let (origin, pixel) = (DVec2::new(number()?, number()?), DVec2::new(number()?, number()?));
-    let is_valid = origin.is_finite() && pixel.is_finite() && pixel.cmpgt(DVec2::ZERO).all();
-    is_valid.then_some(PixelGrid { origin, pixel }).ok_or(Flaw::Damaged)
+    let grid = PixelGrid { origin, pixel };
+    if grid.is_proper() {
+        return Ok(grid);
+    }
+    let [x, y, width, height] = [origin.x, origin.y, pixel.x, pixel.y].map(Number);
+    Err(Flaw::Syntax(format!(
+        "pixels of {width} × {height} from {x}, {y} on cannot be painted: they cover no rectangle with {}. Use another copy.",
+        Rect::PROPER
+    )))
 }

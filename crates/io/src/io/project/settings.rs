@@ -347,12 +347,13 @@ pub(super) fn corners(rect: Rect) -> [f64; 4] {
 
 pub(super) fn rect(of: &str, [x0, y0, x1, y1]: [f64; 4]) -> Result<Rect, PlacedFlaw> {
     let rect = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
-    if rect.is_proper() && rect.size().is_finite() {
+    if rect.is_proper() {
         return Ok(rect);
     }
     let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(Number);
     Err(Flaw::Syntax(format!(
-        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are not a rectangle: the first corner is the lower left one."
+        "the bounds {x0}, {y0}, {x1}, {y1} of \"{of}\" are not a rectangle [x0, y0, x1, y1] with {}.",
+        Rect::PROPER
     ))
     .into())
 }
