@@ -8,6 +8,8 @@ use super::{Meter, disk};
 
 /// The end of the names of temporary files.
 const PART: &str = ".part";
+/// Most bytes of a name that the name of its temporary file repeats.
+const LONGEST_IN_PART: usize = 200;
 /// Most links from one to the next.
 const MOST_LINKS: usize = 40;
 
@@ -69,7 +71,12 @@ fn place_obstacle(path: &Path) -> Option<String> {
         let link = if path.is_symlink() { "it is a link to a missing folder: " } else { "" };
         return Some(format!("{link}there is no folder {}", folder.display()));
     }
-    target.is_dir().then(|| "a folder has this name".to_owned())
+    match fs::symlink_metadata(&target) {
+        Ok(found) => found.is_dir().then(|| "a folder has this name".to_owned()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        // A name that is too long, for example.
+        Err(error) => Some(error.to_string()),
+    }
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -160,7 +167,7 @@ impl Draft {
         let target = behind_links(path).map_err(io::Error::other)?;
         let before = fs::metadata(&target).ok();
         if before.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
-            filled(File::options().write(true).open(&target)?, write)?;
+            filled(open_special(&target)?, write)?;
             return Ok(Self { target, temporary: None, in_memory: None, _lock: None });
         }
         remove_abandoned(&target);
@@ -197,6 +204,30 @@ impl Drop for Draft {
             let _ = fs::remove_file(temporary);
         }
     }
+}
+
+/// Opens what is not a regular file for writing.
+///
+/// # Errors
+/// Fails for a pipe that nobody reads: to open it would wait for a reader.
+#[cfg(unix)]
+fn open_special(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::{FileTypeExt as _, OpenOptionsExt as _};
+
+    let is_pipe = path.metadata()?.file_type().is_fifo();
+    match File::options().write(true).custom_flags(libc::O_NONBLOCK).open(path) {
+        Err(error) if is_pipe && error.raw_os_error() == Some(libc::ENXIO) => {
+            Err(io::Error::other("nobody reads this pipe; start its reader first"))
+        }
+        // The second time does not wait, and writing does.
+        Ok(_reader_is_there) => File::options().write(true).open(path),
+        Err(error) => Err(error),
+    }
+}
+
+#[cfg(not(unix))]
+fn open_special(path: &Path) -> io::Result<File> {
+    File::options().write(true).open(path)
 }
 
 fn filled(file: File, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<File> {
@@ -236,7 +267,8 @@ fn remove_abandoned(target: &Path) {
     let Some(name) = target.file_name() else { return };
     let prefix = part_prefix(name);
     for entry in fs::read_dir(folder_of(target)).into_iter().flatten().flatten() {
-        if !is_part(&entry.file_name(), &prefix) {
+        // To open a pipe would wait for somebody who reads it.
+        if !is_part(&entry.file_name(), &prefix) || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
             continue;
         }
         // Some network disks lock only files that are open for writing.
@@ -247,9 +279,12 @@ fn remove_abandoned(target: &Path) {
     }
 }
 
-/// Returns the beginning of the names of temporary files of writes to a file.
+/// Returns the beginning of the names of temporary files of writes to a file. A long name is replaced by its
+/// checksum: file systems take names of up to 255 bytes.
 fn part_prefix(name: &OsStr) -> OsString {
-    [OsStr::new("."), name, OsStr::new(".")].into_iter().collect()
+    let checksum = || format!("{:08x}", crc32fast::hash(name.as_encoded_bytes())).into();
+    let name = if name.len() > LONGEST_IN_PART { checksum() } else { name.to_owned() };
+    [OsStr::new("."), &name, OsStr::new(".")].into_iter().collect()
 }
 
 /// Returns whether a file has the name of a temporary file with this beginning.
@@ -372,6 +407,55 @@ mod tests {
         std::os::unix::fs::symlink("circle", folder.join("circle")).unwrap();
         let circle = write_file(&folder.join("circle"), |out| out.write_all(b"new")).unwrap_err();
         assert_eq!(circle.to_string(), "its links point to each other in a circle");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn pipes_stop_no_write_and_are_written_once_somebody_reads() {
+        let folder = folder("pipes");
+        let make = |name: &str| {
+            let path = folder.join(name);
+            assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+            path
+        };
+        let (_part, path) = (make(".mesh.csv.12-0.part"), folder.join("mesh.csv"));
+        write_file(&path, |out| out.write_all(b"new")).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+        let pipe = make("pipe");
+        let unread = write_file(&pipe, |out| out.write_all(b"x")).unwrap_err();
+        assert_eq!(unread.to_string(), "nobody reads this pipe; start its reader first");
+        // Open for both, it does not wait for the writer.
+        let mut reader = File::options().read(true).write(true).open(&pipe).unwrap();
+        write_file(&pipe, |out| out.write_all(b"through")).unwrap();
+        let mut read = [0; 7];
+        io::Read::read_exact(&mut reader, &mut read).unwrap();
+        assert_eq!(&read, b"through");
+        for (read, said) in
+            [(pipe, "a named pipe"), ("/dev/zero".into(), "a device"), (folder.clone(), "a folder")]
+        {
+            let refused = disk::File::open(&read).unwrap_err().to_string();
+            assert!(refused.contains(said), "{}: {refused}", read.display());
+        }
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_name_may_be_as_long_as_the_file_system_allows() {
+        let folder = folder("long");
+        for length in [150, 201, 244, 255] {
+            let path = folder.join("n".repeat(length));
+            let left = folder.join({
+                let mut left = part_prefix(path.file_name().unwrap());
+                left.push("12-0.part");
+                left
+            });
+            fs::write(&left, "half").unwrap();
+            assert_eq!(obstacle(&path), None);
+            write_file(&path, |out| out.write_all(b"new")).unwrap();
+            assert!(path.exists() && !left.exists(), "{length}");
+        }
+        assert!(obstacle(&folder.join("n".repeat(256))).unwrap().contains("too long"));
         fs::remove_dir_all(folder).unwrap();
     }
 

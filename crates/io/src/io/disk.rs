@@ -5,6 +5,7 @@
 //! folder, so a recipe finds its rasters.
 
 use std::collections::BTreeMap;
+use std::fs::FileType;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -106,15 +107,22 @@ pub enum File {
 }
 
 impl File {
-    /// Opens a file.
+    /// Opens a file. The pipes that a shell has opened are files, too.
     ///
     /// # Errors
-    /// Fails with the errors of the file system, and where there is no such file in memory.
+    /// Fails with the errors of the file system, where there is no such file in memory, and for what is no
+    /// file: to open or to read it may never end.
     pub fn open(path: impl AsRef<Path>) -> io::Result<Self> {
-        if !is_in_memory() {
-            return std::fs::File::open(path).map(Self::OnDisk);
+        let path = path.as_ref();
+        if is_in_memory() {
+            return in_memory(path).map(Cursor::new).map(Self::InMemory);
         }
-        in_memory(path.as_ref()).map(Cursor::new).map(Self::InMemory)
+        match std::fs::metadata(path)?.file_type() {
+            kind if kind.is_file() || is_opened_pipe(path, kind) => {}
+            kind if kind.is_dir() => return Err(io::Error::other("it is a folder, and a file is expected")),
+            _ => return Err(io::Error::other("it is a device or a named pipe, and a file is expected")),
+        }
+        std::fs::File::open(path).map(Self::OnDisk)
     }
 
     /// Returns the size of the file in bytes.
@@ -127,6 +135,21 @@ impl File {
             Self::InMemory(bytes) => Ok(bytes.get_ref().len() as u64),
         }
     }
+}
+
+/// Returns whether it is a pipe that is open already, as the input of the program and `<(command)` of a shell
+/// are: to open it waits for nobody.
+#[cfg(unix)]
+fn is_opened_pipe(path: &Path, kind: FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+
+    let is_opened = ["/dev/stdin", "/dev/fd", "/proc"].iter().any(|place| path.starts_with(place));
+    kind.is_fifo() && is_opened
+}
+
+#[cfg(not(unix))]
+fn is_opened_pipe(_: &Path, _: FileType) -> bool {
+    false
 }
 
 impl Read for File {

@@ -155,7 +155,7 @@ impl Error for KeyFault {
     }
 
     fn unknown_variant(word: &str, known: &'static [&'static str]) -> Self {
-        let advice = match nearest(word, known) {
+        let advice = match nearest_word(word, known) {
             Some(near) => format!("did you mean \"{near}\"?"),
             None => format!("write one of {}.", known.join(", ")),
         };
@@ -163,7 +163,7 @@ impl Error for KeyFault {
     }
 
     fn unknown_field(key: &str, known: &'static [&'static str]) -> Self {
-        let advice = match nearest(key, known) {
+        let advice = match nearest_word(key, known) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the keys here are {}.", known.join(", ")),
         };
@@ -214,7 +214,7 @@ impl Display for Given<'_> {
 }
 
 /// Returns the known word that is nearest to a given one, if one is near.
-fn nearest(given: &str, known: &[&'static str]) -> Option<&'static str> {
+pub fn nearest_word<'k>(given: &str, known: &[&'k str]) -> Option<&'k str> {
     let near = |word: &&&str| edits(given, word) <= 1 + word.len() / 4;
     known.iter().filter(near).min_by_key(|word| edits(given, word)).copied()
 }
@@ -252,8 +252,8 @@ mod tests {
     #[test]
     fn the_nearest_key_is_proposed_only_where_one_is_near() {
         let known = ["spacing", "rule", "max_triangles"];
-        assert_eq!(nearest("spcaing", &known), Some("spacing"));
-        assert_eq!(nearest("max_triangle", &known), Some("max_triangles"));
-        assert_eq!(nearest("colour", &known), None);
+        assert_eq!(nearest_word("spcaing", &known), Some("spacing"));
+        assert_eq!(nearest_word("max_triangle", &known), Some("max_triangles"));
+        assert_eq!(nearest_word("colour", &known), None);
     }
 }

@@ -61,4 +61,6 @@ mod database {
 }
 
 #[cfg(feature = "gpkg")]
+mod connection;
+#[cfg(feature = "gpkg")]
 mod database;

@@ -27,8 +27,15 @@ pub(super) fn parse<T: DeserializeOwned>(text: &[u8]) -> Result<T, JsonFlaw> {
     })
 }
 
+/// Most bytes of a text whose mistake is explained: its values take up to thirty times as much memory. Of a
+/// longer one, the parser says what is wrong.
+const MOST_EXPLAINED: usize = 4 << 20;
+
 /// Returns the mistake in a text that is valid JSON, as a sentence.
 fn fault_of<T: DeserializeOwned>(text: &[u8]) -> Option<String> {
+    if text.len() > MOST_EXPLAINED {
+        return None;
+    }
     let value: TextValue = serde_json::from_slice(text).ok()?;
     let found: Result<T, KeyFault> = T::deserialize(&value);
     found.err().map(|fault| fault.to_string())

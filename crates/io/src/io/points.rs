@@ -7,11 +7,15 @@ use glam::DVec2;
 
 use super::ReadError;
 use super::disk::File;
-use super::error::PlacedFlaw;
+use super::error::{Flaw, PlacedFlaw};
 use super::table::Rows;
+use meshbrush_mesh::text::Grouped;
 
 /// Names of the columns, in lower case.
 const NAMES: [&[&str]; 2] = [&["x", "lon", "lng", "long", "longitude"], &["y", "lat", "latitude"]];
+
+/// Most points that are read: a pipe may have no end.
+const MOST_POINTS: usize = 100_000_000;
 
 /// Reads the points of a table, in world units, in the order of its rows.
 ///
@@ -39,12 +43,21 @@ pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadErr
 }
 
 fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
+    parse_at_most(source, MOST_POINTS)
+}
+
+fn parse_at_most(source: impl BufRead, most: usize) -> Result<Vec<DVec2>, PlacedFlaw> {
     let mut rows = Rows::new(source);
     let [Some(x), Some(y)] = rows.read_header(NAMES, 2)? else {
         unreachable!("both columns are required");
     };
     let mut points = Vec::new();
     while rows.advance()? {
+        if points.len() == most {
+            let problem =
+                format!("it has more than {} points, which is the limit. Divide it.", Grouped(most));
+            return Err(Flaw::Syntax(problem).into());
+        }
         points.push(DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?));
     }
     Ok(points)
@@ -77,6 +90,14 @@ mod tests {
         }
         let odd = parsed("x,y\nNaN,inf\n").unwrap();
         assert!(odd[0].x.is_nan() && odd[0].y == f64::INFINITY);
+    }
+
+    #[test]
+    fn an_input_without_end_is_refused_at_the_limit() {
+        let rows = |count: usize| format!("x,y\n{}", "1,2\n".repeat(count));
+        assert_eq!(parse_at_most(rows(3).as_bytes(), 3).map(|points| points.len()).ok(), Some(3));
+        let refused = parse_at_most(rows(4).as_bytes(), 3).unwrap_err().flaw.to_string();
+        assert!(refused.starts_with("it has more than 3 points"), "{refused}");
     }
 
     #[test]

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use rusqlite::{Connection, OpenFlags, Row};
+use rusqlite::{Connection, Row};
 
 use crate::io::coordinates::{self, FileCoordinates};
 use crate::io::error::{Flaw, PlacedFlaw};
 use crate::io::geojson::{self, Outline};
+use crate::io::gpkg::connection::Database;
 use crate::io::shapes::{self, ShapeFile};
 use crate::io::wkb::Bytes;
 use crate::io::{CoordinateSystem, Meter};
@@ -16,7 +17,12 @@ use meshbrush_core::layers::ShapeList;
 /// Bytes of the envelope in front of a geometry, by its number in the header.
 const ENVELOPES: [usize; 5] = [0, 32, 48, 48, 64];
 
-/// A table of shapes.
+/// Most tables of shapes.
+const MOST_LAYERS: usize = 1000;
+/// Most characters of a name of a row that are read.
+const LONGEST_NAME: usize = 250;
+
+/// A table of shapes, or a view.
 struct Layer {
     table: String,
     column: String,
@@ -33,7 +39,7 @@ impl Layer {
 }
 
 pub(super) fn outline(path: &Path, meter: &Meter) -> Result<Outline, PlacedFlaw> {
-    let (connection, layers) = layers_of(path, meter)?;
+    let (database, layers) = layers_of(path, meter)?;
     let names: Vec<String> =
         layers.iter().filter(|layer| layer.has_polygons()).map(|layer| layer.table.clone()).collect();
     if names.len() > 1 {
@@ -53,12 +59,12 @@ pub(super) fn outline(path: &Path, meter: &Meter) -> Result<Outline, PlacedFlaw>
     };
     let polygons: Vec<NamedPolygon> = layer.rows.into_iter().flat_map(of_row).collect();
     let corners = polygons.iter().flat_map(|named| &named.polygon).flatten().copied();
-    let coordinates = system_of(&connection, system)?.unwrap_or_else(|| FileCoordinates::unstated(corners));
+    let coordinates = system_of(&database, system)?.unwrap_or_else(|| FileCoordinates::unstated(corners));
     Ok(Outline { polygons, coordinates })
 }
 
 pub(super) fn shapes(path: &Path, meter: &Meter) -> Result<ShapeFile, PlacedFlaw> {
-    let (connection, layers) = layers_of(path, meter)?;
+    let (database, layers) = layers_of(path, meter)?;
     let system = layers.first().map(|layer| layer.system);
     if layers.iter().any(|layer| Some(layer.system) != system) {
         let problem = "its layers have several coordinate systems. Export the layer that is wanted, as GeoJSON or \
@@ -72,50 +78,52 @@ pub(super) fn shapes(path: &Path, meter: &Meter) -> Result<ShapeFile, PlacedFlaw
         all.polygons.extend(shapes.polygons);
     }
     shapes::check(&all)?;
-    let stated = system.map(|system| system_of(&connection, system)).transpose()?.flatten();
+    let stated = system.map(|system| system_of(&database, system)).transpose()?.flatten();
     let coordinates = stated.unwrap_or_else(|| FileCoordinates::unstated(shapes::places(&all)));
     Ok(ShapeFile { shapes: all, coordinates })
 }
 
 /// Opens a file, and reads the layers that have shapes.
-fn layers_of(path: &Path, meter: &Meter) -> Result<(Connection, Vec<Layer>), PlacedFlaw> {
-    // SQLite says no more than that it cannot open a file that is not there.
-    let bytes = std::fs::File::open(path)?.metadata()?.len();
+fn layers_of(path: &Path, meter: &Meter) -> Result<(Database, Vec<Layer>), PlacedFlaw> {
+    let database = Database::open(path, meter)?;
+    let bytes = database.bytes;
     meter.expect(bytes);
-    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(path, flags).map_err(refused)?;
-    let mut layers = tables(&connection).map_err(refused)?;
+    let mut layers = tables(&database.connection).map_err(|error| database.flaw(error))?;
+    if layers.len() > MOST_LAYERS {
+        let problem = format!(
+            "it has more than {MOST_LAYERS} layers, which is the limit. Export those that are wanted."
+        );
+        return Err(Flaw::Syntax(problem).into());
+    }
     let (mut corners, mut counted) = (0, 0);
     for layer in &mut layers {
-        read_rows(&connection, layer, meter, &mut (&mut corners, &mut counted))?;
+        read_rows(&database, layer, meter, &mut (&mut corners, &mut counted))?;
     }
     meter.add(bytes.saturating_sub(counted)).map_err(Flaw::from)?;
     layers.retain(|layer| !layer.rows.is_empty());
-    Ok((connection, layers))
+    Ok((database, layers))
 }
 
-fn refused(error: rusqlite::Error) -> PlacedFlaw {
-    let problem = format!("this is not a GeoPackage that can be read ({error}). Export the layer again.");
-    Flaw::Syntax(problem).into()
-}
-
-/// Returns the tables of shapes in the order of their names, without their rows.
+/// Returns the tables of shapes in the order of their names, without their rows; one too many where they are
+/// too many.
 fn tables(connection: &Connection) -> rusqlite::Result<Vec<Layer>> {
-    let sql = "SELECT table_name, column_name, srs_id FROM gpkg_geometry_columns ORDER BY table_name";
+    let sql =
+        "SELECT table_name, column_name, srs_id FROM gpkg_geometry_columns ORDER BY table_name LIMIT ?1";
     let layer = |row: &Row| {
         Ok(Layer { table: row.get(0)?, column: row.get(1)?, system: row.get(2)?, rows: Vec::new() })
     };
-    connection.prepare(sql)?.query_map([], layer)?.collect()
+    connection.prepare(sql)?.query_map([MOST_LAYERS as i64 + 1], layer)?.collect()
 }
 
 /// Returns what the coordinates of a system of the file are; `None` where it says that they are undefined.
-fn system_of(connection: &Connection, system: i64) -> Result<Option<FileCoordinates>, PlacedFlaw> {
+fn system_of(database: &Database, system: i64) -> Result<Option<FileCoordinates>, PlacedFlaw> {
     if system <= 0 {
         return Ok(None);
     }
     let sql = "SELECT organization, organization_coordsys_id, definition FROM gpkg_spatial_ref_sys WHERE srs_id = ?1";
     let read = |row: &Row| Ok((row.get::<_, String>(0)?, row.get::<_, i64>(1)?, row.get::<_, String>(2)?));
-    let (organization, code, definition) = connection.query_row(sql, [system], read).map_err(refused)?;
+    let (organization, code, definition) =
+        database.connection.query_row(sql, [system], read).map_err(|error| database.flaw(error))?;
     if organization.eq_ignore_ascii_case("epsg") {
         return Ok(u32::try_from(code).ok().map(coordinates::of_epsg));
     }
@@ -130,17 +138,22 @@ fn quoted(name: &str) -> String {
 
 /// Reads the rows of a layer that have shapes. `counts` are the corners and the bytes so far.
 fn read_rows(
-    connection: &Connection,
+    database: &Database,
     layer: &mut Layer,
     meter: &Meter,
     counts: &mut (&mut usize, &mut u64),
 ) -> Result<(), PlacedFlaw> {
+    let refused = |error| database.flaw(error);
+    let connection = &database.connection;
     let (table, column) = (quoted(&layer.table), quoted(&layer.column));
     let named = format!("SELECT count(*) FROM pragma_table_info({table}) WHERE lower(name) = 'name'");
     let has_name = connection.query_row(&named, [], |row| row.get::<_, i64>(0)).map_err(refused)? > 0;
-    let name = if has_name { "CAST(name AS TEXT)" } else { "NULL" };
-    let sql = format!("SELECT {column}, {name} FROM {table} WHERE {column} IS NOT NULL ORDER BY rowid");
-    let mut statement = connection.prepare(&sql).map_err(refused)?;
+    let name = format!("substr(CAST(name AS TEXT), 1, {LONGEST_NAME})");
+    let name = if has_name { &*name } else { "NULL" };
+    let sql = format!("SELECT {column}, {name} FROM {table} WHERE {column} IS NOT NULL");
+    // The rows of a view have no numbers: they come in the order of its query.
+    let in_order = connection.prepare(&format!("{sql} ORDER BY rowid"));
+    let mut statement = in_order.or_else(|_| connection.prepare(&sql)).map_err(refused)?;
     let mut rows = statement.query([]).map_err(refused)?;
     let mut number = 0;
     while let Some(row) = rows.next().map_err(refused)? {

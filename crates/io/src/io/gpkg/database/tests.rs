@@ -104,3 +104,103 @@ fn several_layers_of_polygons_or_systems_are_refused() {
     let sentence = gpkg::read(&file.0, &Meter::default()).unwrap_err().to_string();
     assert!(sentence.contains("several coordinate systems"), "{sentence}");
 }
+
+/// Returns a good file in which the only layer is the view of this query.
+fn with_view(name: &str, query: &str) -> Scratch {
+    let file = Scratch::new(name, LAND);
+    let connection = Connection::open(&file.0).unwrap();
+    let sql = format!(
+        "CREATE VIEW shown AS {query};
+         UPDATE gpkg_geometry_columns SET table_name = 'shown';"
+    );
+    connection.execute_batch(&format!("PRAGMA foreign_keys = OFF; {sql}")).unwrap();
+    file
+}
+
+#[test]
+fn views_are_read_as_tables_are() {
+    let file = with_view("view", "SELECT name, geom FROM land WHERE name <> 'Big'");
+    let outline = gpkg::read_outline(&file.0, &Meter::default()).unwrap();
+    let names: Vec<&str> = outline.polygons.iter().map(|named| &*named.name).collect();
+    assert_eq!(names, ["Small é"]);
+}
+
+#[test]
+fn queries_of_views_are_limited_in_time_and_memory() {
+    let count = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)";
+    for (name, query, said) in [
+        ("endless", format!("{count} SELECT CASE WHEN i < 0 THEN x'' END AS geom FROM n"), "take too long"),
+        ("endless-rows", format!("{count} SELECT x'' AS geom FROM n"), "row 1 of the layer"),
+        ("late", format!("{count} SELECT geom FROM land, n WHERE n.i < 0"), "take too long"),
+        ("long", "SELECT zeroblob(1000000000) AS geom".into(), "more than 64 MiB"),
+        ("sorted", format!("{count} SELECT randomblob(1000000) AS geom FROM n ORDER BY 1"), "of memory"),
+        ("absent", "SELECT geom FROM missing".into(), "that can be read (no such table: main.missing)"),
+        (
+            "function",
+            "SELECT load_extension('a') AS geom".into(),
+            "that can be read (unsafe use of load_extension())",
+        ),
+    ] {
+        let file = with_view(name, &query);
+        let refused = gpkg::read(&file.0, &Meter::default()).unwrap_err().to_string();
+        assert!(refused.contains(said) && refused.len() < 600, "{name}: {refused}");
+        assert!(!refused.contains("SELECT"), "{name}: {refused}");
+    }
+    let file = with_view("cancelled-view", &format!("{count} SELECT geom FROM land, n WHERE n.i < 0"));
+    let meter = Meter::default();
+    let cancel = {
+        let meter = meter.clone();
+        std::thread::spawn(move || {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            meter.cancel();
+        })
+    };
+    let refused = gpkg::read(&file.0, &meter).unwrap_err().to_string();
+    assert!(refused.contains("it was cancelled"), "{refused}");
+    cancel.join().unwrap();
+}
+
+#[cfg(unix)]
+#[test]
+fn changes_beside_a_file_count_and_nothing_stays_behind() {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    let folder = std::env::temp_dir().join(format!("meshbrush-{}-wal", std::process::id()));
+    std::fs::create_dir(&folder).unwrap();
+    let path = folder.join("land.gpkg");
+    std::fs::write(&path, LAND).unwrap();
+    let names = || {
+        let names = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name());
+        let mut names: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+        names.sort();
+        names
+    };
+    let polygons = || gpkg::read_outline(&path, &Meter::default()).map(|outline| outline.polygons.len());
+    let writer = Connection::open(&path).unwrap();
+    writer.pragma_update(None, "journal_mode", "wal").unwrap();
+    writer.execute_batch("DELETE FROM land WHERE name <> 'Big'").unwrap();
+    assert_eq!(polygons().unwrap(), 2, "as the other program sees them");
+    // A copy without the file that SQLite needs beside it, in a folder where nobody makes one.
+    let copy = folder.join("copy");
+    std::fs::create_dir(&copy).unwrap();
+    for ending in ["", "-wal"] {
+        std::fs::copy(format!("{}{ending}", path.display()), copy.join(format!("land.gpkg{ending}")))
+            .unwrap();
+    }
+    drop(writer);
+    assert_eq!((polygons().unwrap(), names()), (2, vec!["copy".to_owned(), "land.gpkg".to_owned()]));
+    std::fs::set_permissions(&copy, std::fs::Permissions::from_mode(0o555)).unwrap();
+    let copied = gpkg::read_outline(&copy.join("land.gpkg"), &Meter::default());
+    std::fs::set_permissions(&copy, std::fs::Permissions::from_mode(0o755)).unwrap();
+    // The superuser makes files in any folder.
+    let said = copied.map(|outline| outline.polygons.len()).map_err(|error| error.to_string());
+    assert!(
+        said == Ok(2) || said.as_ref().is_err_and(|said| said.contains("left changes beside")),
+        "{said:?}"
+    );
+    // With a name that an address must escape.
+    let odd = folder.join("a b%20?é#.gpkg");
+    std::fs::copy(&path, &odd).unwrap();
+    assert_eq!(gpkg::read_outline(&odd, &Meter::default()).unwrap().polygons.len(), 2);
+    std::fs::remove_dir_all(folder).unwrap();
+}
