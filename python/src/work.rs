@@ -5,6 +5,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
+use meshbrush_cli::cli::threads::most;
 use meshbrush_io::io::Meter;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -126,7 +127,7 @@ fn own_pool(threads: Option<usize>) -> PyResult<Option<ThreadPool>> {
     let is_forked = IMPORTED_BY.get().is_some_and(|&process| process != std::process::id());
     let threads = match threads {
         Some(0) => return Err(crate::errors::mesh_error("threads = 0: there must be 1 thread at least.")),
-        Some(threads) => threads,
+        Some(threads) => threads.min(most()),
         None if is_forked => 0,
         None => return Ok(None),
     };

@@ -7,6 +7,7 @@ mod depth;
 mod distance_pieces;
 mod earth;
 mod folder;
+mod hostile;
 mod layer_files;
 mod lengths;
 mod located;

@@ -17,8 +17,10 @@ use super::help::{
 use super::more_args::ManArguments;
 use super::more_args::{
     CompletionsArguments, RecipeArguments, ReplayArguments, ReportArguments, ScreenshotsArguments,
+    ThumbnailArguments,
 };
 use super::path_args::PathArguments;
+use super::picture_args::PictureArguments;
 use super::space_look::SpaceArguments;
 use super::surface_args::SurfaceArguments;
 use super::water::WaterArguments;
@@ -90,6 +92,11 @@ pub enum Command {
     ///
     /// The recipe gives the mesh of the project. Existing files are replaced.
     Recipe(RecipeArguments),
+    /// Draw a small picture of a project, in at most 2 s and 256 MB
+    ///
+    /// File managers run this on every project that they show. Where it would take longer or more, or the mesh
+    /// has more than a million triangles, there is no picture, and the exit status is 1.
+    Thumbnail(ThumbnailArguments),
     /// Do the edits of a recorded session again, and compare the mesh after each
     ///
     /// *Export as test…* in the window writes the file. The exit status is 1 if a mesh is not the recorded
@@ -380,39 +387,6 @@ pub struct MeshArguments {
 
     #[command(flatten)]
     pub space: SpaceArguments,
-}
-
-/// The usual width of a picture, in pixels.
-pub const PICTURE_SIZE: &str = "1600";
-/// The usual colours of the levels.
-pub const PICTURE_COLORMAP: &str = "viridis";
-
-impl PictureArguments {
-    /// Returns whether an option was given that is not the default.
-    pub fn differs_from_default(&self) -> bool {
-        self.size != PICTURE_SIZE || self.no_edges || self.colormap != PICTURE_COLORMAP || self.light
-    }
-}
-
-/// The look of pictures.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Pictures (.svg and .png)")]
-pub struct PictureArguments {
-    /// Width, or width and height, in pixels
-    #[arg(long, value_name = "W[xH]", default_value = PICTURE_SIZE)]
-    pub size: String,
-
-    /// Do not draw the edges
-    #[arg(long)]
-    pub no_edges: bool,
-
-    /// Colours of the levels: viridis, magma, cividis, turbo or greys
-    #[arg(long, value_name = "NAME", default_value = PICTURE_COLORMAP)]
-    pub colormap: String,
-
-    /// Draw on a light background
-    #[arg(long)]
-    pub light: bool,
 }
 
 /// `meshbrush locate`.

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::input::Input;
 use super::output::Output;
 use super::requested_files::{RequestedFiles, write_files};
+use super::standard_output;
 use super::summary::Summary;
 use super::terminal::Terminal;
 use meshbrush_core::layers::SurfaceNorm;
@@ -235,5 +236,5 @@ fn check_stdout(typed: &MeshArguments, outputs: &[Output]) -> Result<(), Failure
         let problem = "-o - and --json both print on standard output, and -o - can be there once";
         return Err(Failure::Usage(format!("{problem}. Write all but one to files.")));
     }
-    Ok(())
+    if results > 0 { standard_output::check().map_err(Failure::Print) } else { Ok(()) }
 }

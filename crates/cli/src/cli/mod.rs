@@ -20,11 +20,13 @@ mod locate;
 mod man;
 mod mesh;
 mod more_args;
+mod opened_file;
 mod options;
 pub mod output;
 mod path;
 mod path_args;
 mod path_proof;
+mod picture_args;
 mod points;
 mod quantities;
 mod recipe;
@@ -33,15 +35,17 @@ mod report;
 pub mod requested_files;
 mod run_clock;
 mod space_look;
+mod standard_output;
 pub mod summary;
 mod surface_args;
 mod terminal;
+pub mod threads;
+mod thumbnail;
 mod water;
 pub mod why;
 
 use std::ffi::OsString;
-use std::io::{self, Write};
-use std::num::NonZeroUsize;
+use std::io::{self, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -52,6 +56,8 @@ pub use run_clock::RunClock;
 use args::{Arguments, Command};
 use command_line::command_line;
 use failure::Failure;
+use meshbrush_mesh::text::printable;
+use standard_output::StandardOutput;
 use terminal::Terminal;
 
 /// The functions of the window that the command line calls. Errors are sentences.
@@ -77,15 +83,14 @@ pub fn status_of(arguments: impl IntoIterator<Item = OsString>, window: Option<W
     let arguments = match Arguments::read(&typed) {
         Ok(arguments) => arguments,
         Err(answer) => {
-            // Help and version too come as an "error", with status 0. A closed pipe is no error.
-            let _ = answer.print();
+            print_answer(&answer);
             return answer.exit_code() as u8;
         }
     };
-    if let Some(threads) = arguments.threads {
-        limit_threads(threads);
-    }
     let mut terminal = Terminal::new();
+    if let Some(note) = threads::start(arguments.threads) {
+        terminal.note(&note);
+    }
     match run_command(arguments, &command_line(&typed), window, &mut terminal) {
         Ok(()) => 0,
         Err(failure) if failure.is_closed_pipe() => 0,
@@ -96,11 +101,16 @@ pub fn status_of(arguments: impl IntoIterator<Item = OsString>, window: Option<W
     }
 }
 
-/// Limits the threads that refine meshes, for the whole process.
-fn limit_threads(threads: NonZeroUsize) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
-    // It fails where threads were started before: only tests run two commands in one process.
-    let _ = pool.build_global();
+/// Prints help, the version, or what is wrong with the arguments, which are repeated in it.
+fn print_answer(answer: &clap::Error) {
+    // A closed pipe is no error.
+    let _ = match answer.use_stderr() {
+        true if io::stderr().is_terminal() && printable(&answer.to_string()) == answer.to_string() => {
+            answer.print()
+        }
+        true => write!(io::stderr(), "{}", printable(&answer.to_string())),
+        false => answer.print(),
+    };
 }
 
 /// Runs a command; `line` is how it was typed.
@@ -110,7 +120,7 @@ fn run_command(
     window: Option<Window>,
     terminal: &mut Terminal,
 ) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = StandardOutput::lock();
     match (arguments.command, window) {
         (Some(Command::Mesh(typed)), _) => mesh::run(&typed, line, &mut out, terminal),
         (Some(Command::Locate(typed)), _) => locate::run(&typed, &mut out, terminal),
@@ -118,6 +128,7 @@ fn run_command(
         (Some(Command::Path(typed)), _) => path::run(&typed, line, &mut out, terminal),
         (Some(Command::Replay(typed)), _) => replay::run(&typed, &mut out, terminal),
         (Some(Command::Report(typed)), _) => report::run(&typed, &mut out, terminal),
+        (Some(Command::Thumbnail(typed)), _) => thumbnail::write(&typed, terminal),
         (Some(Command::Recipe(typed)), _) => recipe::write(&typed, terminal),
         (Some(Command::Completions(typed)), _) => {
             let mut script = Vec::new();
@@ -138,11 +149,12 @@ fn run_command(
             }
             Ok(())
         }
-        (None, Some(window)) => {
+        (None, window) => {
             drop(out);
+            arguments.file.as_deref().map_or(Ok(()), opened_file::check)?;
+            let window = window.ok_or_else(without_window)?;
             (window.open)(arguments.file).map_err(Failure::Work)
         }
-        (None, None) => Err(without_window()),
     }
 }
 

@@ -15,6 +15,20 @@ pub struct RecipeArguments {
     pub output: PathBuf,
 }
 
+/// `meshbrush thumbnail`.
+#[derive(Debug, Args)]
+pub struct ThumbnailArguments {
+    /// A project saved in the window (.meshbrush)
+    pub project: PathBuf,
+
+    /// The picture to write, as PNG whatever its name
+    pub output: PathBuf,
+
+    /// Width and height, in pixels
+    #[arg(long, value_name = "PIXELS", default_value_t = 256, value_parser = clap::value_parser!(u32).range(16..=1024))]
+    pub size: u32,
+}
+
 /// `meshbrush replay`.
 #[derive(Debug, Args)]
 pub struct ReplayArguments {

@@ -1,13 +1,14 @@
 //! Output files: checks before the work, and the look of pictures.
 
-use std::io::{self, BufWriter, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::build::FinishedMesh;
 use super::failure::Failure;
+use super::picture_args::{PICTURE_COLORMAP, PICTURE_SIZE, PictureArguments};
 use super::space_look::RequestedSpace;
+use super::standard_output::StandardOutput;
 use meshbrush_io::io::settings::SavedOutput;
 use meshbrush_io::io::{KeyFault, MeshData, Meter, ThirdCoordinate, obstacle};
 use meshbrush_mesh::mesh::{Extract, Mesh};
@@ -148,7 +149,7 @@ impl Output {
         meter: &Meter,
     ) -> Result<Vec<PathBuf>, Failure> {
         let Some(path) = &self.path else {
-            let mut out = BufWriter::new(io::stdout().lock());
+            let mut out = BufWriter::new(StandardOutput::lock());
             let written = self.format.write_to(&mut out, mesh, extract, data, look, meter);
             return written.and_then(|()| out.flush()).map(|()| Vec::new()).map_err(Failure::Print);
         };
@@ -174,7 +175,8 @@ pub fn is_standard_stream(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-fn failed(path: &Path, problem: String) -> Failure {
+/// Returns why a file cannot be written.
+pub fn failed(path: &Path, problem: String) -> Failure {
     Failure::Write { file: path.to_owned(), problem }
 }
 

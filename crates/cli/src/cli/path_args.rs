@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::args::{InputArguments, PictureArguments};
+use super::args::InputArguments;
+use super::picture_args::PictureArguments;
 use meshbrush_mesh::text::Length;
 
 /// `meshbrush path`.

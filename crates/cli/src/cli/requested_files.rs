@@ -21,6 +21,11 @@ use meshbrush_mesh::mesh::Extract;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::{ExportFormat, Look, NO_SVG_IN_SPACE};
 
+/// Most files that one command writes.
+const MOST_FILES: usize = 1000;
+/// Most quantities of a file: each takes a number for each node.
+const MOST_QUANTITIES: usize = 100;
+
 /// Files with one look and the same values at the nodes.
 #[derive(Debug)]
 pub struct RequestedFiles {
@@ -32,12 +37,22 @@ pub struct RequestedFiles {
     is_flat: bool,
 }
 
+/// Refuses too many values of an option.
+fn check_count(option: &str, what: &str, count: usize, most: usize) -> Result<(), Failure> {
+    match count > most {
+        true => Err(Failure::Usage(format!("{option} names {count} {what}, and the limit is {most}."))),
+        false => Ok(()),
+    }
+}
+
 impl RequestedFiles {
     /// Returns the files that the options request.
     ///
     /// # Errors
     /// Fails with a sentence that names the option, the value and the rule.
     pub fn of_options(typed: &MeshArguments) -> Result<Self, Failure> {
+        check_count("-o", "files", typed.output.len(), MOST_FILES)?;
+        check_count("--quantity", "quantities", typed.quantity.len(), MOST_QUANTITIES)?;
         let look = RequestedLook::new(&typed.picture)?.in_space(RequestedSpace::new(&typed.space)?);
         let quantities = parse_quantities(&typed.quantity).map_err(|(index, error)| match error {
             QuantityError::Name(_) => {
@@ -62,6 +77,7 @@ impl RequestedFiles {
     /// # Errors
     /// Fails with the line and column of a value that cannot be used.
     pub fn of_recipe(recipe: &Recipe) -> Result<Vec<Self>, Failure> {
+        check_count("The recipe", "outputs", recipe.settings.output.len(), MOST_FILES)?;
         let files = |(index, output): (usize, &SavedOutput)| {
             Self::of_output(output).map_err(|fault| recipe.output_error(index, fault).into())
         };
@@ -81,6 +97,8 @@ impl RequestedFiles {
         if look.is_in_space() && file.is_vector_picture() {
             return Err(KeyFault::value("view", format!("{NO_SVG_IN_SPACE}.")));
         }
+        check_count("The output", "quantities", saved.quantities.len(), MOST_QUANTITIES)
+            .map_err(|failure| KeyFault::value("quantities", failure.to_string()))?;
         let quantities = parse_quantities(&saved.quantities).map_err(|(index, error)| {
             let fault = match &error {
                 QuantityError::Name(_) => KeyFault::value("quantities", error.to_string()),

@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use meshbrush_io::io::Meter;
-use meshbrush_mesh::text::Bytes;
+use meshbrush_mesh::text::{Bytes, printable};
 
 /// Work shorter than this shows no progress.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -49,10 +49,10 @@ impl Terminal {
         Self { show_progress: io::stderr().is_terminal(), turns: Turns::default() }
     }
 
-    /// One line.
+    /// One line. It may repeat what a file or a person wrote.
     pub fn say(&mut self, line: &str) {
         self.clear();
-        let _ = writeln!(io::stderr(), "{line}");
+        let _ = writeln!(io::stderr(), "{}", printable(line));
     }
 
     /// A sentence that the user should know, though the work goes well.
@@ -125,6 +125,7 @@ impl Drop for Ends<'_> {
 
 /// Shortens a line of progress so that no terminal breaks it. A broken line could not be erased.
 fn progress_line(text: &str) -> String {
+    let text = &printable(text);
     // The end says how far the work is: it stays.
     let (count, most) = (text.chars().count(), LONGEST_LINE - 2);
     if count <= most {

@@ -9,6 +9,44 @@ const LONGEST_LINE: usize = 500;
 /// Characters at the end of a line that is too long, which stay: what would help is said there.
 const END_OF_LINE: usize = 150;
 
+/// Most characters of a word of a message: of a name with all its folders.
+const LONGEST_WORD: usize = 400;
+
+/// Returns a message as a terminal may get it: names in it cannot move the cursor, change colours, or turn
+/// the direction of writing, and long words are shortened in their middle.
+///
+/// ```
+/// # use meshbrush_mesh::text::printable;
+/// assert_eq!(printable("a\u{1b}[31m.vtu\n\u{202e}b"), "a\\u{1b}[31m.vtu\n\\u{202e}b");
+/// ```
+pub fn printable(message: &str) -> String {
+    message.split_inclusive([' ', '\n']).map(|word| escaped(&shortened_word(word))).collect()
+}
+
+fn shortened_word(word: &str) -> Cow<'_, str> {
+    let count = word.chars().count();
+    if count <= LONGEST_WORD {
+        return word.into();
+    }
+    let start: String = word.chars().take(LONGEST_WORD / 2).collect();
+    let end: String = word.chars().skip(count - LONGEST_WORD / 4).collect();
+    format!("{start}…{end}").into()
+}
+
+/// Escapes what controls a terminal or the direction of writing, except the end of a line.
+fn escaped(text: &str) -> String {
+    let is_direction = |c| matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let controls = |c: char| c != '\n' && (c.is_control() || is_direction(c));
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match controls(c) {
+            true => escaped.extend(c.escape_unicode()),
+            false => escaped.push(c),
+        }
+    }
+    escaped
+}
+
 /// Returns at most `most` characters of a text from a file, escaped, with an ellipsis if more follow.
 pub fn excerpt(most: usize, text: &str) -> String {
     let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);

@@ -14,7 +14,7 @@ mod xml;
 
 pub use bytes::Bytes;
 pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
-pub use excerpt::{abridged, excerpt, short_name};
+pub use excerpt::{abridged, excerpt, printable, short_name};
 pub use grouped::{Grouped, group_digits};
 pub use length::Length;
 pub use number::Number;

@@ -5,6 +5,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::io::Write;
 use std::mem::MaybeUninit;
+use std::sync::atomic::{AtomicIsize, AtomicUsize, Ordering};
 
 use super::{LimitError, Mesh};
 
@@ -102,7 +103,39 @@ fn may_fail<T>(reserve: impl FnOnce() -> T) -> T {
 #[derive(Debug)]
 pub struct ProgramAllocator;
 
+/// Most bytes in use at a time, where there is a limit.
+static LIMIT: AtomicUsize = AtomicUsize::new(usize::MAX);
+/// Bytes in use, where there is a limit; memory from before it counts as negative when it is freed.
+static USED: AtomicIsize = AtomicIsize::new(0);
+
+/// Whether there is a limit: without one, nothing is counted.
+#[inline]
+fn is_limited() -> bool {
+    LIMIT.load(Ordering::Relaxed) != usize::MAX
+}
+
+/// Notes that more is used, where that is within the limit.
+fn take(bytes: usize) -> bool {
+    let used = USED.fetch_add(bytes as isize, Ordering::Relaxed) + bytes as isize;
+    let is_within = used <= LIMIT.load(Ordering::Relaxed) as isize;
+    if !is_within {
+        free(bytes);
+    }
+    is_within
+}
+
+fn free(bytes: usize) {
+    USED.fetch_sub(bytes as isize, Ordering::Relaxed);
+}
+
 impl ProgramAllocator {
+    /// Limits the memory of this process from now on, in bytes. Beyond the limit it is as if the system had no
+    /// more memory.
+    pub fn limit(bytes: usize) {
+        USED.store(0, Ordering::Relaxed);
+        LIMIT.store(bytes.min(isize::MAX as usize), Ordering::Relaxed);
+    }
+
     /// Has large arrays go back to the system when they are freed. The allocator of GNU/Linux would keep
     /// those of up to 32 MiB once some were freed: after a path through two million triangles, a quarter of
     /// the memory of the program.
@@ -116,34 +149,43 @@ impl ProgramAllocator {
     }
 }
 
-// SAFETY: all calls are passed on to the allocator of the system unchanged, and so are its results.
+// SAFETY: calls are passed on to the allocator of the system unchanged, and so are its results; or the answer
+// is null, as when the system has no memory.
 #[allow(unsafe_code, reason = "an allocator has no safe interface")]
 unsafe impl GlobalAlloc for ProgramAllocator {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: the caller keeps the rules of this function, which are those of the system's.
-        given(unsafe { System.alloc(layout) }, layout.size())
+        given(layout.size(), || unsafe { System.alloc(layout) })
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
         // SAFETY: as above.
-        given(unsafe { System.alloc_zeroed(layout) }, layout.size())
+        given(layout.size(), || unsafe { System.alloc_zeroed(layout) })
     }
 
     unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         // SAFETY: as above.
-        given(unsafe { System.realloc(place, layout, size) }, size)
+        let new = given(size, || unsafe { System.realloc(place, layout, size) });
+        if is_limited() && !new.is_null() {
+            free(layout.size());
+        }
+        new
     }
 
     unsafe fn dealloc(&self, place: *mut u8, layout: Layout) {
+        if is_limited() {
+            free(layout.size());
+        }
         // SAFETY: as above.
         unsafe { System.dealloc(place, layout) }
     }
 }
 
-/// Returns the memory that the system gave. If it is null and no caller handles that, this ends the program
-/// with a message.
+/// Returns the memory that the system gives, within the limit. If it is null and no caller handles that, this
+/// ends the program with a message.
 #[inline]
-fn given(place: *mut u8, bytes: usize) -> *mut u8 {
+fn given(bytes: usize, ask: impl FnOnce() -> *mut u8) -> *mut u8 {
+    let place = if is_limited() && !take(bytes) { std::ptr::null_mut() } else { ask() };
     if place.is_null() && !MAY_FAIL.get() {
         end_without_memory(bytes);
     }
@@ -153,6 +195,15 @@ fn given(place: *mut u8, bytes: usize) -> *mut u8 {
 /// Ends the program. Nothing here allocates.
 #[cold]
 fn end_without_memory(bytes: usize) -> ! {
+    let limit = LIMIT.swap(usize::MAX, Ordering::Relaxed);
+    if limit != usize::MAX {
+        let _ = writeln!(
+            std::io::stderr(),
+            "meshbrush: This takes more than {} MB of memory, which is the limit here.",
+            limit / 1_000_000
+        );
+        std::process::exit(1)
+    }
     let _ = writeln!(
         std::io::stderr(),
         "meshbrush: Memory ran out: the system has no {bytes} bytes more. Make the mesh coarser, allow fewer triangles or less \
