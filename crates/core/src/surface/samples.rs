@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::errors::ErrorLayers;
+use crate::geometry::Rect;
 use crate::layers::{Layer, LayerId, LayerKind, Mask, SurfaceSource};
 use crate::raster::RasterPyramid;
 
@@ -95,6 +96,8 @@ pub(super) struct SampleGrid {
     pub(super) step: DVec2,
     /// Columns and rows.
     pub(super) size: [u32; 2],
+    /// The domain is in this rectangle, in world units.
+    pub(super) bounds: Rect,
 }
 
 /// Values of samples, with the precision of their source.
@@ -294,9 +297,12 @@ impl SampleValues {
 }
 
 impl SampleGrid {
-    /// Returns the place of a sample, in world units.
+    /// Returns the place of a sample, in world units. A sample that is beside a side of the domain by no more
+    /// than rounding, [`CLOSED`] steps of the grid, is on the side.
     pub(super) fn place(&self, column: u32, row: u32) -> DVec2 {
-        self.first + self.step * DVec2::new(f64::from(column), f64::from(row))
+        let place = self.first + self.step * DVec2::new(f64::from(column), f64::from(row));
+        let within = place.clamp(self.bounds.min, self.bounds.max);
+        DVec2::select((place - within).abs().cmple(CLOSED * self.step), within, place)
     }
 
     pub(super) fn places(&self, row: &SampleRow) -> std::ops::Range<usize> {

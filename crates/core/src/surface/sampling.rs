@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::errors::ErrorLayers;
 use super::samples::{LayerSamples, SampleFigures, SampleGrid, SampleValues, SurfaceSamples};
 use crate::domain::DomainOnLattice;
-use crate::geometry::{Lattice, Rect};
+use crate::geometry::Lattice;
 use crate::layers::{Layer, LayerKind, PaintLayers, SurfaceSource};
 use crate::mesh::Progress;
 use crate::raster::Raster;
@@ -28,8 +28,6 @@ pub struct SurfaceSampling {
     layer: usize,
     /// The row that is next.
     row: u32,
-    /// The domain is in this rectangle, in world units.
-    bounds: Rect,
 }
 
 impl SurfaceSampling {
@@ -41,8 +39,7 @@ impl SurfaceSampling {
         let layers: Vec<LayerSamples> =
             visible.filter_map(|layer| LayerSamples::of(layer, lattice)).collect();
         let found = SurfaceSamples { layers, ..SurfaceSamples::default() };
-        let (of_errors, bounds) = (Some(of_errors), lattice.bounds());
-        (!found.layers.is_empty()).then_some(Self { found, of_errors, layer: 0, row: 0, bounds })
+        (!found.layers.is_empty()).then_some(Self { found, of_errors: Some(of_errors), layer: 0, row: 0 })
     }
 
     /// One slice of work: about `budget` samples. The pixels of the first slice count in all.
@@ -72,7 +69,7 @@ impl SurfaceSampling {
         (self.found.count, self.found.range) = (figures.count, figures.range);
         self.find_errors(range);
         if self.row >= rows {
-            self.found.layers[self.layer].measure(&self.bounds);
+            self.found.layers[self.layer].measure();
             (self.layer, self.row) = (self.layer + 1, 0);
         }
         if self.layer == self.found.layers.len() { Progress::Done } else { Progress::More }
@@ -132,14 +129,19 @@ impl SurfaceSampling {
         let counts = self.counts(domain);
         let has_value =
             |place| layers.iter().any(|layer| layer.covers(place) && layer.source.height_at(place).is_some());
+        // What is missing in two layers is missing once.
+        let has_sample = |place| {
+            layers[..self.layer].iter().any(|above| above.covers(place) && above.grid.has_sample_at(place))
+        };
         let of_row = |row: u32| {
             let mut figures = SampleFigures::default();
             for column in 0..layer.grid.size[0] {
                 let place = layer.grid.place(column, row);
                 let value = layer.values.get(column, row, &layer.grid);
                 if value.is_nan() {
-                    figures.count.missing += usize::from(counts(place) && !has_value(place));
-                } else if domain.contains(place) {
+                    figures.count.missing +=
+                        usize::from(counts(place) && !has_value(place) && !has_sample(place));
+                } else if layer.grid.is_in(domain, place) {
                     figures.add_known(value);
                 }
             }
@@ -155,7 +157,7 @@ impl SurfaceSampling {
         move |place| {
             let is_hidden =
                 |above: &LayerSamples| above.covers(place) && above.source.height_at(place).is_some();
-            domain.contains(place) && layer.covers(place) && !above.iter().any(is_hidden)
+            layer.grid.is_in(domain, place) && layer.covers(place) && !above.iter().any(is_hidden)
         }
     }
 }
@@ -171,6 +173,7 @@ impl LayerSamples {
                     first: raster.pixel_center(0, 0),
                     step: raster.pixel_size(),
                     size: raster.size(),
+                    bounds: lattice.bounds(),
                 };
                 let range = source.raster.whole().range;
                 let is_finite =
@@ -201,7 +204,20 @@ impl SampleGrid {
         let steps = cells.map(|count| count << halvings.unwrap_or(lattice.halvings()));
         let bounds = lattice.bounds();
         let step = bounds.size() / DVec2::new(f64::from(steps[0]), f64::from(steps[1]));
-        Self { first: bounds.min, step, size: steps.map(|count| count + 1) }
+        Self { first: bounds.min, step, size: steps.map(|count| count + 1), bounds }
+    }
+
+    /// Returns whether a sample of the grid stands for a point in world units.
+    fn has_sample_at(&self, point: DVec2) -> bool {
+        let last = DVec2::from(self.size.map(f64::from)) - 0.5;
+        let at = (point - self.first) / self.step;
+        at.cmpge(DVec2::splat(-0.5)).all() && at.cmple(last).all()
+    }
+
+    /// Returns whether a place of a sample is in the domain.
+    fn is_in(&self, domain: &DomainOnLattice, place: DVec2) -> bool {
+        // A region asks about the nearest point of the lattice.
+        self.bounds.contains(place) && domain.contains(place)
     }
 
     /// Returns the value of a function at each place of some rows, row by row, found by several threads.

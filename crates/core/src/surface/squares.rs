@@ -4,7 +4,6 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::samples::{CLOSED, LayerSamples, Plane, SampleGrid, SampleRow, SampleValues, SurfaceSamples};
-use crate::geometry::Rect;
 use crate::layers::SurfaceNorm;
 
 impl SurfaceSamples {
@@ -23,9 +22,8 @@ impl SurfaceSamples {
 
 impl LayerSamples {
     /// Returns the integral over a closed triangle, given by its corners in world units, of the square of the
-    /// difference from the plane with these heights at the corners, by the trapezoidal rule: each sample
-    /// stands for the area of a cell of the grid, and one on an edge for half of it, since the triangle at
-    /// the other side has it, too.
+    /// difference from the plane with these heights at the corners. Each sample stands for the area of a cell
+    /// of the grid, which triangles that share it divide by their angles there ([`Plane::weights`]).
     ///
     /// For the gradient, samples are at the middle between four values.
     pub(super) fn squares(&self, corners: [DVec2; 3], heights: [f64; 3], norm: SurfaceNorm) -> f64 {
@@ -40,7 +38,7 @@ impl LayerSamples {
     fn squares_of_values(&self, corners: [DVec2; 3], heights: [f64; 3]) -> f64 {
         let plane = self.grid.plane(corners, heights);
         let rows = plane.rows(&self.grid).map(|row| {
-            let weights = plane.weights(&row);
+            let weights = plane.weights(&row, &self.grid);
             match &self.values {
                 SampleValues::Pixels(raster) => {
                     row.squares(raster.raster().row(row.row, row.columns()), weights)
@@ -56,7 +54,7 @@ impl LayerSamples {
         let grid = self.grid.between();
         let plane = grid.plane(corners, heights);
         let rows = plane.rows(&grid).map(|row| {
-            let (weights, count) = (plane.weights(&row), row.columns().len());
+            let (weights, count) = (plane.weights(&row, &grid), row.columns().len());
             let squares = row.columns().enumerate().map(|(n, column)| {
                 let difference = (self.rise(column, row.row) - plane.gradient) / grid.step;
                 let square = difference.length_squared();
@@ -75,12 +73,11 @@ impl LayerSamples {
         0.5 * DVec2::new(b - a + d - c, c - a + d - b)
     }
 
-    /// Measures the areas that samples stand for within a rectangle in world units.
-    pub(super) fn measure(&mut self, bounds: &Rect) {
+    /// Measures the areas that the samples in the domain stand for.
+    pub(super) fn measure(&mut self) {
         let cell = self.grid.step.x * self.grid.step.y;
-        let values =
-            self.grid.count_in(bounds, |column, row| !self.values.get(column, row, &self.grid).is_nan());
-        let gradients = self.grid.between().count_in(bounds, |column, row| !self.rise(column, row).is_nan());
+        let values = self.grid.count(|column, row| !self.values.get(column, row, &self.grid).is_nan());
+        let gradients = self.grid.between().count(|column, row| !self.rise(column, row).is_nan());
         self.areas = [values, gradients].map(|count| cell * count as f64);
     }
 }
@@ -92,12 +89,19 @@ impl SampleGrid {
             first: self.first + 0.5 * self.step,
             step: self.step,
             size: self.size.map(|n| n.saturating_sub(1)),
+            bounds: self.bounds,
         }
     }
 
-    /// Counts the samples in a closed rectangle that meet a condition by column and row.
-    fn count_in(&self, bounds: &Rect, meets: impl Fn(u32, u32) -> bool + Sync) -> usize {
-        let [low, high] = [bounds.min, bounds.max].map(|corner| (corner - self.first) / self.step);
+    /// Returns the lower left and the upper right corner of the rectangle around the domain, in columns and
+    /// rows.
+    fn sides(&self) -> [DVec2; 2] {
+        [self.bounds.min, self.bounds.max].map(|corner| (corner - self.first) / self.step)
+    }
+
+    /// Counts the samples in the closed rectangle around the domain that meet a condition by column and row.
+    fn count(&self, meets: impl Fn(u32, u32) -> bool + Sync) -> usize {
+        let [low, high] = self.sides();
         let least = (low - CLOSED).ceil().max(DVec2::ZERO).as_uvec2();
         let end = ((high + CLOSED).floor() + 1.0).max(DVec2::ZERO).as_uvec2().min(self.size.into());
         let row = |row: u32| (least.x..end.x).filter(|&column| meets(column, row)).count();
@@ -118,8 +122,6 @@ impl Weights {
     #[inline]
     fn at(self, place: usize, count: usize) -> f64 {
         match place {
-            // A triangle that ends in a sample has it on an edge.
-            0 if count == 1 => self.first.min(self.last),
             0 => self.first,
             _ if place + 1 == count => self.last,
             _ => self.inner,
@@ -127,21 +129,57 @@ impl Weights {
     }
 }
 
+/// The share of a full turn that a triangle has at its right angle. It has half of it at the others, on a
+/// lattice whose cells are stretched to squares.
+const RIGHT_ANGLE: f64 = 0.25;
+
 impl Plane {
-    /// Returns 1/2 for samples on an edge of the triangle, and 1 for others.
-    fn weights(&self, row: &SampleRow) -> Weights {
+    /// Returns what the samples of a row count for: the angle of the triangle at the sample, as a share of
+    /// that of the rectangle around the domain there. So the triangles that share a sample count it once.
+    ///
+    /// ```text
+    ///   1/8 + 1/8 + 1/4 + …       inside, shares of a full turn: 1 within a triangle, 1/2 on an edge,
+    ///      \|/                    1/4 or 1/8 at a corner
+    ///     --*--
+    ///      /|\                    twice that on a side of the rectangle, and four times at its corner
+    /// ```
+    fn weights(&self, row: &SampleRow, grid: &SampleGrid) -> Weights {
         let height = f64::from(row.row);
-        let is_at = |corner: &&DVec2| (corner.y - height).abs() <= CLOSED;
-        let inner = if self.corners.iter().filter(is_at).count() > 1 { 0.5 } else { 1.0 };
+        let is_near = |a: f64, b: f64| (a - b).abs() <= CLOSED;
+        let on_side = |axis: usize, at: f64| match grid.sides().iter().any(|side| is_near(side[axis], at)) {
+            true => 2.0,
+            false => 1.0,
+        };
+        let is_along_edge = self.corners.iter().filter(|corner| is_near(corner.y, height)).count() > 1;
+        let inner = if is_along_edge { 0.5 } else { 1.0 };
         let ends = self.ends_in(height);
-        let [least, greatest] =
-            [ends.into_iter().fold(f64::NAN, f64::min), ends.into_iter().fold(f64::NAN, f64::max)];
-        let (start, last) = (f64::from(row.columns.start), f64::from(row.columns.end) - 1.0);
-        let of_end = |is_on_edge: bool| if is_on_edge { 0.5 } else { inner };
-        Weights {
-            inner,
-            first: of_end((start - least).abs() <= CLOSED),
-            last: of_end((greatest - last).abs() <= CLOSED),
+        let of_end = |column: u32| {
+            let at = f64::from(column);
+            let is_corner = |corner: &DVec2| is_near(corner.x, at) && is_near(corner.y, height);
+            let share = match self.corners.iter().position(is_corner) {
+                Some(corner) if corner == self.right_corner() => RIGHT_ANGLE,
+                Some(_) => 0.5 * RIGHT_ANGLE,
+                None if ends.iter().any(|end| is_near(*end, at)) => 0.5,
+                None => inner,
+            };
+            share * on_side(0, at)
+        };
+        let columns = row.columns();
+        let (first, last) = (of_end(columns.start), of_end(columns.end - 1));
+        let [inner, first, last] = [inner, first, last].map(|weight| weight * on_side(1, height));
+        Weights { inner, first, last }
+    }
+
+    /// Returns the number of the corner with the right angle, on a lattice whose cells are stretched to
+    /// squares: two edges along the axes meet there, or it is opposite to the only one.
+    fn right_corner(&self) -> usize {
+        let along = [0, 1, 2].map(|n| {
+            let [p, q] = [self.corners[(n + 1) % 3], self.corners[(n + 2) % 3]];
+            p.x == q.x || p.y == q.y
+        });
+        match along.iter().filter(|along| **along).count() {
+            1 => along.iter().position(|along| *along).unwrap_or(0),
+            _ => along.iter().position(|along| !along).unwrap_or(0),
         }
     }
 }

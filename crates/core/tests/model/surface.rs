@@ -9,8 +9,8 @@ use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_core::field::Formula;
 use meshbrush_core::layers::{
-    Layer, LayerId, LayerKind, PaintLayers, Quantity, RasterReading, RasterSource, Surface, SurfaceGoal,
-    SurfaceNorm, SurfaceSource,
+    Layer, LayerId, LayerKind, Mask, PaintLayers, Quantity, RasterReading, RasterSource, Surface,
+    SurfaceGoal, SurfaceNorm, SurfaceSource,
 };
 use meshbrush_core::paint::{Brush, Medium};
 use meshbrush_core::raster::{Raster, RasterPyramid};
@@ -434,32 +434,43 @@ struct Places<V> {
     values: Vec<(DVec2, V)>,
 }
 
+/// Returns the angle of a closed triangle at a point, in radians: 0 outside.
+fn angle_at(corners: [DVec2; 3], point: DVec2) -> f64 {
+    let whole = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]);
+    let sides = [0, 1, 2].map(|n| {
+        let [p, q] = [corners[n], corners[(n + 1) % 3]];
+        (q - p).perp_dot(point - p) / whole
+    });
+    if sides.iter().any(|side| *side < -1e-10) {
+        return 0.0;
+    }
+    let on: Vec<usize> = (0..3).filter(|&n| sides[n] <= 1e-10).collect();
+    match on[..] {
+        [] => std::f64::consts::TAU,
+        [_] => std::f64::consts::PI,
+        _ => {
+            let mut others = corners;
+            others.sort_by(|a, b| a.distance(point).total_cmp(&b.distance(point)));
+            (others[1] - point).angle_to(others[2] - point).abs()
+        }
+    }
+}
+
 impl<V: Copy> Places<V> {
     /// Returns the root mean square over a mesh of the unit square of how far the values are from those of a
-    /// triangle. What lies on an edge counts half on each side.
+    /// triangle. Triangles that share a place count by their angles there.
     fn root_mean_square(&self, mesh: &Mesh, difference: impl Fn([DVec2; 3], DVec2, V) -> f64) -> f64 {
-        let mut sum = 0.0;
-        for id in (0..mesh.raw_triangle_count()).map(TriangleId::from_index) {
-            let corners = mesh.world_corners(id);
-            let whole = (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).abs();
-            for &(place, value) in &self.values {
-                let sides = [0, 1, 2].map(|n| {
-                    let [p, q] = [corners[n], corners[(n + 1) % 3]];
-                    (q - p).perp_dot(place - p)
-                        * (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]).signum()
-                });
-                if sides.iter().all(|side| *side >= -1e-10 * whole) {
-                    let is_on_edge = sides.iter().any(|side| *side <= 1e-10 * whole);
-                    let difference = difference(corners, place, value);
-                    sum += if is_on_edge { 0.5 } else { 1.0 } * difference * difference;
-                }
-            }
-        }
-        let is_inside = |place: DVec2| {
-            place.cmpge(DVec2::splat(-1e-9)).all() && place.cmple(DVec2::splat(1.0 + 1e-9)).all()
-        };
-        let count = self.values.iter().filter(|(place, _)| is_inside(*place)).count();
-        (sum / count as f64).sqrt()
+        let all = || (0..mesh.raw_triangle_count()).map(|id| mesh.world_corners(TriangleId::from_index(id)));
+        let means = self.values.iter().filter_map(|&(place, value)| {
+            let parts = all().map(|corners| (corners, angle_at(corners, place)));
+            let parts = parts.filter(|(_, angle)| *angle > 0.0);
+            let (sum, angles) = parts.fold((0.0, 0.0), |(sum, angles), (corners, angle)| {
+                (sum + angle * difference(corners, place, value).powi(2), angles + angle)
+            });
+            (angles > 0.0).then_some(sum / angles)
+        });
+        let means: Vec<f64> = means.collect();
+        (means.iter().sum::<f64>() / means.len() as f64).sqrt()
     }
 }
 
@@ -580,4 +591,128 @@ fn each_point_of_a_curve_is_the_mesh_of_its_error_and_its_number() {
         assert_eq!(counts, (5..=11).map(|n| 1 << n).collect::<Vec<usize>>());
         assert!(curves.uniform.windows(2).filter(|pair| pair[1].error < pair[0].error).count() >= 5);
     }
+}
+
+#[test]
+fn a_sample_on_a_side_counts_as_much_as_one_within() {
+    let pixel = Rect::new(DVec2::splat(-0.25), DVec2::splat(1.25));
+    for place in 0..9 {
+        let raster = Raster::from_values(pixel, [3, 3], (0..9).map(|n| f32::from(n == place)).collect());
+        let surface = of_raster(raster, SurfaceGoal::Within(9.0));
+        let built = built(&settings(Domain::rectangle(Rect::UNIT), 1.0, [surface]), None);
+        assert_eq!(built.mesh.raw_triangle_count(), 2);
+        let fit = built.surface.as_ref().unwrap().samples().fit(built.mesh.extract().view());
+        // Samples at corners are met. The one in the middle is on the common edge.
+        let expected = if place % 2 == 1 || place == 4 { 1.0 / 3.0 } else { fit.rms };
+        assert!((fit.rms - expected).abs() < 1e-12, "{place}: {}", fit.rms);
+    }
+}
+
+/// Returns a number or one of its neighbours.
+fn nudged(random: &mut fastrand::Rng, number: f64) -> f64 {
+    [number.next_down(), number, number.next_up()][random.usize(..3)]
+}
+
+/// A small surface whose samples are in the domain by whole numbers: those of some columns and rows.
+struct OnSides {
+    domain: Rect,
+    bounds: Rect,
+    /// In columns and rows of samples, both included.
+    inside: [[usize; 2]; 2],
+    size: usize,
+}
+
+impl OnSides {
+    fn random(random: &mut fastrand::Rng) -> Self {
+        let size = 9;
+        let (step, first) = (0.1, [(); 2].map(|()| 0.1 * f64::from(random.i32(-20..20))));
+        let mut inside = [[0; 2]; 2];
+        let mut sides = [[0.0; 2]; 2];
+        for axis in 0..2 {
+            let (low, high) = (random.usize(..3), 5 + random.usize(..4));
+            // On samples, or between two of them.
+            let off = [(); 2].map(|()| if random.u8(..3) == 0 { 0.2 + 0.6 * random.f64() } else { 0.0 });
+            let at = |column: usize, off: f64| first[axis] + step * (column as f64 + off);
+            sides[axis] = [nudged(random, at(low, -off[0])), nudged(random, at(high, off[1]))];
+            inside[axis] = [low, high.min(size - 1)];
+        }
+        let domain = Rect::new(dvec2(sides[0][0], sides[1][0]), dvec2(sides[0][1], sides[1][1]));
+        let corner = |from: f64| {
+            let at = DVec2::from(first) + step * from;
+            dvec2(nudged(random, at.x), nudged(random, at.y))
+        };
+        let [low, high] = [-0.5, size as f64 - 0.5].map(corner);
+        Self { domain, bounds: Rect::new(low, high), inside, size }
+    }
+
+    fn is_inside(&self, n: usize) -> bool {
+        let place = [n % self.size, n / self.size];
+        (0..2).all(|axis| (self.inside[axis][0]..=self.inside[axis][1]).contains(&place[axis]))
+    }
+
+    fn values(&self, random: &mut fastrand::Rng, missing: f32) -> Vec<f32> {
+        let value = |_| if random.f32() < missing { f32::NAN } else { random.f32() };
+        (0..self.size * self.size).map(value).collect()
+    }
+}
+
+#[test]
+fn samples_beside_a_side_by_rounding_are_on_it() {
+    let mut random = fastrand::Rng::with_seed(19);
+    let mut has_missing = 0;
+    for run in 0..crate::runs::runs(40) {
+        let case = OnSides::random(&mut random);
+        let (size, has_two) = ([case.size; 2], random.bool());
+        let missing = if run % 2 == 0 { 0.0 } else { 0.1 };
+        let values = [(); 2].map(|()| case.values(&mut random, missing));
+        let step = case.bounds.size() / case.size as f64;
+        // The mask ends between samples.
+        let in_mask = |n: usize| has_two && (2..6).contains(&(n % 9)) && (3..7).contains(&(n / 9));
+        let [from, to] = [dvec2(2.0, 3.0), dvec2(6.0, 7.0)].map(|at| case.bounds.min + at * step);
+        let raster = |n: usize| {
+            let raster = Raster::from_values(case.bounds, size.map(|n| n as u32), values[n].clone());
+            of_raster(raster, SurfaceGoal::Within(0.3))
+        };
+        let kinds = [0, 1].into_iter().take(1 + usize::from(has_two)).map(raster);
+        let mut settings = settings(Domain::rectangle(case.domain), 0.4, kinds);
+        if has_two {
+            let corners = [from, dvec2(to.x, from.y), to, dvec2(from.x, to.y)];
+            settings.layers[2].mask = Some(Mask::new(&[vec![corners.to_vec()]]).unwrap());
+        }
+        let built = built(&settings, Some(12));
+        let samples = built.surface.as_ref().unwrap().samples();
+        let value = |n: usize| match f64::from(values[usize::from(in_mask(n))][n]) {
+            value if value.is_nan() => f64::from(values[0][n]),
+            value => value,
+        };
+        let inside: Vec<usize> = (0..81).filter(|&n| case.is_inside(n)).collect();
+        let known: Vec<usize> = inside.iter().copied().filter(|&n| !value(n).is_nan()).collect();
+        let count = samples.count();
+        // A surface below without a value does not count where a mask has one of its own.
+        assert_eq!([count.known, count.missing], [known.len(), inside.len() - known.len()], "{run}");
+        has_missing += count.missing;
+        if missing > 0.0 {
+            continue;
+        }
+        let mesh = &built.mesh;
+        let height = |point| samples.height_at(point).unwrap();
+        let ids = || (0..mesh.raw_triangle_count()).map(TriangleId::from_index);
+        let (mut squares, mut largest) = (0.0, 0.0_f64);
+        for &n in &known {
+            let place = case.bounds.min + step * (dvec2((n % 9) as f64, (n / 9) as f64) + 0.5);
+            let within = place.clamp(case.domain.min, case.domain.max);
+            let mut around = ids().map(|id| mesh.world_corners(id)).filter(|c| angle_at(*c, within) > 0.0);
+            let corners = around.next().expect("the mesh covers the domain");
+            let [a, b, c] = corners.map(|corner| corner.extend(height(corner)));
+            let normal = (b - a).cross(c - a);
+            let plane = a.z - normal.truncate().dot(within - a.truncate()) / normal.z;
+            squares += (plane - value(n)).powi(2);
+            largest = largest.max((plane - value(n)).abs());
+        }
+        let fit = samples.fit(mesh.extract().view());
+        let rms = (squares / known.len() as f64).sqrt();
+        assert!(largest <= 0.3 + 1e-9 && (fit.largest - largest).abs() < 1e-9, "{run}: {largest} {fit:?}");
+        assert!((fit.rms - rms).abs() < 1e-9, "{run}: {} {rms}", fit.rms);
+    }
+    assert!(has_missing > 10, "{has_missing}");
 }
