@@ -1,10 +1,12 @@
 //! The distance to points, lines and polygons.
 
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::Mask;
+use super::engine::convex::Convex;
 use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, coasts};
 use crate::earth::{Reprojection, projected_line, projected_polygons};
 use crate::field::Bounds;
@@ -236,7 +238,7 @@ impl Shapes {
 
     /// Returns the distance from a point to the nearest shape, in world units.
     pub fn distance(&self, p: DVec2) -> f64 {
-        if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
+        if self.covers(p) {
             return 0.0;
         }
         let squared =
@@ -246,7 +248,7 @@ impl Shapes {
 
     /// Returns the point of the shapes that is nearest to a point, both in world units.
     pub fn nearest(&self, p: DVec2) -> DVec2 {
-        if self.0.filled.as_ref().is_some_and(|mask| mask.contains(p)) {
+        if self.covers(p) {
             return p;
         }
         let on = |number: u32| nearest_on_segment(p, self.0.segments[number as usize]);
@@ -255,18 +257,107 @@ impl Shapes {
     }
 
     /// Returns bounds of the distance over a closed rectangle in world units.
-    ///
-    /// The distance changes at most as much as the point moves: from the centre by half a diagonal.
     pub fn bounds(&self, rect: &Rect) -> Bounds {
-        let center = rect.center();
-        let distance = self.distance(center);
-        let coordinate = |rect: &Rect| rect.min.abs().max(rect.max.abs()).max_element();
-        let largest = self.0.tree.bounds().map_or(0.0, |bounds| coordinate(&bounds)).max(coordinate(rect));
-        // Rounding shifts the centre and the nearest point by a few ulps of the largest coordinate.
-        let reach = 0.5 * rect.size().length() * (1.0 + 1e-12) + 1e-14 * largest;
-        let bounds = Bounds::new(distance, distance).expanded(reach);
-        Bounds { least: bounds.least.max(0.0), ..bounds }
+        self.bounds_within(&Convex::rect(rect.min, rect.max), None)
     }
+
+    /// Returns bounds of the distance over a closed polygon in world units. `near` are the segments that can
+    /// be nearest to a point of it, if they are known.
+    pub(super) fn bounds_within(&self, place: &Convex, near: Option<&Near>) -> Bounds {
+        let bounds = place.bounds();
+        let (mut least, mut greatest) = (f64::INFINITY, f64::INFINITY);
+        let mut look = |segment: [DVec2; 2]| {
+            if squared_gap(&Rect::spanning(segment[0], segment[1]), &bounds) < least {
+                let squared = place.squared_distances(segment);
+                (least, greatest) = (least.min(squared[0]), greatest.min(squared[1]));
+            }
+        };
+        match near {
+            Some(near) => near.segments.iter().for_each(|&segment| look(segment)),
+            None => self.visit_nearest(&bounds, &mut look),
+        }
+        let [least, greatest] = [least, greatest].map(f64::sqrt);
+        let is_covered = || match near.and_then(|near| near.is_covered) {
+            Some(is_covered) => is_covered,
+            None => self.covers(place.corners()[0]),
+        };
+        // Where there is no segment, the polygons cover all points or none.
+        if self.0.filled.is_some() && least > 0.0 && is_covered() {
+            return Bounds::one(0.0);
+        }
+        // Rounding shifts the corners and the nearest points by a few ulps of the largest coordinate.
+        let coordinate = |rect: &Rect| rect.min.abs().max(rect.max.abs()).max_element();
+        let rounding = 1e-14 * coordinate(&self.extent()).max(coordinate(&bounds));
+        Bounds::new((least - rounding).max(0.0), greatest + rounding)
+    }
+
+    /// Returns whether filled polygons cover a point.
+    fn covers(&self, p: DVec2) -> bool {
+        self.0.filled.as_ref().is_some_and(|mask| mask.contains(p))
+    }
+
+    /// Visits segments of which one is nearest to each point of a rectangle.
+    fn visit_nearest(&self, rect: &Rect, visit: &mut impl FnMut([DVec2; 2])) {
+        let squared = |p: DVec2, number: u32| {
+            p.distance_squared(nearest_on_segment(p, self.0.segments[number as usize]))
+        };
+        let center = rect.center();
+        let Some((_, nearest)) = self.0.tree.nearest(center, |number| squared(center, number)) else {
+            return;
+        };
+        let farthest = (nearest.sqrt() + rect.size().length()) * (1.0 + 1e-9);
+        let is_near = |bounds: &Rect| squared_gap(bounds, rect) <= farthest * farthest;
+        let _ = self.0.tree.descend(
+            |_, bounds| is_near(bounds),
+            |number, bounds| {
+                if is_near(bounds) {
+                    visit(self.0.segments[number as usize]);
+                }
+                ControlFlow::Continue(())
+            },
+        );
+    }
+
+    /// Returns the segments that can be nearest to a point of a rectangle, if they are few; `around` are those
+    /// for a rectangle around it, if they are known.
+    pub(super) fn near(&self, rect: &Rect, around: Option<&Near>) -> Option<Near> {
+        let place = Convex::rect(rect.min, rect.max);
+        let (mut found, mut farthest) = (Vec::new(), f64::INFINITY);
+        let mut look = |segment: [DVec2; 2]| {
+            if squared_gap(&Rect::spanning(segment[0], segment[1]), rect) <= farthest {
+                let [least, greatest] = place.squared_distances(segment);
+                farthest = farthest.min(greatest * (1.0 + 1e-9));
+                found.push((least, segment));
+            }
+        };
+        match around {
+            Some(around) => around.segments.iter().for_each(|&segment| look(segment)),
+            None => self.visit_nearest(rect, &mut look),
+        }
+        let is_apart = found.iter().all(|&(least, _)| least > 0.0);
+        let nearest = found.into_iter().filter(|&(least, _)| least <= farthest);
+        let segments: Vec<[DVec2; 2]> = nearest.map(|(_, segment)| segment).collect();
+        let is_covered = is_apart.then(|| self.covers(rect.center()));
+        (segments.len() <= Near::MOST).then_some(Near { segments, is_covered })
+    }
+}
+
+/// The segments of [`Shapes`] that can be nearest to a point of a rectangle.
+#[derive(Clone, Debug)]
+pub(super) struct Near {
+    segments: Vec<[DVec2; 2]>,
+    /// Whether filled polygons cover the rectangle; `None` where they may cover a part.
+    is_covered: Option<bool>,
+}
+
+impl Near {
+    /// The largest number of segments: with more, a search through all of them is as fast.
+    const MOST: usize = 48;
+}
+
+/// Returns the square of the distance between two closed rectangles.
+fn squared_gap(a: &Rect, b: &Rect) -> f64 {
+    (a.min - b.max).max(b.min - a.max).max(DVec2::ZERO).length_squared()
 }
 
 #[cfg(test)]

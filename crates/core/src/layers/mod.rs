@@ -16,6 +16,7 @@ mod mask;
 #[cfg(test)]
 mod model_tests;
 mod models;
+mod near_segments;
 mod node_depths;
 mod paint_layers;
 mod paint_reach;

@@ -11,7 +11,7 @@ use crate::geometry::{Lattice, Rect};
 
 /// A function on one lattice, to find its models again. No two functions have the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ModelId(u64);
+pub struct ModelId(pub(super) u64);
 
 impl ModelId {
     /// Returns one that no function has yet.

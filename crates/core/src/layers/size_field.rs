@@ -1,6 +1,7 @@
 use super::engine::asked::Share;
 use super::engine::cells::{Cells, Cut};
 use super::engine::parts::PartId;
+use super::engine::patch::Patch;
 use super::engine::reading::Answer;
 use super::engine::search::any_cell;
 use super::engine::{CompiledLayer, CompiledPlane, KnownParts, gradation};
@@ -282,7 +283,8 @@ impl SizeField {
                     return true;
                 }
             } else if !layer.is_masked_out(&around, &self.lattice) {
-                let mut ask = |cells: &Cells| self.asks(count, paint, cells, limit);
+                let mut ask =
+                    |cells: &Cells| self.asks(count, paint, &Patch::touching(*cells, triangle), limit);
                 return any_cell(triangle, around, &mut ask);
             }
             count -= 1;
@@ -290,12 +292,12 @@ impl SizeField {
         false
     }
 
-    /// Returns the share of the cells in which the lowest `count` layers together ask for less than a limit,
+    /// Returns the share of some cells in which the lowest `count` layers together ask for less than a limit,
     /// and the cut that divides them for a closer answer.
-    fn asks(&self, count: usize, paint: &PaintLayers, cells: &Cells, limit: usize) -> (Share, Option<Cut>) {
+    fn asks(&self, count: usize, paint: &PaintLayers, patch: &Patch, limit: usize) -> (Share, Option<Cut>) {
         let Some(below) = count.checked_sub(1) else { return (Share::None, None) };
         let layer = &self.layers[below];
-        let (Answer { asks, present }, cut) = layer.answer(paint, cells, limit, &self.lattice);
+        let (Answer { asks, present }, cut) = layer.answer(paint, patch, limit, &self.lattice);
         let permits = present.not().or(asks);
         match layer.combine {
             Combine::Finest if asks == Share::All => return (Share::All, None),
@@ -303,7 +305,7 @@ impl SizeField {
             Combine::Replace if present == Share::All => return (asks, cut),
             _ => {}
         }
-        let (rest, rest_cut) = self.asks(below, paint, cells, limit);
+        let (rest, rest_cut) = self.asks(below, paint, patch, limit);
         let share = match layer.combine {
             Combine::Finest => rest.or(asks),
             Combine::Floor => rest.and(permits),

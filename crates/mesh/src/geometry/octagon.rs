@@ -90,6 +90,12 @@ impl Octagon {
         [left, right]
     }
 
+    /// Returns the extents along x + y and x − y, each from the least to the greatest number.
+    #[inline]
+    pub fn diagonals(&self) -> [[i64; 2]; 2] {
+        [[self.sum.low, self.sum.high], [self.difference.low, self.difference.high]]
+    }
+
     /// Returns the lower left and the upper right corner of the smallest rectangle around the shape.
     #[inline]
     pub fn bounds(&self) -> [[i64; 2]; 2] {

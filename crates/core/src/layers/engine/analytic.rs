@@ -5,11 +5,14 @@ use glam::DVec2;
 use crate::field::{Bounds, Formula, Quadratic, f32_not_below};
 use crate::geometry::{Lattice, Rect};
 use crate::layers::models::{self, BoundedModel, ModelId, ModelPlace};
+use crate::layers::near_segments::near;
 use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
 use super::cone::Cone;
+use super::convex::Convex;
+use super::patch::Patch;
 use super::steepness::Slopes;
 
 /// A function of the point, and what its values mean.
@@ -17,8 +20,8 @@ use super::steepness::Slopes;
 pub struct Analytic {
     pub function: Function,
     pub quantity: Quantity,
-    /// The key of the function's models, if it has any.
-    models: Option<ModelId>,
+    /// The key of what is kept about the function in squares, if that is something.
+    kept: Option<ModelId>,
 }
 
 /// A function of the point, in world units.
@@ -86,6 +89,11 @@ impl Profile {
         if carried < asked && carried <= most { carried } else { asked }
     }
 
+    /// Returns bounds of the values from those of the distance.
+    fn bounds(&self, Bounds { least, greatest, valid }: Bounds) -> Bounds {
+        Bounds { least: self.at(least), greatest: self.at(greatest), valid }
+    }
+
     /// Returns this function after gradation, where it is at least h_min. The shapes must be in the area
     /// where h̄ is wanted, so that the segments to them are.
     fn graded(self, gradation: f64, h_min: f64, most: f64) -> Self {
@@ -131,11 +139,7 @@ impl Function {
         match self {
             Self::Formula(formula) => formula.bounds(rect),
             Self::Threats(threats) => threats.bounds(rect),
-            Self::Distance { shapes, profile } => {
-                let Bounds { least, greatest, valid } = shapes.bounds(rect);
-                let [least, greatest] = [least, greatest].map(|distance| profile.at(distance));
-                Bounds { least, greatest, valid }
-            }
+            Self::Distance { shapes, profile } => profile.bounds(shapes.bounds(rect)),
             Self::Straits(straits, scale) => {
                 let Bounds { least, greatest, valid } = straits.found.bounds(rect);
                 let [least, greatest] = [least, greatest].map(|width| straits.diameter(width) / scale);
@@ -148,12 +152,14 @@ impl Function {
         }
     }
 
-    /// Returns whether models of the function are cheaper than its bounds.
-    fn has_models(&self) -> bool {
+    /// Returns whether something about squares is worth keeping: models, where they are cheaper than bounds,
+    /// and the nearest segments.
+    fn is_kept(&self) -> bool {
         match self {
             Self::Formula(formula) => formula.length() >= LONG_FORMULA,
             Self::Threats(threats) => threats.list().len() >= MANY_THREATS,
-            Self::Distance { .. } | Self::Straits(..) | Self::FeatureSize(..) => false,
+            Self::Distance { .. } => true,
+            Self::Straits(..) | Self::FeatureSize(..) => false,
         }
     }
 
@@ -212,14 +218,14 @@ impl Function {
 
 impl Analytic {
     pub fn new(function: Function, quantity: Quantity) -> Self {
-        let models = function.has_models().then(ModelId::new);
-        Self { function, quantity, models }
+        let kept = function.is_kept().then(ModelId::new);
+        Self { function, quantity, kept }
     }
 
     /// Returns this function without models: searches use its bounds only.
     #[cfg(test)]
     pub fn without_models(self) -> Self {
-        Self { models: None, ..self }
+        Self { kept: None, ..self }
     }
 
     /// Returns the value at a point in world units, as it counts: where it is not valid, that of nothing.
@@ -288,10 +294,28 @@ impl Analytic {
             Function::Threats(_) if model.valid && model.least > 0.0 => model,
             _ => self.function.bounds(&cells.centers(lattice)),
         };
-        match self.models {
-            None => own(Bounds::ANYTHING),
-            Some(id) => models::bounds(id, cells, lattice, |place| self.function.model(place), own),
+        match (&self.function, self.kept) {
+            (_, None) => own(Bounds::ANYTHING),
+            (Function::Distance { shapes, profile }, Some(id)) => {
+                let (near, centers) = (near(id, shapes, cells, lattice), cells.centers(lattice));
+                let centers = Convex::rect(centers.min, centers.max);
+                profile.bounds(shapes.bounds_within(&centers, near.as_deref()))
+            }
+            (_, Some(id)) => models::bounds(id, cells, lattice, |place| self.function.model(place), own),
         }
+    }
+
+    /// Returns a narrower range of the values of some cells than [`Self::range`], if one is known.
+    pub fn range_in(&self, patch: &Patch, lattice: &Lattice) -> Option<ValueRange> {
+        let cut = patch.cut_centers(lattice);
+        let bounds = match &self.function {
+            Function::Distance { shapes, profile } => {
+                let near = near(self.kept?, shapes, &patch.cells, lattice);
+                profile.bounds(shapes.bounds_within(&cut?, near.as_deref()))
+            }
+            _ => return None,
+        };
+        Some(self.enclosed(bounds))
     }
 
     /// Returns the range of the values that count, from the bounds of the numbers.

@@ -14,6 +14,7 @@ use super::analytic::{Analytic, Function, Profile};
 use super::asked::Share;
 use super::cells::{Cells, Cut};
 use super::cover::{Cover, share_in_mask};
+use super::patch::Patch;
 use super::pixels::range_touching;
 use super::reading::{Answer, Diameters, Reading};
 use super::search::{RasterSearch, any_cell};
@@ -214,7 +215,7 @@ impl CompiledLayer {
         lattice: &Lattice,
     ) -> bool {
         let mut ask = |cells: &Cells| {
-            let (answer, cut) = self.answer(paint, cells, limit, lattice);
+            let (answer, cut) = self.answer(paint, &Patch::touching(*cells, triangle), limit, lattice);
             (answer.asks, cut)
         };
         any_cell(triangle, around, &mut ask)
@@ -248,17 +249,23 @@ impl CompiledLayer {
     pub fn answer(
         &self,
         paint: &PaintLayers,
-        cells: &Cells,
+        patch: &Patch,
         limit: usize,
         lattice: &Lattice,
     ) -> (Answer, Option<Cut>) {
-        let (coverage, mask_cut) = self.coverage(cells, lattice);
+        let (coverage, mask_cut) = self.coverage(&patch.cells, lattice);
         if coverage == Share::None {
             return (Answer::NOTHING, None);
         }
-        let (range, cut) = self.range(paint, cells, lattice);
+        let (range, cut) = self.range(paint, &patch.cells, lattice);
         let Some(range) = range else { return (Answer::NOTHING, None) };
         let mut answer = self.reading.answer(range, limit);
+        if answer.is_undecided()
+            && let Values::Analytic(analytic) = &self.values
+            && let Some(range) = self.graded.as_ref().unwrap_or(analytic).range_in(patch, lattice)
+        {
+            answer = self.reading.answer(range, limit);
+        }
         if coverage == Share::Some {
             answer = Answer { asks: answer.asks.masked(), present: answer.present.masked() };
         }
