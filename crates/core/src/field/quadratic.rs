@@ -131,6 +131,35 @@ impl Quadratic {
         }
     }
 
+    /// Returns bounds over a convex polygon in the rectangle, by its corners in the coordinates u and v.
+    pub fn bounds_in(&self, corners: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> Bounds {
+        let [c, cu, cv, cuu, cuv, cvv] = self.coefficients;
+        let value = |[u, v]: [f64; 2]| c + u * (cu + cuu * u + cuv * v) + v * (cv + cvv * v);
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut join = |value: f64| (least, greatest) = (least.min(value), greatest.max(value));
+        let next = corners.clone().cycle().skip(1);
+        for ([u, v], [to_u, to_v]) in corners.zip(next) {
+            join(value([u, v]));
+            // Along an edge, f is a polynomial of degree 2 with the derivatives `slope` and `bend` at its start.
+            let [along_u, along_v] = [to_u - u, to_v - v];
+            let slope = along_u * (cu + 2.0 * cuu * u + cuv * v) + along_v * (cv + 2.0 * cvv * v + cuv * u);
+            let bend = 2.0 * (cuu * along_u * along_u + cuv * along_u * along_v + cvv * along_v * along_v);
+            let share = -slope / bend;
+            if share > 0.0 && share < 1.0 {
+                join(value([u + share * along_u, v + share * along_v]));
+            }
+        }
+        // Where the gradient is 0: in the polygon or beside it.
+        let determinant = 4.0 * cuu * cvv - cuv * cuv;
+        let at = [(cuv * cv - 2.0 * cvv * cu) / determinant, (cuv * cu - 2.0 * cuu * cv) / determinant];
+        if at.iter().all(|v| v.abs() <= 1.0 + 1e-6) {
+            join(value(at));
+        }
+        let rest = self.rest + 64.0 * EPSILON * self.size();
+        let is_known = least.is_finite() && greatest.is_finite() && rest.is_finite();
+        if is_known { Bounds::new(least - rest, greatest + rest) } else { Bounds::ANYTHING }
+    }
+
     /// −f.
     pub fn negated(&self) -> Self {
         Self { coefficients: self.coefficients.map(|c| -c), ..*self }

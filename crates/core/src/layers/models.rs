@@ -40,6 +40,15 @@ impl ModelPlace {
         Self { coordinates: coordinates(middle, half, rest), middle, half, rest }
     }
 
+    /// Returns the coordinates of a point in models of the place, from −1 to 1.
+    pub(super) fn coordinates_of(&self, point: DVec2) -> [f64; 2] {
+        let from_middle = point - self.middle;
+        [0, 1].map(|axis: usize| {
+            let share = from_middle[axis] / self.half[axis];
+            if self.half[axis] > 0.0 { share.clamp(-1.0, 1.0) } else { 0.0 }
+        })
+    }
+
     /// Returns a rectangle that holds all points of the place.
     pub fn rect(&self) -> Rect {
         let half = self.half * (1.0 + 1e-12) + 1e-15 * self.middle.abs();

@@ -313,6 +313,14 @@ impl Analytic {
                 let near = near(self.kept?, shapes, &patch.cells, lattice);
                 profile.bounds(shapes.bounds_within(&cut?, near.as_deref()))
             }
+            Function::Formula(_) | Function::Threats(_) if patch.is_small() => {
+                let centers = patch.cells.centers(lattice);
+                let place = ModelPlace::of_rectangle(&centers);
+                let BoundedModel { polynomial, bounds } = self.function.model(&place);
+                let corners = cut.unwrap_or(Convex::rect(centers.min, centers.max));
+                let corners = corners.corners().iter().map(|&corner| place.coordinates_of(corner));
+                polynomial.bounds_in(corners).intersection(bounds)
+            }
             _ => return None,
         };
         Some(self.enclosed(bounds))

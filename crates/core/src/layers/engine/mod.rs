@@ -18,6 +18,8 @@ pub mod patch;
 mod pixels;
 mod place;
 pub mod reading;
+#[cfg(test)]
+mod round_tests;
 pub mod search;
 mod steepness;
 mod validity;

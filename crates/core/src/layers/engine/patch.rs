@@ -15,6 +15,9 @@ use crate::geometry::{Lattice, Octagon};
 use super::cells::Cells;
 use super::convex::Convex;
 
+/// A triangle has so many times the side of rectangles at which searches look more closely.
+const SMALL: i64 = 16;
+
 /// The cells of a rectangle that touch a triangle, if there is one, and otherwise all of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Patch<'a> {
@@ -26,6 +29,17 @@ impl<'a> Patch<'a> {
     /// Returns the cells of a rectangle that touch a triangle.
     pub fn touching(cells: Cells, triangle: &'a Octagon) -> Self {
         Self { cells, triangle: Some(triangle) }
+    }
+
+    /// Returns whether the rectangle has been divided so often that a closer look at it is worth its time: it
+    /// is small beside the triangle.
+    pub fn is_small(&self) -> bool {
+        let Some(([min, max], Cells { min: from, max: to })) =
+            self.triangle.map(|triangle| (triangle.bounds(), self.cells))
+        else {
+            return false;
+        };
+        (0..2).all(|axis: usize| (to[axis] - from[axis]) * SMALL <= max[axis] - min[axis])
     }
 
     /// Returns a polygon in world units that holds the centres of the cells, and hardly more. `None` where

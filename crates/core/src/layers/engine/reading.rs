@@ -256,7 +256,7 @@ fn share(any: bool, all: bool) -> Share {
 }
 
 /// Returns the largest number below `length`.
-fn largest_below(length: f64) -> f32 {
+pub fn largest_below(length: f64) -> f32 {
     let nearest = length as f32;
     if f64::from(nearest) < length { nearest } else { nearest.next_down() }
 }
