@@ -140,7 +140,7 @@ impl Quadratic {
         let next = corners.clone().cycle().skip(1);
         for ([u, v], [to_u, to_v]) in corners.zip(next) {
             join(value([u, v]));
-            // Along an edge, f is a polynomial of degree 2 with the derivatives `slope` and `bend` at its start.
+            // Along an edge, f is a polynomial of degree 2; these are its derivatives at the start.
             let [along_u, along_v] = [to_u - u, to_v - v];
             let slope = along_u * (cu + 2.0 * cuu * u + cuv * v) + along_v * (cv + 2.0 * cvv * v + cuv * u);
             let bend = 2.0 * (cuu * along_u * along_u + cuv * along_u * along_v + cvv * along_v * along_v);

@@ -318,8 +318,8 @@ impl Shapes {
         );
     }
 
-    /// Returns the segments that can be nearest to a point of a rectangle, if they are few; `around` are those
-    /// for a rectangle around it, if they are known.
+    /// Returns the segments that can be nearest to a point of a rectangle, if they are few; `around` are
+    /// those for a rectangle around it, if they are known.
     pub(super) fn near(&self, rect: &Rect, around: Option<&Near>) -> Option<Near> {
         let place = Convex::rect(rect.min, rect.max);
         let (mut found, mut farthest) = (Vec::new(), f64::INFINITY);

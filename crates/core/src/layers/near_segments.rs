@@ -1,9 +1,9 @@
 //! The segments that can be nearest to the cells of a square of a lattice, kept for later questions.
 //!
 //! ```text
-//!   +---------------+     Those for a square are found among those for the square four times as wide. A mesh
-//!   |   |   |   |   |     is made from the top of the bisection tree down: the next triangles lie in the same
-//!   |---+---+---+---|     squares, and look at a few segments each, however many there are.
+//!   +---------------+     Those for a square are found among those for the square four times as wide. A
+//!   |   |   |   |   |     mesh is made from the top of the bisection tree down: the next triangles lie in
+//!   |---+---+---+---|     the same squares, and look at a few segments each, however many there are.
 //!   |   | ##|   |   |
 //!   |---+---+---+---|
 //!   +---------------+

@@ -39,8 +39,8 @@ impl Convex {
         rest.iter().fold(Rect::new(*first, *first), |all, &corner| all.union(&Rect::new(corner, corner)))
     }
 
-    /// Cuts off what lies beyond a line, where `along` · p is greater than `most`, and returns whether that is
-    /// something. At most four lines may cut corners off; one that would leave nothing cuts off nothing.
+    /// Cuts off what lies beyond a line, where `along` · p is greater than `most`, and returns whether that
+    /// is something. At most four lines may cut corners off; one that would leave nothing cuts off nothing.
     pub fn cut(&mut self, along: DVec2, most: f64) -> bool {
         let beyond = self.corners.map(|corner| along.dot(corner) - most);
         let count = beyond[..self.count].iter().filter(|&&beyond| beyond > 0.0).count();
@@ -67,7 +67,7 @@ impl Convex {
         self.count += 1;
     }
 
-    /// Returns the squares of the least and of the greatest distance from a point of the polygon to a segment.
+    /// Returns the squares of the least and the greatest distance of a point of the polygon from a segment.
     pub fn squared_distances(&self, segment @ [a, b]: [DVec2; 2]) -> [f64; 2] {
         let corners = self.corners();
         let squared = |p: DVec2, edge: [DVec2; 2]| p.distance_squared(nearest_on_segment(p, edge));

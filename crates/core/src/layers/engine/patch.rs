@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   +---+---+---+---+     Where a line on which h̄ is ℓ runs along the side of a triangle, bounds over the
-//!   | . | ./|   |   |     whole rectangle do not tell whether h̄ is less in the triangle, and neither do those
-//!   +---+-/-+---+---+     of smaller rectangles on the line. Bounds over the centres of the cells that touch
+//!   | . | ./|   |   |     whole rectangle do not tell whether h̄ is less in the triangle, nor do those of
+//!   +---+-/-+---+---+     smaller rectangles on the line. Bounds over the centres of the cells that touch
 //!   | . |/. |   |   |     the triangle do: no other values count.
 //!   +---+---+---+---+
 //! ```
