@@ -204,8 +204,8 @@ impl SizeField {
             Some(slope) => {
                 let sources = nearby.map(|nearby| nearby.sources);
                 let can_ask = nearby.is_none_or(|nearby| nearby.least_asked < length);
-                // What is carried is rounded up as diameters are: distances are rounded, and rounding must not
-                // decide where exactly ℓ is carried.
+                // What is carried is rounded up as diameters are: distances are rounded, and rounding must
+                // not decide where exactly ℓ is carried.
                 let carried = f64::from(largest_below(length)).next_up();
                 (can_ask && self.any_below(paint, &triangle, around, limit))
                     || gradation::any_below(self, paint, known, corners, (slope, carried), sources)
