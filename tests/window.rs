@@ -17,6 +17,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use meshbrush_io::io::journal::{self, Left};
+
 /// The window's default size, which is also the display's: the window fills it.
 const SIZE: (usize, usize) = (1440, 900);
 /// Where the canvas and the panel beside it surely are, whatever the bars' exact sizes.
@@ -33,6 +35,7 @@ const WINDOW_CLASS: &str = "org.meshbrush.Meshbrush";
 const BRUSH_KEY: &str = "b";
 const QUERY_KEY: &str = "q";
 const UNDO_KEYS: &str = "ctrl+z";
+const DUPLICATE_KEYS: &str = "ctrl+j";
 const NEW_KEYS: &str = "ctrl+n";
 const QUIT_KEYS: &str = "ctrl+q";
 const GO_TO_KEYS: &str = "ctrl+g";
@@ -222,6 +225,59 @@ fn killed_at_a_random_moment_it_loses_no_more_than_the_stroke_under_way() {
     eprintln!("{kills} kills, lost each time: {all_lost:?}");
 }
 
+/// `MESHBRUSH_REST=60 cargo test --test window -- --ignored quick_succession --nocapture` looks for longer.
+#[test]
+#[ignore = "needs a virtual display: sh tests/run starts one"]
+fn gestures_in_quick_succession_are_kept_and_nothing_is_done_after_them() {
+    const COPIES: usize = 80;
+    let rest = std::env::var("MESHBRUSH_REST").map_or(2, |rest| rest.parse().expect("seconds"));
+    let scratch = Scratch::new("succession");
+    let display = Display::start(&scratch);
+    let journals = scratch.path("meshbrush/journals");
+    let mut program = Program::start(&scratch, &[("DISPLAY", &display.name)]);
+    program.wait_for_window(&display);
+    display.point_at(RESTING_PLACE);
+    display.settled_picture(&scratch, "1-example");
+    let layers = || kept_layers(&journals, &scratch.path("copy"));
+    // The example alone is no unsaved work.
+    display.xdotool(&["key", DUPLICATE_KEYS]);
+    let (layers_before, written_before) = (wait_for("the first copy to be kept", layers), program.written());
+    display.xdotool(&[&["key", "--delay", "40"][..], &[DUPLICATE_KEYS; COPIES]].concat());
+    wait_for("every copy to be kept", || (layers()? == layers_before + COPIES).then_some(()));
+    wait_for("the program to rest", || {
+        let before = program.processor_seconds();
+        sleep(Duration::from_secs(1));
+        (program.processor_seconds() - before < 0.1).then_some(())
+    });
+    let written = program.written();
+    let seconds = program.processor_seconds();
+    sleep(Duration::from_secs(rest));
+    let (seconds, more) = (program.processor_seconds() - seconds, program.written() - written);
+    program.child.kill().expect("it still runs");
+    drop(program);
+    eprintln!(
+        "{COPIES} copies: {} bytes written; at rest for {rest} s: {seconds:.2} s of processor time, {more} bytes",
+        written - written_before
+    );
+    assert_eq!(layers(), Some(layers_before + COPIES), "after the kill");
+    assert!(written - written_before < 1_000_000 && more < 100_000);
+    assert!(seconds < 0.1 * rest as f64);
+}
+
+/// Returns the number of layers in the journal of a program, which may be running.
+fn kept_layers(journals: &Path, copy: &Path) -> Option<usize> {
+    let _ = fs::remove_dir_all(copy); // absent at the first time
+    fs::create_dir_all(copy).ok()?;
+    for entry in fs::read_dir(journals).ok()?.flatten() {
+        // The lock is on the file, and a copy has none.
+        fs::copy(entry.path(), copy.join(entry.file_name())).ok()?;
+    }
+    match journal::left(copy).next()? {
+        Left::Work(work) => Some(work.project.settings.layers.len()),
+        Left::Unreadable { .. } => None,
+    }
+}
+
 /// Strokes that are painted before the program is killed, and where the n-th begins and ends.
 const DABS: usize = 16;
 
@@ -334,6 +390,21 @@ impl Program {
 
     fn wait_for_exit(&mut self) -> ExitStatus {
         wait_for("the program to end", || self.child.try_wait().expect("the program is our child"))
+    }
+
+    /// Returns the processor time of all its threads so far.
+    fn processor_seconds(&self) -> f64 {
+        let stat = fs::read_to_string(format!("/proc/{}/stat", self.child.id())).expect("it runs");
+        // The name of the program is in brackets, and can have spaces; ticks are hundredths of a second.
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+        fields[11..13].iter().map(|ticks| ticks.parse::<f64>().expect("a number") / 100.0).sum()
+    }
+
+    /// Returns the bytes that it has given the system to write, so far.
+    fn written(&self) -> u64 {
+        let io = fs::read_to_string(format!("/proc/{}/io", self.child.id())).expect("it runs");
+        let bytes = io.lines().find_map(|line| line.strip_prefix("wchar: "));
+        bytes.expect("Linux counts them").parse().expect("a number")
     }
 
     fn said(&self) -> String {

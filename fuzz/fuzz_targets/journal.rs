@@ -1,16 +1,34 @@
-//! Journals that were left behind: raw bytes, and records with valid checksums around changed parts of
-//! projects.
+//! Journals that were left behind: raw bytes, and records with valid checksums around changed parts.
 
 #![no_main]
 
 mod packing;
 
 use std::fs;
+use std::sync::LazyLock;
 
-use meshbrush_io::io::journal::{self, Left};
-use packing::{SAMPLE, change, hold, packed};
+use meshbrush_io::io::Meter;
+use meshbrush_io::io::journal::{self, Journal, Left};
+use packing::{Parts, change, hold, packed, sample, unpacked};
 
-const MAGIC: &[u8] = b"MBJOUR02";
+const MAGIC: &[u8] = b"MBJOUR03";
+const HEAD: usize = 17;
+
+/// The parts of a whole project and of a gesture, as a journal has them.
+static SAMPLES: LazyLock<[Parts; 2]> = LazyLock::new(|| {
+    let folder = std::env::temp_dir().join(format!("meshbrush-fuzz-sample-{}", std::process::id()));
+    let project = sample();
+    let mut renamed = project.settings.clone();
+    renamed.layers[0].name = "renamed".into();
+    let mut journal = Journal::begin(&folder, project, None, 0, &Meter::default()).unwrap();
+    journal.add(Some(renamed), &Default::default(), 1).unwrap();
+    let file = fs::read_dir(&folder).unwrap().next().unwrap().unwrap().path();
+    let bytes = fs::read(file).unwrap();
+    journal.remove().unwrap();
+    let length = u32::from_le_bytes(bytes[MAGIC.len() + 9..][..4].try_into().unwrap()) as usize;
+    let (whole, gesture) = bytes[MAGIC.len() + HEAD..].split_at(length);
+    [unpacked(&whole[4..]), unpacked(&gesture[HEAD..])]
+});
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Some((&way, bytes)) = bytes.split_first() else { return };
@@ -37,24 +55,18 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
 /// its bytes.
 fn records(mut bytes: &[u8]) -> Vec<u8> {
     let mut journal = MAGIC.to_vec();
-    append(&mut journal, 1, 0, &[&[0; 4][..], &packed(&SAMPLE)].concat());
+    append(&mut journal, 1, 0, &[&[0; 4][..], &packed(&SAMPLES[0])].concat());
     for time in 1..=8 {
         let Some((&[kind, length], rest)) = bytes.split_first_chunk() else { break };
         let (edits, rest) = rest.split_at(usize::from(length).min(rest.len()));
-        let mut parts = SAMPLE.clone();
-        match kind % 6 {
-            // Tiles alone, sometimes with parts that do not belong there.
-            2 => drop(parts.drain(..parts.len() - 1)),
-            3 => {
-                append(&mut journal, 3, time, edits);
-                bytes = rest;
-                continue;
-            }
-            _ => {}
-        }
-        change(&mut parts, edits);
-        append(&mut journal, kind % 6, time, &packed(&parts));
         bytes = rest;
+        if kind % 5 == 3 {
+            append(&mut journal, 3, time, edits);
+            continue;
+        }
+        let mut parts = SAMPLES[usize::from(kind) / 5 % 2].clone();
+        change(&mut parts, edits);
+        append(&mut journal, kind % 5, time, &packed(&parts));
     }
     journal
 }

@@ -90,7 +90,7 @@ use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
 use threads::Threads;
-use tools::Tools;
+use tools::{KeptBrush, Tools};
 use view::View;
 #[cfg(target_family = "wasm")]
 use web as host;
@@ -102,6 +102,8 @@ use meshbrush_render::render::gpu::device_descriptor;
 const LAST_WAIT: Duration = Duration::from_secs(5);
 /// Key of the theme in the window's own storage.
 const THEME_KEY: &str = "theme";
+/// Key of the brush in the window's own storage.
+const BRUSH_KEY: &str = "brush";
 /// Key of the number of threads in the window's own storage, where they are limited.
 const THREADS_KEY: &str = "threads";
 /// The title of the report, for texts that a person reads.
@@ -120,6 +122,8 @@ pub struct App {
     session: Session,
     project: ProjectFile,
     tools: Tools,
+    /// The brush as the window's own storage has it.
+    stored_brush: Option<KeptBrush>,
     view: View,
     canvas: Canvas,
     features: Features,
@@ -217,6 +221,7 @@ impl App {
             background: Background::new(ctx, &jobs),
             jobs,
             journal: None,
+            stored_brush: None,
             commands: Vec::new(),
             starts_with_file: false,
             leaves_mesh: false,
@@ -236,6 +241,7 @@ impl App {
             self.view.set_theme(theme, &cc.egui_ctx);
             presentation::end_last(storage, &cc.egui_ctx);
             self.load_keys(storage);
+            self.load_brush(storage);
             if let Some(Some(count)) = eframe::get_value(storage, THREADS_KEY) {
                 self.limit_threads(count);
             }
@@ -243,6 +249,24 @@ impl App {
         if let Some(folder) = host::data_folder() {
             self.keep_journal_in(folder.join("journals"));
             self.project.keep_claims_in(folder.join("open"));
+        }
+    }
+
+    /// Takes the brush of the last run.
+    fn load_brush(&mut self, storage: &dyn eframe::Storage) {
+        if let Some(kept) = eframe::get_value(storage, BRUSH_KEY) {
+            self.tools.take_brush(kept);
+        }
+        self.stored_brush = Some(self.tools.kept_brush());
+    }
+
+    /// Keeps the brush once it has changed, also if the program is killed: what else is in the storage is
+    /// written at times, and at the end.
+    fn store_brush(&mut self, storage: &mut dyn eframe::Storage) {
+        let brush = self.tools.kept_brush();
+        if self.stored_brush.replace(brush) != Some(brush) {
+            eframe::set_value(storage, BRUSH_KEY, &brush);
+            storage.flush();
         }
     }
 
@@ -278,8 +302,11 @@ fn set_up_gpu(wgpu: &mut egui_wgpu::WgpuConfiguration) {
 }
 
 impl eframe::App for App {
-    fn logic(&mut self, ctx: &Context, _frame: &mut eframe::Frame) {
+    fn logic(&mut self, ctx: &Context, frame: &mut eframe::Frame) {
         self.advance(ctx);
+        if let Some(storage) = frame.storage_mut().filter(|_| !ctx.input(|input| input.pointer.any_down())) {
+            self.store_brush(storage);
+        }
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {

@@ -41,7 +41,8 @@ const NUMBERS: [&str; 16] = [
     "null",
 ];
 
-fn sample() -> Project {
+/// A small project.
+pub fn sample() -> Project {
     let triangle = vec![vec![dvec2(0.0, 0.0), dvec2(1.0, 0.1), dvec2(0.3, 1.0)]];
     let raster = Raster::from_values(Rect::UNIT, [2, 2], vec![0.0, 0.25, 0.5, 1.0]);
     let source = RasterSource { name: "a.png".into(), raster: Arc::new(RasterPyramid::new(raster)) };
@@ -112,7 +113,7 @@ fn replace_number(text: &mut Vec<u8>, n: usize, number: &str) {
 }
 
 /// The parts of an archive that the program wrote, read by the local headers alone.
-fn unpacked(mut bytes: &[u8]) -> Parts {
+pub fn unpacked(mut bytes: &[u8]) -> Parts {
     let mut parts = Vec::new();
     while bytes.starts_with(b"PK\x03\x04") {
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;

@@ -1,8 +1,18 @@
 //! Unsaved work, recorded gesture by gesture on another thread, and offered for restoring after a crash.
+//!
+//! ```text
+//!   record ─→ entries ─→ keep ─→ Journal               what changed, at once
+//!                ↑        ├───→ renew ─→ a new journal  whole documents, in the background
+//!                │        │        │
+//!                └────────│────────┘
+//!                         └───→ wait_for_disk
+//! ```
+//!
+//! A gesture is kept as soon as `keep` has written what it changed: after the entry that it is writing when
+//! the gesture ends, and in one entry with the gestures that ended meanwhile. Only the first entry of a
+//! document is a whole one.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 
 use eframe::egui::Context;
@@ -14,43 +24,67 @@ use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
 use crate::app::widgets::Answer;
-use meshbrush_core::document::{Edits, Settings};
+use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
-use meshbrush_io::io::journal::{self, Abandoned, Left};
+use meshbrush_io::io::Meter;
+use meshbrush_io::io::journal::{self, Abandoned, Journal, Left, Renewal, Renewed};
 use meshbrush_io::io::project::Project;
 
 /// An entry that the thread writes.
 enum Entry {
     /// Everything, and the file that it belongs to.
     Whole(Box<Project>, Option<PathBuf>),
-    /// The paint before and after a gesture.
-    Paint(Box<[PaintLayers; 2]>),
-    /// Settings as they are after one.
-    Settings(Box<Settings>),
+    /// The document after a gesture: its settings, if they changed, and its paint.
+    Gesture(Option<Box<Settings>>, PaintLayers),
     /// The document has no unsaved changes.
     Clean(Option<PathBuf>),
     /// The work of an earlier run is no longer needed.
     Forget(Box<Abandoned>),
+    /// A shorter journal is packed, if that was possible.
+    Packed(std::io::Result<Renewed>),
+    /// What a shorter journal has so far is on the disk.
+    Synced(Renewed),
     /// The end; the journal is deleted, or left for the next start.
     End { remove: bool },
+}
+
+impl Entry {
+    /// Takes in the next entry, if one of both suffices.
+    ///
+    /// # Errors
+    /// Fails with both entries, if each is to be written.
+    fn merged(self, later: Self) -> Result<Self, [Box<Self>; 2]> {
+        match (self, later) {
+            (Self::Whole(mut project, home), Self::Gesture(settings, paint)) => {
+                if let Some(settings) = settings {
+                    project.settings = *settings;
+                }
+                project.paint = paint;
+                Ok(Self::Whole(project, home))
+            }
+            (Self::Gesture(before, _), Self::Gesture(settings, paint)) => {
+                Ok(Self::Gesture(settings.or(before), paint))
+            }
+            (Self::Whole(..), later @ Self::Whole(..)) => Ok(later),
+            (entry, later) => Err([entry, later].map(Box::new)),
+        }
+    }
 }
 
 /// Keeps a journal of the document.
 pub struct JournalKeeper {
     sender: Sender<Entry>,
-    /// They write entries and wait for the disk, and send problems, until the end.
-    writing: [Option<Job<String>>; 2],
+    /// They write entries, pack shorter journals and wait for the disk, and send problems, until the end.
+    writing: [Option<Job<String>>; 3],
+    /// Cancels the first entry of a document, when nothing is to be kept.
+    ending: Meter,
     /// Looks for what earlier runs left behind.
     _finding: Job<()>,
     found: Receiver<Left>,
     /// Journals of earlier runs that cannot be read.
     unreadable: Vec<String>,
-    /// The journal is so long that it should start again with the whole document.
-    wants_whole: Arc<AtomicBool>,
     /// The work of an earlier run that the user is asked about.
     offered: Option<Abandoned>,
-    /// The paint that the journal has so far.
-    recorded: PaintLayers,
     broken: bool,
 }
 
@@ -61,8 +95,8 @@ impl JournalKeeper {
         let (disk, written) = channel();
         // A journal can be large: the next one is read when the one before it is looked at.
         let (found_sender, found) = sync_channel(1);
-        let wants_whole = Arc::new(AtomicBool::new(false));
-        let (wants, place) = (wants_whole.clone(), folder.clone());
+        let (renewals, to_renew) = channel();
+        let place = folder.clone();
         let finding = jobs.start(Kind::Journal, move |output| {
             for left in journal::left(&place) {
                 if found_sender.send(left).is_err() {
@@ -77,18 +111,20 @@ impl JournalKeeper {
                 output.send(problem.to_string());
             }
         };
-        let keeping =
-            jobs.start(Kind::Journal, move |output| report(output, keep(&folder, &entries, &wants, disk)));
+        let keeper = Keeping { folder, journal: None, disk, renewals, ending: Meter::default() };
+        let ending = keeper.ending.clone();
+        let keeping = jobs.start(Kind::Journal, move |output| report(output, keeper.run(&entries)));
+        let to_keep = sender.clone();
+        let renewing = jobs.start(Kind::Journal, move |_| renew(&to_renew, &to_keep));
         let waiting = jobs.start(Kind::Journal, move |output| report(output, wait_for_disk(&written)));
         Self {
             sender,
-            writing: [Some(keeping), Some(waiting)],
+            writing: [keeping, renewing, waiting].map(Some),
+            ending,
             _finding: finding,
             found,
-            wants_whole,
             offered: None,
             unreadable: Vec::new(),
-            recorded: PaintLayers::default(),
             broken: false,
         }
     }
@@ -154,41 +190,138 @@ impl JournalKeeper {
 
     /// Waits until everything is written; then deletes the journal, or leaves it for the next start.
     pub fn end(&mut self, remove: bool, jobs: &Jobs) {
+        if remove {
+            self.ending.cancel();
+        }
         self.enter(Entry::End { remove });
         self.writing.iter_mut().filter_map(Option::take).for_each(|job| jobs.wait_for_end(&job));
     }
 }
 
-/// Writes entries as they come, until the end. It never waits for the disk: what the system has been given
-/// outlives the program.
-fn keep(
-    folder: &Path,
-    entries: &Receiver<Entry>,
-    wants_whole: &AtomicBool,
-    disk: Sender<ToDisk>,
-) -> std::io::Result<()> {
-    let mut journal: Option<journal::Journal> = None;
-    while let Ok(entry) = entries.recv() {
-        let mut outdated = None;
-        match (entry, &mut journal) {
-            (Entry::Whole(project, home), _) => {
-                let new = journal::Journal::begin(folder, &project, home.as_deref(), now())?;
-                outdated = journal.replace(new).map(Outdated::Own);
-            }
-            (Entry::Paint(both), Some(journal)) => journal.add_paint(&both[0], &both[1], now())?,
-            (Entry::Settings(settings), Some(journal)) => journal.add_settings(*settings, now())?,
-            (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
-            (Entry::Paint(_) | Entry::Settings(_) | Entry::Clean(_), None) => {}
-            (Entry::Forget(left), _) => outdated = Some(Outdated::Left(left)),
-            (Entry::End { remove: false }, _) => return Ok(()),
-            (Entry::End { remove: true }, _) => return journal.map_or(Ok(()), journal::Journal::remove),
-        }
-        wants_whole.store(journal.as_ref().is_some_and(journal::Journal::is_long), Ordering::Relaxed);
-        let syncing = journal.as_ref().map(journal::Journal::syncing).transpose()?;
-        // A thread that ended has reported its problem.
-        let _ = disk.send(ToDisk { syncing, outdated });
+/// The threads hold senders to each other: without this they would wait for ever.
+impl Drop for JournalKeeper {
+    fn drop(&mut self) {
+        self.enter(Entry::End { remove: false });
     }
-    Ok(())
+}
+
+/// Writes entries as they come. It never waits for the disk: what the system has been given outlives the
+/// program.
+struct Keeping {
+    folder: PathBuf,
+    journal: Option<Journal>,
+    disk: Sender<ToDisk>,
+    renewals: Sender<ToRenew>,
+    ending: Meter,
+}
+
+impl Keeping {
+    /// Writes entries until the end.
+    fn run(mut self, entries: &Receiver<Entry>) -> std::io::Result<()> {
+        let mut next = None;
+        while let Some(mut entry) = next.take().or_else(|| entries.recv().ok()) {
+            while let Ok(later) = entries.try_recv() {
+                match entry.merged(later) {
+                    Ok(merged) => entry = merged,
+                    Err([first, second]) => {
+                        (entry, next) = (*first, Some(*second));
+                        break;
+                    }
+                }
+            }
+            if let Entry::End { remove } = entry {
+                return self.end(remove);
+            }
+            let outdated = self.write(entry)?;
+            let renewal = self.journal.as_mut().and_then(|journal| journal.renewal(now()));
+            // Threads that ended have reported their problems.
+            if let Some(renewal) = renewal {
+                _ = self.renewals.send(ToRenew::Pack(renewal));
+            }
+            let syncing = self.journal.as_ref().map(Journal::syncing).transpose()?;
+            _ = self.disk.send(ToDisk { syncing, outdated });
+        }
+        Ok(())
+    }
+
+    /// Writes an entry. Returns what is to be deleted once everything is on the disk.
+    fn write(&mut self, entry: Entry) -> std::io::Result<Option<Outdated>> {
+        match (entry, &mut self.journal) {
+            (Entry::Whole(project, home), journal) => {
+                let old = journal.take().map(|mut old| {
+                    old.give_up_renewal();
+                    Outdated::Own(Box::new(old))
+                });
+                match Journal::begin(&self.folder, *project, home.as_deref(), now(), &self.ending) {
+                    Ok(new) => *journal = Some(new),
+                    Err(_) if self.ending.is_cancelled() => {}
+                    Err(error) => return Err(error),
+                }
+                return Ok(old);
+            }
+            (Entry::Gesture(settings, paint), Some(journal)) => {
+                journal.add(settings.map(|settings| *settings), &paint, now())?;
+            }
+            (Entry::Clean(home), Some(journal)) => journal.mark_clean(home.as_deref(), now())?,
+            (Entry::Packed(Ok(mut renewed)), Some(journal)) if !renewed.is_unwanted() => {
+                match journal.complete(&mut renewed) {
+                    Ok(()) => _ = self.renewals.send(ToRenew::Sync(renewed)),
+                    Err(_) => {
+                        journal.give_up_renewal();
+                        renewed.discard()?;
+                    }
+                }
+            }
+            (Entry::Synced(renewed), Some(journal)) => {
+                if journal.replace_by(renewed).is_err() {
+                    journal.give_up_renewal();
+                }
+            }
+            // The longer journal has everything as well.
+            (Entry::Packed(Err(_)), Some(journal)) => journal.give_up_renewal(),
+            (Entry::Packed(Ok(renewed)) | Entry::Synced(renewed), _) => renewed.discard()?,
+            (Entry::Forget(left), _) => return Ok(Some(Outdated::Left(left))),
+            (Entry::Gesture(..) | Entry::Clean(_) | Entry::Packed(Err(_)) | Entry::End { .. }, _) => {}
+        }
+        Ok(None)
+    }
+
+    fn end(self, remove: bool) -> std::io::Result<()> {
+        match self.journal {
+            Some(journal) if remove => journal.remove(),
+            Some(mut journal) => {
+                journal.give_up_renewal();
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Work on a shorter journal that takes long.
+enum ToRenew {
+    Pack(Renewal),
+    Sync(Renewed),
+}
+
+/// Packs shorter journals and waits for the disk.
+fn renew(work: &Receiver<ToRenew>, to_keep: &Sender<Entry>) {
+    while let Ok(work) = work.recv() {
+        let entry = match work {
+            ToRenew::Pack(renewal) => Entry::Packed(renewal.pack()),
+            ToRenew::Sync(renewed) => match renewed.wait_for_disk() {
+                Ok(()) => Entry::Synced(renewed),
+                Err(error) => {
+                    _ = renewed.discard(); // the longer journal has everything as well
+                    Entry::Packed(Err(error))
+                }
+            },
+        };
+        let Err(unsent) = to_keep.send(entry) else { continue };
+        if let Entry::Packed(Ok(renewed)) | Entry::Synced(renewed) = unsent.0 {
+            _ = renewed.discard(); // the window has closed in the meantime
+        }
+    }
 }
 
 /// The files to sync to the disk, and the files to delete afterwards.
@@ -198,7 +331,7 @@ struct ToDisk {
 }
 
 enum Outdated {
-    Own(journal::Journal),
+    Own(Box<Journal>),
     Left(Box<Abandoned>),
 }
 
@@ -247,20 +380,14 @@ pub fn record(keeper: &mut JournalKeeper, session: &mut Session, project: &Proje
     if edits.is_empty() {
         return;
     }
-    let Edits { settings, all_paint, layers } = edits;
-    if all_paint || keeper.wants_whole.load(Ordering::Relaxed) {
-        let home = project.path().map(Path::to_owned);
-        keeper.recorded = document.paint().clone();
-        keeper.enter(Entry::Whole(Box::new(Project::of(document)), home));
-    } else {
-        if !layers.is_empty() {
-            let before = std::mem::replace(&mut keeper.recorded, document.paint().clone());
-            keeper.enter(Entry::Paint(Box::new([before, document.paint().clone()])));
-        }
-        if settings {
-            keeper.enter(Entry::Settings(Box::new(document.settings().clone())));
-        }
-    }
+    let home = project.path().map(Path::to_owned);
+    keeper.enter(match edits.all_paint {
+        true => Entry::Whole(Box::new(Project::of(document)), home),
+        false => Entry::Gesture(
+            edits.settings.then(|| Box::new(document.settings().clone())),
+            document.paint().clone(),
+        ),
+    });
     if !edited {
         keeper.note_saved(project);
     }

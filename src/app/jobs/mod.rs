@@ -81,7 +81,7 @@ pub enum Kind {
     Write,
     /// Jobs that wait for a person or for the system.
     Ask,
-    /// The job that keeps the journal, as long as the window is open.
+    /// The jobs that keep the journal, as long as the window is open.
     Journal,
 }
 
@@ -96,7 +96,7 @@ impl Kind {
         match self {
             Self::Compute => 6,
             Self::Read | Self::Write | Self::Ask => 4,
-            Self::Journal => 3,
+            Self::Journal => 4,
         }
     }
 

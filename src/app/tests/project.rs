@@ -10,7 +10,7 @@ use eframe::egui::{self, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use super::{Window, document, paint, send, show, wait_until, window};
+use super::{Kept, Window, document, paint, send, show, wait_until, window};
 use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting, Settings, Stage};
 use meshbrush_io::io::journal::{self, Journal, Left};
@@ -142,7 +142,7 @@ fn unsaved_edits_are_asked_about() {
 fn edits_are_asked_about_before_unsaved_work_is_restored() {
     let folder = folder("restored");
     let left = Example::Diamond.without_data();
-    let journal = Journal::begin(&folder, &Project::of(&left), None, 1).unwrap();
+    let journal = Journal::begin(&folder, Project::of(&left), None, 1, &Meter::default()).unwrap();
     drop(journal);
     let mut window = window();
     window.state_mut().keep_journal_in(folder);
@@ -204,21 +204,51 @@ fn the_journal_keeps_edits_while_the_painted_layer_is_hidden() {
     paint(&mut window, 0.4);
     let hidden = |settings: &Settings| settings.layer(painted).is_some_and(|layer| !layer.visible);
     assert!(hidden(document(&window).settings()));
-    // As after a kill: the journal of a window that is open is locked, a copy of it is not.
+    let kept = kept(&mut window, &live, &copied, |project| hidden(&project.settings));
+    assert!(kept.paint == *document(&window).paint() && kept.settings == *document(&window).settings());
+}
+
+/// Waits until the journals in `live` have a project of some kind, and returns it. The journal of a window
+/// that is open is locked; a copy of it in `copied` is not, as after a kill.
+fn kept(window: &mut Window, live: &Path, copied: &Path, is_meant: impl Fn(&Project) -> bool) -> Project {
     let kept = RefCell::new(None);
-    wait_until(&mut window, |_| {
-        for entry in fs::read_dir(&live).unwrap().flatten() {
+    wait_until(window, |_| {
+        for entry in fs::read_dir(live).unwrap().flatten() {
             fs::copy(entry.path(), copied.join(entry.file_name())).unwrap();
         }
-        if let Some(Left::Work(work)) = journal::left(&copied).next()
-            && hidden(&work.project.settings)
+        if let Some(Left::Work(work)) = journal::left(copied).next()
+            && is_meant(&work.project)
         {
             kept.replace(Some(work.project));
         }
         kept.borrow().is_some()
     });
-    let kept = kept.into_inner().unwrap();
+    kept.into_inner().unwrap()
+}
+
+#[test]
+fn gestures_in_quick_succession_are_kept_in_little_and_nothing_is_done_after_them() {
+    let (live, copied) = (folder("succession"), folder("succession-copy"));
+    let mut window = window();
+    window.state_mut().keep_journal_in(live.clone());
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Threats)));
+    paint(&mut window, 0.9);
+    let painted = document(&window).active_layer().unwrap().id;
+    let length = || -> u64 {
+        fs::read_dir(&live).unwrap().flatten().map(|entry| entry.metadata().unwrap().len()).sum()
+    };
+    let layers = document(&window).settings().layers.len();
+    kept(&mut window, &live, &copied, |project| project.settings.layers.len() == layers);
+    let before = length();
+    for _ in 0..20 {
+        send(&mut window, Command::Layer(LayerCommand::Duplicate(painted)));
+    }
+    let kept = kept(&mut window, &live, &copied, |project| project.settings.layers.len() == layers + 20);
     assert!(kept.paint == *document(&window).paint() && kept.settings == *document(&window).settings());
+    let after = length();
+    assert!(after - before < 20_000, "{} bytes", after - before);
+    (0..10).for_each(|_| _ = window.run());
+    assert_eq!(length(), after, "nothing is written at rest");
 }
 
 #[test]
@@ -355,4 +385,24 @@ fn files_can_be_dropped_and_recent_ones_are_in_the_menu() {
     assert_eq!(window.state().session().mesh().triangle_count(), 9560);
     press(&mut window, "File");
     assert!(shows(&window, "Open recent dropped.meshbrush"));
+}
+
+#[test]
+fn the_brush_is_kept_before_the_end_and_has_its_share_of_every_domain() {
+    let (mut first, mut next, mut stored) = (window(), window(), Kept::default());
+    let share = |window: &Window| window.state().tools().kept_brush()[0];
+    let tools = &mut first.state_mut().tools;
+    (tools.radius, tools.hardness, tools.erase_strength) = (1.5 * tools.radius, 0.9, 0.3);
+    first.state_mut().store_brush(&mut stored);
+    for example in [Example::Diamond, Example::Threats] {
+        send(&mut next, Command::File(FileCommand::OpenExample(example)));
+        next.state_mut().load_brush(&stored);
+        send(&mut next, Command::File(FileCommand::OpenExample(Example::Threats)));
+        let tools = next.state().tools();
+        assert_eq!((tools.hardness, tools.erase_strength), (0.9, 0.3));
+        assert!((share(&next) / share(&first) - 1.0).abs() < 1e-12);
+    }
+    eframe::Storage::set_string(&mut stored, "brush", "(-3.0,0.5,0.5,0.5,0.5,0.5)".into());
+    next.state_mut().load_brush(&stored);
+    assert_eq!(next.state().tools().hardness, 0.9, "no slider has such a radius");
 }

@@ -5,12 +5,14 @@
 //! panel and the canvas read the tools of all features, so that a new tool is one file and one entry of a
 //! row.
 
+mod kept;
 mod pan;
 
 use std::collections::BTreeMap;
 
 use glam::DVec2;
 
+pub use kept::KeptBrush;
 pub use pan::{PAN, move_view};
 
 use super::features::boundary::BoundaryTool;
@@ -184,6 +186,7 @@ impl Tools {
         Self {
             tool: self.chosen,
             chosen: self.chosen,
+            radius: self.radius / self.extent * extent,
             hardness: self.hardness,
             paint_strength: self.paint_strength,
             erase_strength: self.erase_strength,

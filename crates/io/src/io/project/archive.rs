@@ -26,7 +26,7 @@ const CENTRAL_BYTES: usize = 46;
 const LOCAL_BYTES: usize = 30;
 const DEFLATED: u16 = 8;
 /// Bytes that are packed at once.
-const BUFFER: usize = 1 << 16;
+pub(super) const BUFFER: usize = 1 << 16;
 /// 1 January 1980, the first date of the format.
 const NO_DATE: u16 = 0x21;
 
@@ -79,6 +79,25 @@ impl<'a> Archive<'a> {
     /// Returns the part with this name.
     pub fn part(&self, name: &str) -> Option<&ArchivePart<'a>> {
         self.0.get(name)
+    }
+
+    /// Takes out the parts that `choose` wants, in the order of their names, each with what it makes of the
+    /// name.
+    pub fn take_parts<T>(&mut self, choose: impl Fn(&str) -> Option<T>) -> Vec<(T, ArchivePart<'a>)> {
+        let (mut taken, mut left) = (Vec::new(), BTreeMap::new());
+        for (name, part) in std::mem::take(&mut self.0) {
+            match choose(name) {
+                Some(chosen) => taken.push((chosen, part)),
+                None => _ = left.insert(name, part),
+            }
+        }
+        self.0 = left;
+        taken
+    }
+
+    /// Takes in the parts of another archive, in place of those with the same names.
+    pub fn replace_parts(&mut self, other: Self) {
+        self.0.extend(other.0);
     }
 }
 

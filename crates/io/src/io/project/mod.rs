@@ -28,6 +28,7 @@
 //! field or word: a test keeps the list of all of them. A program reads the versions from 2 up to its own.
 
 mod archive;
+mod changes;
 pub(super) mod embedded;
 #[cfg(test)]
 mod keys;
@@ -52,10 +53,10 @@ use super::error::{Flaw, PlacedFlaw, ReadError};
 use super::{FileStamp, Meter};
 use crate::io::disk::File;
 use archive::{Archive, ArchivePart, ArchiveWriter};
+pub(super) use changes::{Change, Recorded, Replay};
 use limits::Limits;
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::layers::{Layer, LayerId, PaintLayers, Quantity};
-use meshbrush_core::raster::TiledRaster;
 use meshbrush_mesh::text::Bytes;
 pub use packing::ProjectPacking;
 use part_names::PartData;
@@ -167,16 +168,9 @@ pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Project, ReadError> {
 /// # Errors
 /// Fails with the errors of `out`, and when a part is beyond its limit.
 pub fn write(out: &mut dyn Write, project: &Project) -> io::Result<()> {
-    write_named(out, project, &mut PartNames::default())
-}
-
-/// Writes a project without the data that have a name already, and names the others.
-///
-/// # Errors
-/// Fails as [`write()`] does.
-pub(super) fn write_named(out: &mut dyn Write, project: &Project, names: &mut PartNames) -> io::Result<()> {
+    let mut names = PartNames::default();
     let new = names.add(&project.settings);
-    write_parts(out, &parts(project, names, &new), &Meter::default())
+    write_parts(out, &parts(project, &names, &new), &Meter::default())
 }
 
 /// Writes a project as [`write()`] does, and counts the bytes before packing.
@@ -202,13 +196,8 @@ type ToWrite<'a> = (Cow<'static, str>, Box<dyn Fn(&mut dyn Write) -> io::Result<
 
 fn parts<'a>(project: &'a Project, names: &'a PartNames, new: &'a [(String, PartData)]) -> Vec<ToWrite<'a>> {
     let Project { settings, paint } = project;
-    let mut parts: Vec<ToWrite> = vec![(
-        SETTINGS.into(),
-        Box::new(|out| {
-            serde_json::to_writer_pretty(&mut *out, &Saved::of(settings, names))?;
-            writeln!(out)
-        }),
-    )];
+    let mut parts: Vec<ToWrite> =
+        vec![(SETTINGS.into(), Box::new(|out| settings::write(out, settings, names)))];
     for (name, data) in new {
         parts.push((name.clone().into(), Box::new(|out| data.write(out))));
     }
@@ -234,15 +223,11 @@ fn write_parts(out: &mut dyn Write, parts: &[ToWrite], meter: &Meter) -> io::Res
 }
 
 fn parse(bytes: &[u8], meter: &Meter) -> Result<Project, PlacedFlaw> {
-    parse_named(bytes, &mut PartNames::default(), meter)
-}
-
-/// Reads a project that [`write_named`] wrote; `names` are the rasters and pictures read so far.
-pub(super) fn parse_named(bytes: &[u8], names: &mut PartNames, meter: &Meter) -> Result<Project, PlacedFlaw> {
     let archive = Archive::open(bytes, Limits::PROJECT)?;
     let text = part(&archive, SETTINGS)?.bytes(meter);
     let text = text.map_err(|flaw| in_part(flaw, SETTINGS))?;
     let saved = Saved::parse(&text).map_err(|flaw| flaw.within(SETTINGS))?;
+    let names = &mut PartNames::default();
     let parts = &mut PartReader { archive: &archive, names, meter, polygons: None };
     let settings = saved.into_settings(parts).map_err(|flaw| match flaw.place {
         super::Place::Part(..) => flaw,
@@ -271,44 +256,4 @@ fn paint_parts<'b, 'a>(
 ) -> impl Iterator<Item = (LayerId, Quantity, &'b ArchivePart<'a>)> {
     let part = |layer: &Layer| Some((layer.id, layer.paints()?, archive.part(&paint_part(layer.id))?));
     settings.layers.iter().filter_map(part)
-}
-
-/// Writes an archive of the tiles in which the paint of layers differs from an earlier state.
-///
-/// # Errors
-/// Fails with the errors of `out`.
-pub(super) fn write_paint_changes(
-    out: &mut dyn Write,
-    before: &PaintLayers,
-    after: &PaintLayers,
-) -> io::Result<()> {
-    let mut parts: Vec<ToWrite> = Vec::new();
-    for (id, raster) in after.iter() {
-        let changes = painted::changes(before.get(id), raster);
-        if !changes.is_empty() {
-            let write = move |out: &mut dyn Write| painted::write_changes(out, raster, &changes);
-            parts.push((paint_part(id).into(), Box::new(write)));
-        }
-    }
-    write_parts(out, &parts, &Meter::default())
-}
-
-/// Reads such an archive into the paint of layers.
-///
-/// # Errors
-/// Fails when it is damaged. Some of the changes may then be made.
-pub(super) fn read_paint_changes(
-    bytes: &[u8],
-    settings: &Settings,
-    paint: &mut PaintLayers,
-) -> Result<(), Flaw> {
-    let archive = Archive::open(bytes, Limits::PROJECT)?;
-    for (id, quantity, part) in paint_parts(&archive, settings) {
-        let mut unpacking = part.unpack(&Meter::default());
-        let (grid, changes) = painted::read_changes(&mut unpacking, quantity)?;
-        unpacking.finish()?;
-        let raster = paint.get_or_insert(id, || TiledRaster::new(grid, quantity.blank()));
-        painted::apply(raster, changes);
-    }
-    Ok(())
 }

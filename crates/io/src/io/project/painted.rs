@@ -49,12 +49,12 @@ pub fn changes(before: Option<&TiledRaster>, after: &TiledRaster) -> ChangedTile
     changes
 }
 
-/// Writes changes of a layer.
+/// Writes changes of a layer whose pixels of depth 0 lie on `grid`.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
-pub fn write_changes(out: &mut dyn Write, raster: &TiledRaster, changes: &ChangedTiles) -> io::Result<()> {
-    write_grid(out, raster.grid())?;
+pub fn write_changes(out: &mut dyn Write, grid: &PixelGrid, changes: &ChangedTiles) -> io::Result<()> {
+    write_grid(out, grid)?;
     tiled::write_changes(out, changes)
 }
 
@@ -67,12 +67,24 @@ pub fn read_changes(input: &mut Unpacking, quantity: Quantity) -> Result<(PixelG
 }
 
 /// Makes changes of a layer.
-pub fn apply(raster: &mut TiledRaster, changes: ChangedTiles) {
+///
+/// # Errors
+/// Fails when a new tile would have no parent, or a removed one has children. Some changes may then be made.
+pub fn apply(raster: &mut TiledRaster, changes: ChangedTiles) -> Result<(), Flaw> {
     let (new, gone): (Vec<_>, Vec<_>) = changes.into_iter().partition(|(_, tile)| tile.is_some());
     // Parents appear before their children, and disappear after them.
     for (place, tile) in new.into_iter().chain(gone.into_iter().rev()) {
+        let is_there = |place| raster.tile(place).is_some();
+        let is_possible = match &tile {
+            Some(_) => place.parent().is_none_or(is_there),
+            None => !place.children().into_iter().any(is_there),
+        };
+        if !is_possible {
+            return Err(Flaw::Damaged);
+        }
         raster.exchange(place, tile);
     }
+    Ok(())
 }
 
 fn write_grid(out: &mut dyn Write, grid: &PixelGrid) -> io::Result<()> {

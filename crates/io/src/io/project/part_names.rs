@@ -162,6 +162,21 @@ impl PartNames {
         new
     }
 
+    /// Forgets all data that the settings no longer have. Returns those that they have, all of which must
+    /// have names, in the order of their parts.
+    pub(super) fn keep_only(&mut self, settings: &Settings) -> Vec<(String, PartData)> {
+        let mut kept = Self { counts: std::mem::take(&mut self.counts), ..Self::default() };
+        let mut parts = Vec::new();
+        for data in PartData::all_of(settings) {
+            if let (Some(name), None) = (self.of(&data), kept.of(&data)) {
+                kept.insert(name, data.clone());
+                parts.push((name.to_owned(), data));
+            }
+        }
+        *self = kept;
+        parts
+    }
+
     /// Returns the name of the part with this data, if it has one.
     pub(super) fn of(&self, data: &PartData) -> Option<&str> {
         self.names.get(&data.address()).map(String::as_str)

@@ -1,5 +1,6 @@
 //! `settings.json`: the part of a project in readable text.
 
+use std::io::{self, Write};
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -189,6 +190,15 @@ struct SavedTransfer {
     h_risk: Option<f64>,
     h_max: f64,
     shape: f64,
+}
+
+/// Writes the text of the settings, whose rasters and pictures have the given names.
+///
+/// # Errors
+/// Fails with the errors of `out`.
+pub(super) fn write(out: &mut dyn Write, settings: &Settings, names: &PartNames) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, &Saved::of(settings, names))?;
+    writeln!(out)
 }
 
 pub(super) fn checked_size(size: [u32; 2]) -> Result<[u32; 2], Flaw> {
