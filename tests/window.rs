@@ -400,10 +400,10 @@ impl Program {
         fields[11..13].iter().map(|ticks| ticks.parse::<f64>().expect("a number") / 100.0).sum()
     }
 
-    /// Returns the bytes that it has given the system to write, so far.
+    /// Returns the bytes that it has written to files so far, in whole pages.
     fn written(&self) -> u64 {
         let io = fs::read_to_string(format!("/proc/{}/io", self.child.id())).expect("it runs");
-        let bytes = io.lines().find_map(|line| line.strip_prefix("wchar: "));
+        let bytes = io.lines().find_map(|line| line.strip_prefix("write_bytes: "));
         bytes.expect("Linux counts them").parse().expect("a number")
     }
 
