@@ -148,6 +148,6 @@ mod tests {
             assert_eq!(Domain::of_polygons(&polygons), Err(RegionError::NoArea));
         }
         let far = vec![vec![DVec2::splat(-f64::MAX), DVec2::splat(f64::MAX), DVec2::ZERO]];
-        assert_eq!(Domain::of_polygons(&[far]), Err(RegionError::TooLarge));
+        assert_eq!(Domain::of_polygons(&[far]), Err(RegionError::Extent));
     }
 }

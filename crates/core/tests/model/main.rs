@@ -41,6 +41,7 @@ mod path_valleys;
 mod path_walls;
 mod random_coast;
 mod random_costs;
+mod project_limits;
 mod replay;
 #[path = "../../../../tests/shared/runs.rs"]
 mod runs;
