@@ -183,7 +183,7 @@ fn kill_at_random_moments(seed: u64) -> u64 {
         let source = RasterSource { name: "noise".into(), raster: Arc::new(RasterPyramid::new(raster)) };
         LayerKind::Raster { source, reading: RasterReading::Risk }
     };
-    let mut document = if seed % 2 == 0 { light(raster()) } else { heavy(300) };
+    let mut document = if seed.is_multiple_of(2) { light(raster()) } else { heavy(300) };
     let journal = begin(&folder, &document, 0);
     let whole = length(&journal);
     let mut counted = Counted { journal, work: Work::None, changed: 0, written: 0, whole, renewals: 0 };
@@ -208,9 +208,6 @@ fn kill_at_random_moments(seed: u64) -> u64 {
     let bytes = fs::read(&journal.path).unwrap();
     for kept in (0..10).filter_map(|_| Kept::parse(&bytes[..random.usize(..bytes.len())]).ok()) {
         assert_kept(&kept, &states[kept.time as usize]);
-    }
-    if runs::prints_table() {
-        println!("seed {seed}: {changed} bytes of gestures, {written} written, {renewals} renewals");
     }
     fs::remove_dir_all(folder).unwrap();
     renewals
