@@ -94,8 +94,8 @@ pub enum Command {
     Recipe(RecipeArguments),
     /// Draw a small picture of a project, in at most 2 s and 256 MB
     ///
-    /// File managers run this on every project that they show. Where it would take longer or more, or the mesh
-    /// has more than a million triangles, there is no picture, and the exit status is 1.
+    /// File managers run this on every project that they show. Where it would take longer or more, or the
+    /// mesh has more than a million triangles, there is no picture, and the exit status is 1.
     Thumbnail(ThumbnailArguments),
     /// Do the edits of a recorded session again, and compare the mesh after each
     ///

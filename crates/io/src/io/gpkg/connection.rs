@@ -1,5 +1,5 @@
-//! Opens databases of strangers: what a file makes SQLite do is limited in steps, in the length of values, and
-//! in memory.
+//! Opens databases of strangers: what a file makes SQLite do is limited in steps, in the length of values,
+//! and in memory.
 //!
 //! A table of a GeoPackage can be a view, whose query the file decides. Honest views are read as tables are.
 

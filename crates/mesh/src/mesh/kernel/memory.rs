@@ -129,8 +129,8 @@ fn free(bytes: usize) {
 }
 
 impl ProgramAllocator {
-    /// Limits the memory of this process from now on, in bytes. Beyond the limit it is as if the system had no
-    /// more memory.
+    /// Limits the memory of this process from now on, in bytes. Beyond the limit it is as if the system had
+    /// no more memory.
     pub fn limit(bytes: usize) {
         USED.store(0, Ordering::Relaxed);
         LIMIT.store(bytes.min(isize::MAX as usize), Ordering::Relaxed);

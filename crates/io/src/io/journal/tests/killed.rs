@@ -1,6 +1,7 @@
 //! Heavy documents, killed at any moment.
 
 #[path = "../../../../../../tests/shared/runs.rs"]
+#[allow(dead_code, reason = "other tests print tables")]
 mod runs;
 
 use std::sync::Arc;
