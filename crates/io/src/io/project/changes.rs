@@ -9,13 +9,14 @@
 //!   for risk, 1 for diameters, 2 for errors), and begins as the layer whose identifier follows (32 bits), if
 //!   the byte before that is 1: usually itself, or the layer of which it is a copy. Otherwise it begins
 //!   blank. The grid and the changed tiles follow as [`painted::write_changes`] writes them. Parts are
-//!   applied in the order of their numbers N, which have six digits.
+//!   applied in the order of their numbers N, which have six digits. A part without bytes says that the
+//!   layer has no paint any more.
 
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, BufWriter, Read, Write};
 use std::sync::Arc;
 
-use super::archive::{Archive, ArchivePart, ArchiveWriter, BUFFER, Packing};
+use super::archive::{Archive, ArchivePart, ArchiveWriter, BUFFER, Packing, Unpacking};
 use super::limits::Limits;
 use super::painted;
 use super::part_names::{PartData, PartNames};
@@ -24,7 +25,7 @@ use super::settings::Saved;
 use super::tiled::ChangedTiles;
 use super::{Flaw, Meter, PAINT, PlacedFlaw, Project, SETTINGS};
 use meshbrush_core::document::Settings;
-use meshbrush_core::layers::{LayerId, PaintLayers, Quantity};
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers, Quantity};
 use meshbrush_core::raster::{PixelGrid, Tile, TiledRaster, ValueRanges};
 
 const SETTINGS_CHANGE: &str = "settings.change";
@@ -60,6 +61,12 @@ struct TextChange {
 #[derive(Debug)]
 struct PaintChange {
     layer: LayerId,
+    /// Absent if nothing is left of the paint.
+    tiles: Option<TileChanges>,
+}
+
+#[derive(Debug)]
+struct TileChanges {
     quantity: Quantity,
     /// The layer that it is like before the change.
     like: Option<LayerId>,
@@ -93,7 +100,7 @@ impl Recorded {
             text = TextChange::between(&self.text, &written);
             (self.settings, self.text) = (settings, written);
         }
-        let paint = paint.of_layers(self.settings.layers.iter().map(|layer| layer.id));
+        let paint = painted_by(&self.settings, paint);
         let changes = paint_changes(&self.settings, &self.paint, &paint);
         self.paint = paint;
         Ok(Change { text, new, paint: changes })
@@ -178,16 +185,19 @@ impl TextChange {
     }
 }
 
+/// Returns the pixels of the layers that are painted on. There can be others: those of deleted layers, which
+/// may come back under identifiers that layers of other kinds have now.
+fn painted_by(settings: &Settings, paint: &PaintLayers) -> PaintLayers {
+    paint.of_layers(settings.layers.iter().filter(|layer| layer.paints().is_some()).map(|layer| layer.id))
+}
+
 /// Returns the changes between the paint of layers before and after, in the order in which they are applied.
 fn paint_changes(settings: &Settings, before: &PaintLayers, after: &PaintLayers) -> Vec<PaintChange> {
     let mut current: BTreeMap<LayerId, &TiledRaster> = before.iter().collect();
     let mut origins = None;
     let mut changes = Vec::new();
-    let blank = |raster: &TiledRaster| TiledRaster::new(*raster.grid(), raster.blank());
     for layer in &settings.layers {
-        let Some(quantity) = layer.paints() else { continue };
-        let emptied = after.get(layer.id).is_none().then(|| before.get(layer.id).map(blank)).flatten();
-        let Some(raster) = after.get(layer.id).or(emptied.as_ref()) else { continue };
+        let Some((quantity, raster)) = layer.paints().zip(after.get(layer.id)) else { continue };
         let can_be_like =
             |other: &&TiledRaster| other.grid() == raster.grid() && other.blank() == raster.blank();
         let own = current.get(&layer.id).copied().filter(can_be_like);
@@ -202,14 +212,16 @@ fn paint_changes(settings: &Settings, before: &PaintLayers, after: &PaintLayers)
         let like = like.filter(|(_, other)| can_be_like(other));
         let tiles = painted::changes(like.map(|(_, other)| other), raster);
         if own.is_none() || !tiles.is_empty() {
-            let like = like.map(|(id, _)| id);
-            changes.push(PaintChange { layer: layer.id, quantity, like, grid: *raster.grid(), tiles });
+            let (like, grid) = (like.map(|(id, _)| id), *raster.grid());
+            let tiles = Some(TileChanges { quantity, like, grid, tiles });
+            changes.push(PaintChange { layer: layer.id, tiles });
         }
-        if let Some(raster) = after.get(layer.id) {
-            current.insert(layer.id, raster);
-            origins.iter_mut().for_each(|origins| origins.add(layer.id, raster));
-        }
+        current.insert(layer.id, raster);
+        origins.iter_mut().for_each(|origins| origins.add(layer.id, raster));
     }
+    // At the end: until then others can begin like them.
+    let gone = before.iter().map(|(id, _)| id).filter(|id| after.get(*id).is_none());
+    changes.extend(gone.map(|layer| PaintChange { layer, tiles: None }));
     changes
 }
 
@@ -240,32 +252,50 @@ impl Origins {
 
 impl PaintChange {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.tiles.as_ref().map_or(Ok(()), |tiles| tiles.write(out))
+    }
+
+    fn read(layer: LayerId, input: &mut Unpacking) -> Result<Self, Flaw> {
+        let tiles = if input.left() == 0 { None } else { Some(TileChanges::read(input)?) };
+        Ok(Self { layer, tiles })
+    }
+
+    fn apply(self, paint: &mut PaintLayers) -> Result<(), Flaw> {
+        match self.tiles {
+            Some(tiles) => tiles.apply(self.layer, paint),
+            None => paint.remove(self.layer).map(drop).ok_or(Flaw::Damaged),
+        }
+    }
+}
+
+impl TileChanges {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let quantity = QUANTITIES.iter().position(|quantity| *quantity == self.quantity);
         out.write_all(&[quantity.unwrap_or_default() as u8, u8::from(self.like.is_some())])?;
         out.write_all(&self.like.map_or(0, |id| id.0).to_le_bytes())?;
         painted::write_changes(out, &self.grid, &self.tiles)
     }
 
-    fn read(layer: LayerId, input: &mut super::archive::Unpacking) -> Result<Self, Flaw> {
+    fn read(input: &mut Unpacking) -> Result<Self, Flaw> {
         let mut head = [0; 6];
         input.read_exact(&mut head).map_err(|_| Flaw::Damaged)?;
         let [quantity, is_like, id @ ..] = head;
         let quantity = *QUANTITIES.get(usize::from(quantity)).ok_or(Flaw::Damaged)?;
         let like = (is_like == 1).then(|| LayerId(u32::from_le_bytes(id)));
         let (grid, tiles) = painted::read_changes(input, quantity)?;
-        Ok(Self { layer, quantity, like, grid, tiles })
+        Ok(Self { quantity, like, grid, tiles })
     }
 
-    fn apply(self, paint: &mut PaintLayers) -> Result<(), Flaw> {
+    fn apply(self, layer: LayerId, paint: &mut PaintLayers) -> Result<(), Flaw> {
         let blank = self.quantity.blank();
-        if self.like != Some(self.layer) {
+        if self.like != Some(layer) {
             let raster = match self.like {
                 Some(other) => paint.get(other).cloned().ok_or(Flaw::Damaged)?,
                 None => TiledRaster::new(self.grid, blank),
             };
-            paint.insert(self.layer, raster);
+            paint.insert(layer, raster);
         }
-        let raster = paint.get_mut(self.layer).ok_or(Flaw::Damaged)?;
+        let raster = paint.get_mut(layer).ok_or(Flaw::Damaged)?;
         if raster.blank() != blank || *raster.grid() != self.grid {
             return Err(Flaw::Damaged);
         }
@@ -315,12 +345,12 @@ impl<'a> Replay<'a> {
         let (names, meter) = (&mut PartNames::default(), &Meter::default());
         let settings =
             saved.into_settings(&mut PartReader { archive: &self.parts, names, meter, polygons: None })?;
-        let painted = settings.layers.iter().filter_map(|layer| Some((layer.id, layer.paints()?)));
-        let paint = self.paint.of_layers(painted.clone().map(|(id, _)| id));
-        let is_of = |(id, quantity): (LayerId, Quantity)| {
-            paint.get(id).is_none_or(|raster| raster.blank() == quantity.blank())
+        let paint = painted_by(&settings, &self.paint);
+        let is_of = |layer: &Layer| match (layer.paints(), paint.get(layer.id)) {
+            (Some(quantity), Some(raster)) => raster.blank() == quantity.blank(),
+            _ => true,
         };
-        if !painted.clone().all(is_of) {
+        if !settings.layers.iter().all(is_of) {
             return Err(in_part(Flaw::Damaged, PAINT));
         }
         Ok(Project { settings, paint })
