@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::{Meter, disk};
+use super::{Meter, disk, pipe};
 
 /// The end of the names of temporary files.
 const PART: &str = ".part";
@@ -207,26 +207,11 @@ impl Drop for Draft {
 }
 
 /// Opens what is not a regular file for writing.
-///
-/// # Errors
-/// Fails for a pipe that nobody reads: to open it would wait for a reader.
-#[cfg(unix)]
 fn open_special(path: &Path) -> io::Result<File> {
-    use std::os::unix::fs::{FileTypeExt as _, OpenOptionsExt as _};
-
-    let is_pipe = path.metadata()?.file_type().is_fifo();
-    match File::options().write(true).custom_flags(libc::O_NONBLOCK).open(path) {
-        Err(error) if is_pipe && error.raw_os_error() == Some(libc::ENXIO) => {
-            Err(io::Error::other("nobody reads this pipe; start its reader first"))
-        }
-        // The second time does not wait, and writing does.
-        Ok(_reader_is_there) => File::options().write(true).open(path),
-        Err(error) => Err(error),
+    if disk::is_pipe(path.metadata()?.file_type()) && !path.starts_with("/dev") && !path.starts_with("/proc")
+    {
+        return pipe::open_to_write(path);
     }
-}
-
-#[cfg(not(unix))]
-fn open_special(path: &Path) -> io::Result<File> {
     File::options().write(true).open(path)
 }
 
@@ -423,17 +408,14 @@ mod tests {
         write_file(&path, |out| out.write_all(b"new")).unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
         let pipe = make("pipe");
-        let unread = write_file(&pipe, |out| out.write_all(b"x")).unwrap_err();
-        assert_eq!(unread.to_string(), "nobody reads this pipe; start its reader first");
-        // Open for both, it does not wait for the writer.
-        let mut reader = File::options().read(true).write(true).open(&pipe).unwrap();
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || io::read_to_string(disk::File::open(pipe).unwrap()).unwrap()
+        });
         write_file(&pipe, |out| out.write_all(b"through")).unwrap();
-        let mut read = [0; 7];
-        io::Read::read_exact(&mut reader, &mut read).unwrap();
-        assert_eq!(&read, b"through");
-        for (read, said) in
-            [(pipe, "a named pipe"), ("/dev/zero".into(), "a device"), (folder.clone(), "a folder")]
-        {
+        assert_eq!(reader.join().unwrap(), "through");
+        let nobody = "nobody writes to this pipe; start its writer first";
+        for (read, said) in [(pipe, nobody), ("/dev/zero".into(), "a device"), (folder.clone(), "a folder")] {
             let refused = disk::File::open(&read).unwrap_err().to_string();
             assert!(refused.contains(said), "{}: {refused}", read.display());
         }

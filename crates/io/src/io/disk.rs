@@ -10,6 +10,8 @@ use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::pipe;
+
 /// Files in memory, in one folder.
 #[derive(Debug, Default)]
 struct Folder {
@@ -107,22 +109,22 @@ pub enum File {
 }
 
 impl File {
-    /// Opens a file. The pipes that a shell has opened are files, too.
+    /// Opens a file, or a pipe that somebody writes to.
     ///
-    /// # Errors
-    /// Fails with the errors of the file system, where there is no such file in memory, and for what is no
-    /// file: to open or to read it may never end.
+    /// # Errors Fails with the errors of the file system, where there is no such file in memory, for a named
+    /// pipe to which nobody writes, and for what is neither a file nor a pipe: to read it may never end.
     pub fn open(path: impl AsRef<Path>) -> io::Result<Self> {
         let path = path.as_ref();
         if is_in_memory() {
             return in_memory(path).map(Cursor::new).map(Self::InMemory);
         }
-        match std::fs::metadata(path)?.file_type() {
-            kind if kind.is_file() || is_opened_pipe(path, kind) => {}
-            kind if kind.is_dir() => return Err(io::Error::other("it is a folder, and a file is expected")),
-            _ => return Err(io::Error::other("it is a device or a named pipe, and a file is expected")),
-        }
-        std::fs::File::open(path).map(Self::OnDisk)
+        let file = match std::fs::metadata(path)?.file_type() {
+            kind if kind.is_file() || is_opened_pipe(path, kind) => std::fs::File::open(path),
+            kind if is_pipe(kind) => pipe::open_to_read(path),
+            kind if kind.is_dir() => Err(io::Error::other("it is a folder, and a file is expected")),
+            _ => Err(io::Error::other("it is a device, and a file is expected")),
+        };
+        file.map(Self::OnDisk)
     }
 
     /// Returns the size of the file in bytes.
@@ -139,16 +141,18 @@ impl File {
 
 /// Returns whether it is a pipe that is open already, as the input of the program and `<(command)` of a shell
 /// are: to open it waits for nobody.
-#[cfg(unix)]
 fn is_opened_pipe(path: &Path, kind: FileType) -> bool {
-    use std::os::unix::fs::FileTypeExt as _;
+    is_pipe(kind) && ["/dev/stdin", "/dev/fd", "/proc"].iter().any(|place| path.starts_with(place))
+}
 
-    let is_opened = ["/dev/stdin", "/dev/fd", "/proc"].iter().any(|place| path.starts_with(place));
-    kind.is_fifo() && is_opened
+/// Returns whether it is a pipe, with a name or without.
+#[cfg(unix)]
+pub(super) fn is_pipe(kind: FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
 }
 
 #[cfg(not(unix))]
-fn is_opened_pipe(_: &Path, _: FileType) -> bool {
+pub(super) fn is_pipe(_: FileType) -> bool {
     false
 }
 

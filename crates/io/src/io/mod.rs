@@ -61,6 +61,7 @@ pub mod npy;
 pub mod obj;
 mod parallel_rows;
 pub mod path;
+mod pipe;
 pub mod ply;
 pub mod png;
 pub mod points;
