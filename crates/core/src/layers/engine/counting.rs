@@ -7,6 +7,12 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counting(u64);
 
+impl Default for Counting {
+    fn default() -> Self {
+        Self::ALL
+    }
+}
+
 impl Counting {
     /// All layers of any stack.
     pub const ALL: Self = Self(u64::MAX);
@@ -21,6 +27,12 @@ impl Counting {
     pub fn without(self, number: usize) -> Self {
         if number < 64 { Self(self.0 & !(1 << number)) } else { self }
     }
+
+    /// These layers without all others than some.
+    pub fn only(self, numbers: impl IntoIterator<Item = usize>) -> Self {
+        let numbers = numbers.into_iter().filter(|&number| number < 64);
+        Self(self.0 & numbers.fold(0, |some, number| some | 1 << number))
+    }
 }
 
 #[cfg(test)]
@@ -32,5 +44,10 @@ mod tests {
         let some = Counting::ALL.without(3).without(63).without(64);
         let left: Vec<usize> = (0..70).filter(|&number| !some.has(number)).collect();
         assert_eq!(left, [3, 63]);
+        let few = some.only([2, 3, 5, 66]);
+        assert_eq!(
+            (0..70).filter(|&number| few.has(number)).collect::<Vec<_>>(),
+            [2, 5, 64, 65, 66, 67, 68, 69]
+        );
     }
 }

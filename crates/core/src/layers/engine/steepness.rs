@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::field::Bounds;
-use crate::layers::{PaintLayers, SizeField};
+use crate::layers::{Combine, PaintLayers, SizeField};
 
 use super::asked::Share;
 use super::cells::Cells;
@@ -120,6 +120,39 @@ impl Slopes {
     }
 }
 
+/// What layers ask for in some cells.
+struct Asked<'a> {
+    /// The number of each layer that counts, the layer, and the diameters.
+    layers: Vec<(usize, &'a CompiledLayer, Diameters)>,
+    /// Whether the finest of all counts.
+    is_minimum: bool,
+}
+
+impl<'a> Asked<'a> {
+    /// Asks the layers that can count, and takes those out of `counting` that do not: without a diameter in
+    /// the cells, below a layer that replaces all of them, and floors below which nothing is.
+    fn of(field: &'a SizeField, paint: &PaintLayers, cells: &Cells, counting: &mut Counting) -> Self {
+        let (mut layers, mut is_minimum) = (Vec::new(), true);
+        for (number, layer) in field.counting(*counting) {
+            let diameters = layer.diameters(paint, cells, field.lattice()).0;
+            let is_alone = layers.is_empty();
+            match (diameters.present, layer.combine) {
+                (Share::None, _) => continue,
+                (_, Combine::Floor) if is_alone => continue,
+                (Share::All, Combine::Replace) => {
+                    layers.clear();
+                    is_minimum = true;
+                }
+                (_, Combine::Finest) => {}
+                (_, Combine::Replace | Combine::Floor) => is_minimum &= is_alone,
+            }
+            layers.push((number, layer, diameters));
+        }
+        *counting = counting.only(layers.iter().map(|&(number, ..)| number));
+        Self { layers, is_minimum }
+    }
+}
+
 /// Returns bounds of the gradient of h̄ before gradation in some cells and on their border, unknown where it
 /// may jump; and which layers can count there, of those that can count around.
 ///
@@ -132,16 +165,11 @@ pub fn slopes(
 ) -> (Slopes, Counting) {
     // Values on both sides of the border count.
     let cells = &cells.with_neighbours(field.lattice().extent());
-    let asked: Vec<_> = field
-        .counting(counting)
-        .map(|(number, layer)| (number, layer, layer.diameters(paint, cells, field.lattice()).0))
-        .collect();
-    let is_asked = |diameters: &Diameters| diameters.present != Share::None;
-    let is_minimum = asked.iter().all(|(_, layer, diameters)| !is_asked(diameters) || layer.is_plain());
+    let Asked { layers: asked, is_minimum } = Asked::of(field, paint, cells, &mut counting);
     let all = asked.iter().filter(|(_, _, diameters)| diameters.present == Share::All);
     let decides = all.map(|(_, _, diameters)| diameters.greatest).fold(f64::INFINITY, f64::min);
     for (number, _, diameters) in &asked {
-        if !is_asked(diameters) || (is_minimum && diameters.least > decides) {
+        if is_minimum && diameters.least > decides {
             counting = counting.without(*number);
         }
     }
@@ -149,8 +177,7 @@ pub fn slopes(
     let h_max = field.spec().transfer.h_max;
     let background = is_minimum.then_some(h_max).filter(|&h_max| field.spec().unasked >= h_max);
     let decides = background.map_or(decides, |h_max| decides.min(h_max));
-    let deciding = asked.iter().filter(|(_, _, diameters)| is_asked(diameters));
-    let deciding = deciding.filter(|(_, _, diameters)| !is_minimum || diameters.least < decides);
+    let deciding = asked.iter().filter(|(_, _, diameters)| !is_minimum || diameters.least < decides);
     let deciding = || deciding.clone().map(|(_, layer, diameters)| (*layer, diameters));
     let is_smooth = |layer: &CompiledLayer, diameters: &Diameters| match background {
         _ if diameters.present == Share::All => !layer.jumps(diameters),
