@@ -304,8 +304,11 @@ impl Depths {
             return AskedOfRange { least: f64::INFINITY, greatest: f64::INFINITY, any, all };
         }
         // A wave is longer, and faster, in deeper water.
-        let [finest, coarsest] = [shallow.max(from), deep.min(to)].map(|depth| sizes.diameter_at(depth));
-        let slack = if shallow == deep { 0.0 } else { SLACK };
+        let finest = sizes.diameter_at(shallow.max(from));
+        if shallow == deep {
+            return AskedOfRange { least: finest, greatest: finest, any, all };
+        }
+        let (coarsest, slack) = (sizes.diameter_at(deep.min(to)), SLACK);
         AskedOfRange { least: finest * (1.0 - slack), greatest: coarsest * (1.0 + slack), any, all }
     }
 }

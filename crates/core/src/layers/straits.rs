@@ -1,10 +1,10 @@
 //! Straits: where the water between two coasts is narrow.
 //!
 //! A *crossing* is a segment across the water from a coast to another one, or to a part of the same ring that
-//! is at least [`LAMBDA`] times as far along the coast. Along a crossing, the nearest point of the coast
-//! jumps from one side to the other at some place c: a disc around c touches both coasts. So it is enough to
-//! ask for a diameter of its width / k in each such disc: the crossing is at least as long as the disc is
-//! wide, and runs through all of its width.
+//! is at least twice as far along the coast. Along a crossing, the nearest point of the coast jumps from one
+//! side to the other at some place c: a disc around c touches both coasts. So it is enough to ask for a
+//! diameter of its width / k in each such disc: the crossing is at least as long as the disc is wide, and
+//! runs through all of its width.
 //!
 //! ```text
 //!   ──────╮    land    ╭───────
@@ -15,40 +15,25 @@
 //!          ╱  `-...-´  ╲
 //!   ──────╯    land     ╰──────
 //! ```
-//!
-//! The discs are found from their contact points, by a disc that shrinks until no coast is within it: it
-//! touches the coast at the point, and keeps its centre on the normal there (Ma, Bae, Choi 2012).
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::DVec2;
-use rayon::prelude::*;
 
-use crate::domain::{CoastEdge, Coasts, Domain, Region};
+use super::strait_search::StraitSearch;
+use crate::domain::{Domain, Region};
 use crate::field::Bounds;
-use crate::geometry::{BoxTree, NumberMap, Rect, nearest_on_segment};
-use crate::mesh::Progress;
+use crate::geometry::{BoxTree, Rect};
 
-/// The way along a ring from one side of a crossing to the other, at least, as a multiple of its length.
-/// Corners wider than 53°, and coves wider than deep, have none.
-const LAMBDA: f64 = 2.0;
-/// Steps of a disc that shrinks, at most.
-const MOST_STEPS: u32 = 60;
-/// A disc has shrunk enough where the nearest coast is nearer than its radius by less than this share.
-const TOLERANCE: f64 = 1e-7;
 /// Distance between neighbouring centres, at most, as a share of the radius.
-const CENTERS: f64 = 0.125;
+pub(super) const CENTERS: f64 = 0.125;
 /// Distance between contact points where there is no strait, as a share of the least width.
-const POINTS: f64 = 0.125;
+pub(super) const POINTS: f64 = 0.125;
 /// Discs count this much farther than they reach, so that those between their neighbours are in them.
 const REACH: f64 = 1.0 + 3.0 * CENTERS;
 /// The width of a disc, less that by which those between its neighbours can be narrower.
 const WIDTH: f64 = 1.0 - 0.75 * CENTERS;
-/// Straits narrower than this share of the least width are none.
-const NARROWEST: f64 = 1e-6;
-/// Points along an edge, at most.
-const MOST_POINTS: usize = 100_000;
 
 /// A place of a strait.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,6 +85,8 @@ struct Indexed {
     /// The same as lengths in the plane.
     in_plane: [f64; 2],
     discs: Vec<StraitDisc>,
+    /// The smallest rectangle with all middles.
+    middles: Option<Rect>,
     tree: BoxTree,
     /// The least width in each group of the tree, by level.
     least: Vec<Vec<f64>>,
@@ -123,7 +110,7 @@ impl StraitDiscs {
         search.finish()
     }
 
-    fn new(
+    pub(super) fn new(
         region: Option<Arc<Region>>,
         discs: Vec<StraitDisc>,
         between: [f64; 2],
@@ -133,7 +120,9 @@ impl StraitDiscs {
             discs.iter().map(|disc| Rect::around(disc.center, reach(disc, in_plane))).collect();
         let tree = BoxTree::new(&boxes);
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
-        Self(Arc::new(Indexed { region, between, in_plane, discs, tree, least }))
+        let middles = discs.iter().map(|disc| Rect::new(disc.center, disc.center));
+        let middles = middles.reduce(|all, one| all.union(&one));
+        Self(Arc::new(Indexed { region, between, in_plane, discs, middles, tree, least }))
     }
 
     /// Returns straits that were not looked for yet: there are none.
@@ -163,7 +152,7 @@ impl StraitDiscs {
 
     /// Returns the address of the data that clones share, and their memory in bytes.
     pub fn shared_data(&self) -> (usize, usize) {
-        let Indexed { discs, tree, least, region: _, between: _, in_plane: _ } = &*self.0;
+        let Indexed { discs, tree, least, .. } = &*self.0;
         let groups: usize = least.iter().map(|level| size_of_val(&**level)).sum();
         (Arc::as_ptr(&self.0).addr(), size_of_val(&**discs) + tree.bytes() + groups)
     }
@@ -204,11 +193,60 @@ impl StraitDiscs {
         Bounds::new(least, greatest)
     }
 
+    /// Returns whether the middles of all straits are in a rectangle.
+    pub(super) fn are_in(&self, rect: &Rect) -> bool {
+        self.0.middles.is_none_or(|middles| rect.contains(middles.min) && rect.contains(middles.max))
+    }
+
+    /// Returns the least sum of what the width of a strait asks for and `slope` times the distance from the
+    /// point to the strait, and the nearest point of that strait; `None` if no sum is below `limit`.
+    ///
+    /// A strait asks for the same all over a disc, and on the straight way to its middle lies the nearest
+    /// point.
+    pub(super) fn carried_to(
+        &self,
+        point: DVec2,
+        slope: f64,
+        limit: f64,
+        diameter: impl Fn(f64) -> f64,
+    ) -> Option<(f64, DVec2)> {
+        let Indexed { in_plane, discs, tree, least, .. } = &*self.0;
+        let best = std::cell::Cell::new((limit, None));
+        let is_less = |width: f64, bounds: &Rect| {
+            let distance = point.distance(point.clamp(bounds.min, bounds.max));
+            diameter(self.counted(width)) + slope * distance < best.get().0
+        };
+        let _ = tree.descend(
+            |group, bounds| is_less(least[group.level][group.index], bounds),
+            |item, bounds| {
+                let disc = &discs[item as usize];
+                if is_less(disc.width, bounds) {
+                    let (distance, reach) = (disc.center.distance(point), reach(disc, *in_plane));
+                    let beyond = (distance - reach).max(0.0);
+                    let carried = diameter(self.counted(disc.width)) + slope * beyond;
+                    if carried < best.get().0 {
+                        let from =
+                            if beyond > 0.0 { point.lerp(disc.center, beyond / distance) } else { point };
+                        best.set((carried, Some(from)));
+                    }
+                }
+                ControlFlow::Continue(())
+            },
+        );
+        let (least, from) = best.get();
+        from.map(|from| (least, from))
+    }
+
+    /// Returns the width that counts in a disc, less than its own because of the places between discs.
+    fn counted(&self, width: f64) -> f64 {
+        (WIDTH * width).max(self.0.in_plane[0])
+    }
+
     /// Visits discs near a rectangle, with the widths that count, until all others are wider than `visit`
     /// returns.
     fn visit(&self, rect: &Rect, mut visit: impl FnMut(&StraitDisc, f64) -> f64) {
-        let Indexed { in_plane, discs, tree, least, region: _, between: _ } = &*self.0;
-        let counted = |width: f64| (WIDTH * width).max(in_plane[0]);
+        let Indexed { discs, tree, least, .. } = &*self.0;
+        let counted = |width| self.counted(width);
         let limit = std::cell::Cell::new(f64::INFINITY);
         let meets = |bounds: &Rect| bounds.min.cmple(rect.max).all() && rect.min.cmple(bounds.max).all();
         let _ = tree.descend(
@@ -224,190 +262,9 @@ impl StraitDiscs {
     }
 }
 
-/// The work of [`StraitDiscs::of`], in slices.
-#[derive(Debug)]
-pub(crate) struct StraitSearch {
-    region: Option<Arc<Region>>,
-    between: [f64; 2],
-    finder: Finder,
-    /// The first edge of the coasts that was not looked at.
-    next: usize,
-    found: Vec<StraitDisc>,
-}
-
-impl StraitSearch {
-    /// Begins to look for the straits of a domain.
-    pub(crate) fn new(domain: &Domain, between: [f64; 2]) -> Self {
-        let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
-        let finder = Finder::new(Coasts::of(domain), domain.bounds, in_plane);
-        Self { region: domain.region().cloned(), between, finder, next: 0, found: Vec::new() }
-    }
-
-    /// Looks along so many edges of the coasts.
-    pub(crate) fn advance(&mut self, edges: usize) -> Progress {
-        let all = self.finder.coasts.edges.len();
-        let end = self.next.saturating_add(edges).min(all);
-        let found: Vec<Vec<StraitDisc>> =
-            (self.next..end).into_par_iter().map(|edge| self.finder.along(edge)).collect();
-        self.found.extend(found.into_iter().flatten());
-        self.next = end;
-        if end == all { Progress::Done } else { Progress::More }
-    }
-
-    /// Returns the straits, once all edges were looked at.
-    pub(crate) fn finish(self) -> StraitDiscs {
-        StraitDiscs::new(self.region, thinned(self.found), self.between, self.finder.between)
-    }
-}
-
 /// Returns how far from its centre a disc counts.
 fn reach(disc: &StraitDisc, between: [f64; 2]) -> f64 {
     REACH * 0.5 * disc.width.max(POINTS * between[0])
-}
-
-/// Finds the discs that touch two coasts.
-#[derive(Debug)]
-struct Finder {
-    coasts: Coasts,
-    tree: BoxTree,
-    frame: Rect,
-    between: [f64; 2],
-}
-
-/// A point of a coast.
-#[derive(Clone, Copy)]
-struct Shore {
-    at: DVec2,
-    ring: u32,
-    /// The length of the ring up to the point.
-    along: f64,
-}
-
-impl Finder {
-    fn new(coasts: Coasts, frame: Rect, between: [f64; 2]) -> Self {
-        let boxes: Vec<Rect> =
-            coasts.edges.iter().map(|edge| Rect::spanning(edge.ends[0], edge.ends[1])).collect();
-        Self { coasts, tree: BoxTree::new(&boxes), frame, between }
-    }
-
-    /// Returns the discs that touch an edge, or the corner at its end.
-    fn along(&self, edge: usize) -> Vec<StraitDisc> {
-        let CoastEdge { ends: [from, to], ring, along, next } = self.coasts.edges[edge];
-        let length = from.distance(to);
-        let direction = (to - from) / length;
-        let normal = direction.perp();
-        let mut found = Vec::new();
-        let mut place = 0.0;
-        for _ in 0..MOST_POINTS {
-            let shore = Shore { at: from + place * direction, ring, along: along + place };
-            let disc = self.disc(shore, normal);
-            found.extend(disc);
-            if place >= length {
-                break;
-            }
-            let step = disc.map_or(0.0, |disc| 0.5 * CENTERS * disc.width).max(POINTS * self.between[0]);
-            place = (place + step).min(length);
-        }
-        if let Some(next) = next {
-            let [start, end] = self.coasts.edges[next as usize].ends;
-            let next_direction = end - start;
-            let turn = libm::atan2(direction.perp_dot(next_direction), direction.dot(next_direction));
-            // The water is on the left: at a right turn, the land is a corner that points into it.
-            let steps = (-turn / CENTERS).ceil().max(0.0) as u32;
-            let shore = Shore { at: to, ring, along: along + length };
-            let angles = (1..steps).map(|n| turn * f64::from(n) / f64::from(steps));
-            let normals = angles.map(|angle| DVec2::new(libm::cos(angle), libm::sin(angle)).rotate(normal));
-            found.extend(normals.filter_map(|normal| self.disc(shore, normal)));
-        }
-        found
-    }
-
-    /// Returns the largest disc that touches the coast at a point and has no coast within it, if the two
-    /// points that it touches are the ends of a crossing.
-    fn disc(&self, shore: Shore, normal: DVec2) -> Option<StraitDisc> {
-        let mut radius = 0.5 * self.between[1];
-        let mut other = None;
-        for _ in 0..MOST_STEPS {
-            let center = shore.at + radius * normal;
-            let (nearest, distance) = self.nearest(center)?;
-            if distance >= radius * (1.0 - TOLERANCE) {
-                break;
-            }
-            let across = nearest.at - shore.at;
-            let smaller = across.length_squared() / (2.0 * across.dot(normal));
-            if !(smaller > 0.0 && smaller < radius) {
-                return None;
-            }
-            (radius, other) = (smaller, Some(nearest));
-        }
-        let other = other?;
-        let center = shore.at + radius * normal;
-        let is_strait = self.is_crossing(shore, other) && self.frame.contains(center);
-        is_strait.then_some(StraitDisc { center, shores: [shore.at, other.at], width: 2.0 * radius })
-    }
-
-    fn nearest(&self, point: DVec2) -> Option<(Shore, f64)> {
-        let on = |edge: u32| nearest_on_segment(point, self.coasts.edges[edge as usize].ends);
-        let (edge, _) = self.tree.nearest(point, |edge| point.distance_squared(on(edge)))?;
-        let (CoastEdge { ends, ring, along, .. }, at) = (self.coasts.edges[edge as usize], on(edge));
-        Some((Shore { at, ring, along: along + at.distance(ends[0]) }, at.distance(point)))
-    }
-
-    fn is_crossing(&self, a: Shore, b: Shore) -> bool {
-        let length = a.at.distance(b.at);
-        // Closer points are one point, but for rounding.
-        if length <= NARROWEST * self.between[0] {
-            return false;
-        }
-        let apart = (a.along - b.along).abs();
-        a.ring != b.ring || apart.min(self.coasts.lengths[a.ring as usize] - apart) >= LAMBDA * length
-    }
-}
-
-/// Returns the discs, the narrowest first, without those whose centre is close to that of a narrower one.
-fn thinned(mut discs: Vec<StraitDisc>) -> Vec<StraitDisc> {
-    discs.sort_by(|a, b| {
-        let by_place = || a.center.x.total_cmp(&b.center.x).then(a.center.y.total_cmp(&b.center.y));
-        a.width.total_cmp(&b.width).then_with(by_place)
-    });
-    let mut grids: Vec<CenterGrid> = Vec::new();
-    let mut kept: Vec<StraitDisc> = Vec::new();
-    for disc in discs {
-        let is_length = disc.width > 0.0 && disc.width.is_finite();
-        if !is_length || grids.iter().any(|grid| grid.has_near(disc.center)) {
-            continue;
-        }
-        let cell = CENTERS * libm::exp2(libm::log2(disc.width).floor());
-        if grids.last().is_none_or(|last| last.cell != cell) {
-            grids.push(CenterGrid { cell, centers: NumberMap::default() });
-        }
-        if let Some(grid) = grids.last_mut() {
-            grid.centers.entry(grid.place(disc.center)).or_default().push(disc.center);
-        }
-        kept.push(disc);
-    }
-    kept
-}
-
-/// The centres of discs that are as wide as others, but for a factor of two, by the cells that they are in.
-struct CenterGrid {
-    /// The side of a cell: at most `CENTERS` times the width of each disc.
-    cell: f64,
-    centers: NumberMap<[i64; 2], Vec<DVec2>>,
-}
-
-impl CenterGrid {
-    fn place(&self, center: DVec2) -> [i64; 2] {
-        (center / self.cell).floor().to_array().map(|at| at as i64)
-    }
-
-    /// Returns whether a centre is nearer than half of `CENTERS` times the radius of its disc.
-    fn has_near(&self, point: DVec2) -> bool {
-        let [x, y] = self.place(point);
-        let cells = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
-        let centers = cells.filter_map(|cell| self.centers.get(&cell)).flatten();
-        centers.into_iter().any(|center| center.distance(point) < 0.25 * self.cell)
-    }
 }
 
 #[cfg(test)]
@@ -418,7 +275,9 @@ mod tests {
 
     use super::*;
     use crate::domain::Ring;
+    use crate::geometry::nearest_on_segment;
     use crate::layers::Mask;
+    use crate::mesh::Progress;
 
     fn domain(rings: Vec<Ring>) -> Domain {
         let mut rings = rings.into_iter();
@@ -532,16 +391,49 @@ mod tests {
         region.rings().any(|ring| ring.contains(&a) && ring.contains(&b))
     }
 
-    #[test]
-    fn bounds_hold_the_width_at_every_point_of_a_rectangle() {
-        let mut random = fastrand::Rng::with_seed(6);
+    fn random_discs(random: &mut fastrand::Rng) -> StraitDiscs {
         let discs = (0..60)
             .map(|_| {
                 let center = dvec2(random.f64(), random.f64());
                 StraitDisc { center, shores: [center; 2], width: 0.02 + 0.3 * random.f64() }
             })
             .collect();
-        let straits = StraitDiscs::new(None, discs, [0.05, 1.0], [0.05, 1.0]);
+        StraitDiscs::new(None, discs, [0.05, 1.0], [0.05, 1.0])
+    }
+
+    #[test]
+    fn what_gradation_carries_from_straits_is_the_least_of_all_discs() {
+        let mut random = fastrand::Rng::with_seed(7);
+        let straits = random_discs(&mut random);
+        let diameter = |width: f64| (width / 3.0).max(0.02);
+        let mut outside = 0;
+        for _ in 0..500 {
+            let point = 2.0 * dvec2(random.f64(), random.f64()) - 0.5;
+            let slope = 0.05 + random.f64();
+            let (least, from) = straits.carried_to(point, slope, f64::INFINITY, diameter).unwrap();
+            let of_disc = |disc: &StraitDisc| {
+                let beyond = disc.center.distance(point) - REACH * 0.5 * disc.width;
+                diameter((WIDTH * disc.width).max(0.05)) + slope * beyond.max(0.0)
+            };
+            let by_all = straits.discs().iter().map(of_disc).fold(f64::INFINITY, f64::min);
+            assert!((least - by_all).abs() < 1e-12, "{least} {by_all}");
+            let rim =
+                |disc: &&StraitDisc| disc.center.distance(from) <= REACH * 0.5 * disc.width * (1.0 + 1e-12);
+            let asked =
+                straits.discs().iter().filter(rim).map(|disc| diameter((WIDTH * disc.width).max(0.05)));
+            let at_place = asked.fold(f64::INFINITY, f64::min) + slope * from.distance(point);
+            assert!((at_place - least).abs() < 1e-9, "{at_place} from {from}");
+            assert_eq!(straits.carried_to(point, slope, least, diameter), None, "nothing is below the least");
+            outside += usize::from(from != point);
+        }
+        assert!(straits.are_in(&Rect::UNIT) && !straits.are_in(&Rect::around(DVec2::ZERO, 0.5)));
+        assert!(outside > 200, "{outside}");
+    }
+
+    #[test]
+    fn bounds_hold_the_width_at_every_point_of_a_rectangle() {
+        let mut random = fastrand::Rng::with_seed(6);
+        let straits = random_discs(&mut random);
         let mut ones = 0;
         for _ in 0..2000 {
             let size = 0.4 * random.f64().powi(3);

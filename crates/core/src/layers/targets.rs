@@ -67,9 +67,21 @@ impl SizeField {
             None => before,
             Some(slope) => {
                 let how = (slope, Accuracy::Close);
-                self.graded(&mut KnownParts::default(), paint, point, how, before).0
+                self.graded(&mut self.known_for_points(), paint, point, how, before).0
             }
         }
+    }
+
+    /// Returns what is known of h̄ in parts of the lattice, for searches for h̄ at points: nothing yet.
+    ///
+    /// Where the finest of all layers counts, the layers of which a closed form says what gradation carries
+    /// need no search. They are what takes long to bound over a rectangle: distances to many segments.
+    /// Without them, `unasked` must not ask for more than they do.
+    pub(super) fn known_for_points(&self) -> KnownParts {
+        let is_background = self.spec().unasked >= self.spec().transfer.h_max;
+        let closed = self.compiled().iter().enumerate().filter(|(_, layer)| layer.has_closed_form());
+        let counting = closed.fold(Counting::ALL, |counting, (number, _)| counting.without(number));
+        KnownParts::of(if is_background { counting } else { Counting::ALL })
     }
 
     /// h̄ at a point with gradation, and the place that it is carried from, both in world units. `how` is the
@@ -84,9 +96,7 @@ impl SizeField {
     ) -> (f64, DVec2) {
         let mut start = (before, point);
         for layer in self.compiled() {
-            if let Some((value, from)) = layer.carried_to(point).filter(|(value, _)| *value < start.0) {
-                start = (value, from);
-            }
+            start = layer.carried_to(point, start.0).unwrap_or(start);
         }
         gradation::least(self, paint, known, point, how, start)
     }
@@ -124,7 +134,7 @@ impl SizeField {
 
     /// Returns h̄ at a point in world units, with the layer that decides it.
     pub fn decision_at(&self, paint: &PaintLayers, point: DVec2) -> Decision {
-        self.decision(&mut KnownParts::default(), paint, point, Accuracy::Close)
+        self.decision(&mut self.known_for_points(), paint, point, Accuracy::Close)
     }
 
     /// Returns the decision of [`Self::decision_at`] fast enough for a pointer. With gradation, the diameter
@@ -167,8 +177,13 @@ impl SizeField {
 
     /// h̄ before gradation, and what decides it.
     pub(super) fn ungraded_at(&self, paint: &PaintLayers, point: DVec2) -> Ungraded {
+        self.ungraded_by(Counting::ALL, paint, point)
+    }
+
+    /// The same of some layers only.
+    pub(super) fn ungraded_by(&self, counting: Counting, paint: &PaintLayers, point: DVec2) -> Ungraded {
         let (mut target, mut decides) = (f64::INFINITY, None);
-        for layer in self.compiled() {
+        for (_, layer) in self.counting(counting) {
             let diameter = layer.diameter_at(paint, point);
             if !is_asked(diameter) {
                 continue;

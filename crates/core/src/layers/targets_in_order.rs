@@ -1,3 +1,5 @@
+use std::sync::{Mutex, PoisonError};
+
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -24,8 +26,9 @@ struct TargetsInOrder<'a> {
 const SLACK: f64 = 1.0 + 2e-6;
 
 impl<'a> TargetsInOrder<'a> {
-    fn new(field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
-        Self { field, paint, rule, last: None, known: KnownParts::default() }
+    /// `known` must be of the same field and pixels.
+    fn new(known: KnownParts, field: &'a SizeField, paint: &'a PaintLayers, rule: RefinementRule) -> Self {
+        Self { field, paint, rule, last: None, known }
     }
 
     /// [`SizeField::target_by_rule`] at a point in world units.
@@ -69,13 +72,18 @@ impl SizeField {
         check: impl Fn() -> Result<(), E> + Sync,
     ) -> Result<Vec<f64>, E> {
         let mut values = vec![0.0; mesh.nodes().len()];
+        // What threads do not use at the moment.
+        let known = Mutex::new(Vec::new());
+        let known = || known.lock().unwrap_or_else(PoisonError::into_inner);
         let chunks = values.par_chunks_mut(NODES).zip(mesh.nodes().par_chunks(NODES));
         chunks.try_for_each(|(values, nodes)| {
             check()?;
-            let mut targets = TargetsInOrder::new(self, paint, rule);
+            let own = known().pop().unwrap_or_else(|| self.known_for_points());
+            let mut targets = TargetsInOrder::new(own, self, paint, rule);
             for (value, &node) in values.iter_mut().zip(nodes) {
                 *value = targets.at(mesh.lattice().world_from_lattice(node));
             }
+            known().push(targets.known);
             Ok(())
         })?;
         Ok(values)
@@ -108,7 +116,8 @@ mod tests {
             projection: None,
         };
         let (field, paint) = (SizeField::new(spec, &lattice), PaintLayers::blank());
-        let mut targets = TargetsInOrder::new(&field, paint, RefinementRule::Area);
+        let known = field.known_for_points();
+        let mut targets = TargetsInOrder::new(known, &field, paint, RefinementRule::Area);
         let mut random = fastrand::Rng::with_seed(6);
         let mut limited = 0;
         for _ in 0..300 {

@@ -10,6 +10,7 @@ use crate::layers::{FeatureSize, Quantity, Shapes, Straits, Threats};
 use crate::raster::ValueRange;
 
 use super::cells::{Cells, Cut};
+use super::compiled::Carried;
 use super::cone::Cone;
 use super::convex::Convex;
 use super::patch::Patch;
@@ -177,18 +178,36 @@ impl Function {
     /// `most`.
     pub fn graded(&self, gradation: f64, h_min: f64, most: f64, bounds: &Rect) -> Option<Self> {
         let Self::Distance { shapes, profile } = self else { return None };
-        let extent = shapes.extent();
-        let is_within = bounds.contains(extent.min) && bounds.contains(extent.max);
-        is_within.then(|| Self::Distance {
+        self.carries_from_within(bounds).then(|| Self::Distance {
             shapes: shapes.clone(),
             profile: profile.graded(gradation, h_min, most),
         })
     }
 
+    /// Returns whether there is a closed form of what gradation carries to a point, which comes from within
+    /// bounds.
+    pub fn carries_from_within(&self, bounds: &Rect) -> bool {
+        match self {
+            Self::Distance { shapes, .. } => {
+                let extent = shapes.extent();
+                bounds.contains(extent.min) && bounds.contains(extent.max)
+            }
+            Self::Straits(straits, _) => straits.found.are_in(bounds),
+            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) => false,
+        }
+    }
+
     /// Returns the diameter that gradation carries to a point, and the point that it comes from, if a closed
-    /// form is known.
-    pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
-        let Self::Distance { shapes, profile } = self else { return None };
+    /// form is known. Those that are not below `limit` may be left out.
+    pub fn carried_to(&self, point: DVec2, carried: Carried, limit: f64) -> Option<(f64, DVec2)> {
+        let (shapes, profile) = match self {
+            Self::Distance { shapes, profile } => (shapes, profile),
+            Self::Straits(straits, scale) => {
+                let diameter = |width| (straits.diameter(width) / scale).max(carried.h_min);
+                return straits.found.carried_to(point, carried.slope, limit, diameter);
+            }
+            Self::Formula(_) | Self::Threats(_) | Self::FeatureSize(..) => return None,
+        };
         let graded = profile.graded?;
         let nearest = shapes.nearest(point);
         let distance = nearest.distance(point);

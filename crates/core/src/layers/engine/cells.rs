@@ -415,7 +415,7 @@ mod tests {
             let spacing = libm::exp2(40.0 * random.f64()) * [1.0, 1.0 + 1e-9][random.usize(..2)];
             let origin = random.f64() - libm::exp2(58.0 * random.f64());
             let lines = Lines { origin, spacing, per_step: 1.0 / spacing };
-            let cell = random.i64(-4..4) + if random.bool() { 0 } else { random.i64(..1 << 30) };
+            let cell = random.i64(-4..4) + if random.bool() { 0 } else { random.i64(0..1 << 30) };
             let (gap, end) = lines.gap_and_end(cell);
             assert!(lines.line(gap) <= cell && cell < end, "{origin} {spacing} {cell}: {gap} {end}");
             assert_eq!(end, lines.line(gap + 1), "{origin} {spacing} {cell}");
@@ -429,13 +429,13 @@ mod tests {
         let mut random = fastrand::Rng::with_seed(3);
         for _ in 0..20_000 {
             let spacing = libm::exp2(1800.0 * random.f64() - 900.0);
-            let cell = random.i64(..1 << 31);
+            let cell = random.i64(0..1 << 31);
             let near = cell as f64 + random.f64() + [0.0, 1.0 - ROUNDING][random.usize(..2)];
             let far = (random.f64() - 0.5) * libm::exp2(900.0 * random.f64());
             let origin = if random.bool() { near } else { far };
             let lines = Lines { origin, spacing, per_step: 1.0 / spacing };
             let (gap, end) = lines.gap_and_end(cell);
-            let [low, high] = lines.between([cell, cell + random.i64(..100)]);
+            let [low, high] = lines.between([cell, cell + random.i64(0..100)]);
             assert!(low == gap && low <= high, "{origin} {spacing} {cell}: {gap} {low} {high}");
             if gap.abs() < FARTHEST_LINE {
                 assert!(lines.line(gap) <= cell && cell < end, "{origin} {spacing} {cell}: {gap} {end}");

@@ -31,8 +31,17 @@ pub struct CompiledLayer {
     covers: Vec<Cover>,
     reading: Reading,
     pub(super) values: Values,
-    /// The values with what gradation carries, where there is a closed form.
+    /// The values with what gradation carries, where there is a closed form for rectangles, too.
     graded: Option<Analytic>,
+    /// How gradation carries the values to points, where there is a closed form for these.
+    carried: Option<Carried>,
+}
+
+/// How gradation carries the values of a function to points: with a slope, those below h_min as h_min.
+#[derive(Clone, Copy, Debug)]
+pub struct Carried {
+    pub slope: f64,
+    pub h_min: f64,
 }
 
 /// What the layers of a field are compiled for.
@@ -105,13 +114,15 @@ impl CompiledLayer {
         let covers = hiding(stack, layer)
             .map(|(above, depths)| Cover::new(&depths.source().raster, above.mask.as_ref(), lattice))
             .collect();
-        Self { id, combine, mask, covers, reading, values, graded: None }
+        Self { id, combine, mask, covers, reading, values, graded: None, carried: None }
     }
 
     /// Finds in closed form what gradation carries, where that is possible: at least h_min, up to `most`. The
     /// finest of all layers must count.
     pub fn grade(&mut self, gradation: f64, h_min: f64, most: f64, lattice: &Lattice) {
         let (Values::Analytic(analytic), false) = (&self.values, self.is_masked()) else { return };
+        let carried = Carried { slope: gradation, h_min };
+        self.carried = analytic.function.carries_from_within(&lattice.bounds()).then_some(carried);
         let function = analytic.function.graded(gradation, h_min, most, &lattice.bounds());
         self.graded = function.map(|function| Analytic::new(function, analytic.quantity));
     }
@@ -382,10 +393,17 @@ impl CompiledLayer {
         }
     }
 
+    /// Returns whether [`Self::carried_to`] knows what gradation carries to any point.
+    pub fn has_closed_form(&self) -> bool {
+        self.carried.is_some()
+    }
+
     /// Returns the diameter that gradation carries to a point in world units, and the point that it comes
-    /// from, if a closed form is known.
-    pub fn carried_to(&self, point: DVec2) -> Option<(f64, DVec2)> {
-        self.graded.as_ref().and_then(|graded| graded.function.carried_to(point))
+    /// from, if a closed form is known and the diameter is below a limit.
+    pub fn carried_to(&self, point: DVec2, limit: f64) -> Option<(f64, DVec2)> {
+        let Values::Analytic(own) = &self.values else { return None };
+        let function = &self.graded.as_ref().unwrap_or(own).function;
+        function.carried_to(point, self.carried?, limit).filter(|(diameter, _)| *diameter < limit)
     }
 
     /// Returns the diameter that the layer asks for at a point in world units: infinite where it asks for

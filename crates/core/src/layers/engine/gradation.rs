@@ -230,7 +230,8 @@ pub fn any_below(
 }
 
 /// Returns the least h + g d over the lattice, at distance d from a point in world units, and the place from
-/// which it comes; `start` is a value that is known, and its place.
+/// which it comes; `start` is a value that is known, and its place. What the layers ask for that `known`
+/// leaves out must be in `start`.
 pub fn least(
     field: &SizeField,
     paint: &PaintLayers,
@@ -265,7 +266,7 @@ pub fn least(
         let at = if is_one { search.place.0.clamp(rect.min, rect.max) } else { center };
         let carried = slope * at.distance(search.place.0);
         if part.least + carried < best.0 {
-            let value = field.ungraded_at(paint, origin + center).target + carried;
+            let value = field.ungraded_by(known.counting(), paint, origin + center).target + carried;
             if value < best.0 {
                 best = (value, origin + at);
             }

@@ -2,13 +2,18 @@ use glam::{DVec2, dvec2};
 
 use super::KnownParts;
 use super::counting::Counting;
-use super::gradation::GradationSearch;
+use super::gradation::{self, Accuracy, GradationSearch};
 use super::parts::Square;
 use super::place::{Place, Point};
 use super::steepness::slopes;
+use crate::domain::{Domain, Ring};
 use crate::field::{Formula, Transfer};
 use crate::geometry::{Lattice, Rect};
-use crate::layers::{Layer, LayerKind, PaintLayers, SizeField, SizeFieldSpec, Threat, ThreatLaw, Threats};
+use crate::layers::{
+    DistanceTo, Layer, LayerId, LayerKind, PaintLayers, RasterReading, RasterSource, ShapeList, Shapes,
+    SizeField, SizeFieldSpec, StraitDiscs, Straits, Threat, ThreatLaw, Threats,
+};
+use crate::raster::{Raster, RasterPyramid};
 
 const TRANSFER: Transfer = Transfer::between(0.001, 0.2);
 
@@ -130,4 +135,62 @@ fn squares_that_are_left_out_have_no_least_value_inside() {
         }
     }
     assert!(steep_ones > 300, "{steep_ones}");
+}
+
+/// A ring of water around an island, and what is asked of it: straits, a distance from a line, and pixels.
+fn sea(random: &mut fastrand::Rng) -> [LayerKind; 3] {
+    let ring = |radius: f64| -> Ring {
+        let angle = |n: u32| std::f64::consts::TAU * f64::from(n) / 40.0;
+        let radius = |n| radius + 0.03 * (5.0 * angle(n)).sin();
+        (0..40).map(|n| dvec2(0.5, 0.5) + radius(n) * DVec2::from_angle(angle(n))).collect()
+    };
+    let island = ring(0.2 + 0.1 * random.f64()).into_iter().rev().collect();
+    let water = Domain::of_polygons(&[vec![ring(0.4), island]]).unwrap();
+    let found = StraitDiscs::of(&water, [0.02, 0.5]);
+    assert!(!found.discs().is_empty());
+    let lines = vec![vec![dvec2(0.1, 0.1), dvec2(random.f64(), 0.9)]];
+    let shapes = Shapes::new(ShapeList { lines, ..ShapeList::default() }, false).unwrap();
+    let values = (0..256).map(|_| 0.05 + 0.15 * random.f32()).collect();
+    let raster = RasterPyramid::new(Raster::from_values(Rect::UNIT, [16; 2], values));
+    let source = RasterSource { name: "pixels".into(), raster: std::sync::Arc::new(raster) };
+    [
+        LayerKind::Straits(Straits { across: 3.0, found }),
+        LayerKind::Distance {
+            to: DistanceTo::Shapes { shapes, name: String::new() },
+            at_zero: 0.04 + 0.05 * random.f64(),
+            slope: random.f64(),
+            range: 0.3,
+        },
+        LayerKind::Raster { source, reading: RasterReading::Diameter },
+    ]
+}
+
+#[test]
+fn closed_forms_give_a_value_that_is_carried_and_no_more_than_a_search_through_all_layers_finds() {
+    let mut random = fastrand::Rng::with_seed(11);
+    let (mut by_straits, mut equal) = (0, 0);
+    for _ in 0..8 {
+        let slope = 0.1 + 0.4 * random.f64();
+        let (field, paint) = (field(sea(&mut random), slope), PaintLayers::blank());
+        for _ in 0..40 {
+            let point = dvec2(random.f64(), random.f64());
+            let before = (field.ungraded_at(paint, point).target, point);
+            let all = &mut KnownParts::of(Counting::ALL);
+            let (searched, _) = gradation::least(&field, paint, all, point, (slope, Accuracy::Close), before);
+            let decision = field.decision_at(paint, point);
+            let found = field.target_at(paint, point);
+            assert_eq!(found, decision.target);
+            // A search gives up after many rectangles: at straits, h̄ jumps everywhere.
+            assert!(found <= searched * (1.0 + 2e-6), "{found} {searched} at {point}");
+            equal += usize::from(found > searched * (1.0 - 2e-6));
+            let nudges = (0..16).map(|n| decision.from + 1e-9 * DVec2::from_angle(f64::from(n)));
+            let carried = nudges
+                .chain([decision.from])
+                .map(|from| field.ungraded_at(paint, from).target + slope * from.distance(point));
+            let carried = carried.fold(f64::INFINITY, f64::min);
+            assert!((carried / found - 1.0).abs() < 1e-6, "{carried} {found} at {point}");
+            by_straits += usize::from(decision.from != point && decision.layer == Some(LayerId(0)));
+        }
+    }
+    assert!(by_straits > 30 && equal > 200, "{by_straits} {equal}");
 }

@@ -121,6 +121,8 @@ pub struct KnownParts {
     parts: Vec<Known>,
     /// Bounds of the gradient of h̄ before gradation, in world units, and the layers that can count.
     slopes: Vec<(Slopes, Counting)>,
+    /// The layers that are asked at all.
+    counting: Counting,
 }
 
 /// With this many parts everything is forgotten before the next question: 16 MB.
@@ -151,6 +153,16 @@ impl Known {
 }
 
 impl KnownParts {
+    /// Returns empty parts, for questions about h̄ of some layers only.
+    pub fn of(counting: Counting) -> Self {
+        Self { counting, ..Self::default() }
+    }
+
+    /// Returns the layers that are asked.
+    pub fn counting(&self) -> Counting {
+        self.counting
+    }
+
     /// Forgets everything if a lot is known. What was found by number is then not valid any more, and the
     /// result is true.
     pub fn make_room(&mut self) -> bool {
@@ -278,7 +290,7 @@ impl KnownParts {
     fn find(&mut self, field: &SizeField, paint: &PaintLayers, part: PartId) {
         let Known { around, .. } = self.parts[part.0 as usize];
         let counting =
-            if around == NONE { Counting::ALL } else { self.slopes(field, paint, PartId(around)).1 };
+            if around == NONE { self.counting } else { self.slopes(field, paint, PartId(around)).1 };
         let found = self.cells(part).map(|cells| field.diameters(paint, &cells, counting));
         let known = &mut self.parts[part.0 as usize];
         (known.diameters, known.cut) = found.unwrap_or(([f64::INFINITY; 2], None));
