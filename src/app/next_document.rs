@@ -1,6 +1,6 @@
 //! Another document takes the place of the one that is open. Of the former one nothing is left in the window:
-//! tools, view, canvas and features say what they keep, and begin anew with everything else, so that what is
-//! new in them is not forgotten here.
+//! tools, view, canvas and features say what they keep and reset everything else, so that a part added to
+//! them later is reset too.
 
 use super::App;
 use super::canvas::Canvas;

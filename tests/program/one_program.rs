@@ -356,7 +356,17 @@ fn random_documents_are_equal_when_they_are_saved_and_opened() {
         };
         let bytes = written(&project);
         let opened = from_bytes(&bytes, "a.meshbrush".as_ref()).unwrap();
-        assert!(opened == project, "seed {seed}");
+        if opened != project {
+            let texts = [&opened, &project].map(|project| format!("{project:?}"));
+            let same = texts[0].bytes().zip(texts[1].bytes()).take_while(|(a, b)| a == b).count();
+            let around = texts.map(|text| {
+                String::from_utf8_lossy(&text.as_bytes()[same.saturating_sub(200)..])
+                    .chars()
+                    .take(300)
+                    .collect::<String>()
+            });
+            panic!("seed {seed}: {around:#?}");
+        }
         assert!(written(&opened) == bytes, "seed {seed}");
     }
 }

@@ -72,7 +72,9 @@ fn nothing_of_a_document_is_left_in_the_next_one() {
     let (tools, usual_tools) = (changed.state().tools(), usual.state().tools());
     assert!(!tools.differs_in_choice(usual_tools));
     assert_eq!((tools.mirrored, tools.last_painted), ([false; 2], None));
-    assert_eq!((tools.radius, tools.diameter), (usual_tools.radius, usual_tools.diameter));
+    let extent = settings(&changed).domain.bounds.size().max_element();
+    assert_eq!(tools.radius, 0.2 * extent, "the brush keeps its share of the domain");
+    assert_eq!(tools.diameter, usual_tools.diameter);
     assert_eq!((&tools.domain, &tools.region, tools.error), (&usual_tools.domain, &usual_tools.region, 1.0));
     assert_eq!(described(changed.state().view()), described(usual.state().view()));
     assert_eq!(changed.state().session().queried(), None);

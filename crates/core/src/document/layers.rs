@@ -14,9 +14,12 @@ const COARSEST_PIXELS: f64 = 1024.0;
 /// Most layers of a document: each question about a size asks all of them.
 pub(super) const MOST_LAYERS: usize = 1000;
 
-/// Checks that there are not too many layers.
-pub(super) fn check_count(layers: &[Layer]) -> Result<(), SettingsError> {
-    if layers.len() > MOST_LAYERS { Err(SettingsError::Layers(layers.len())) } else { Ok(()) }
+/// Checks that a document can have so many layers.
+///
+/// # Errors
+/// Fails beyond 1,000.
+pub fn check_layer_count(layers: usize) -> Result<(), SettingsError> {
+    if layers > MOST_LAYERS { Err(SettingsError::Layers(layers)) } else { Ok(()) }
 }
 
 /// Why nothing can be painted with a brush.

@@ -39,7 +39,7 @@ pub use examples::{Example, ExampleData, ExampleMaking};
 pub use field_price::CountEstimate;
 pub use follower::{Follower, MeshChange};
 pub use history::History;
-pub use layers::NoPaintLayer;
+pub use layers::{NoPaintLayer, check_layer_count};
 pub use outline::{OutlineError, extent};
 pub use pace::Pace;
 pub use path_plan::{KeepOut, PathCost, PathPlan};

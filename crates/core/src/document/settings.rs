@@ -219,7 +219,7 @@ impl Settings {
     }
 
     fn check_layers(&self) -> Result<(), SettingsError> {
-        layers::check_count(&self.layers)?;
+        layers::check_layer_count(self.layers.len())?;
         let mut ids = BTreeSet::new();
         for layer in &self.layers {
             if !ids.insert(layer.id) {

@@ -41,13 +41,26 @@ impl PartialEq for Mask {
 }
 
 impl Mask {
-    /// Returns the mask of polygons, in world units.
+    /// Returns the mask of polygons, in world units. The mask of its polygons is the same mask.
     ///
     /// # Errors
     /// Fails when they cover no area, or are too large or too complex.
     pub fn new(polygons: &[Polygon]) -> Result<Self, RegionError> {
-        let corners = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
-        let domain = match corners.reduce(|a, b| a.union(&b)) {
+        let mut mask = Self::in_frame(polygons)?;
+        // Corners move to the grid of the frame, and a part thinner than its step vanishes: the frame of what
+        // is left can be smaller.
+        for _ in 0..MOST_FRAMES {
+            if bounds_of(mask.polygons().iter().flatten()) == Some(mask.bounds()) {
+                break;
+            }
+            mask = Self::in_frame(mask.polygons())?;
+        }
+        Ok(mask)
+    }
+
+    /// Returns the mask of polygons, with corners on the grid of the frame of these.
+    fn in_frame(polygons: &[Polygon]) -> Result<Self, RegionError> {
+        let domain = match bounds_of(polygons.iter().flatten()) {
             // The polygons of another mask stay as they are: a saved mask is read back exactly.
             Some(bounds) if bounds.is_proper() => Domain::of_stored_polygons(polygons.to_vec(), bounds)?,
             _ => Domain::of_polygons(polygons)?,
@@ -65,8 +78,8 @@ impl Mask {
     /// Fails as [`Self::new`] does.
     pub fn of_shape(shape: &CutShape) -> Result<Self, RegionError> {
         let rings = shape.rings();
-        let frame = bounds_of(&rings).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
-        Self::of_region(&Region::new(&[], frame).with(&rings))
+        let frame = bounds_of(rings.iter()).filter(Rect::is_proper).ok_or(RegionError::NoArea)?;
+        Self::new(Region::new(&[], frame).with(&rings).polygons())
     }
 
     /// Returns the mask with a shape added to it.
@@ -75,9 +88,11 @@ impl Mask {
     /// Fails as [`Self::new`] does.
     pub fn with(&self, shape: &CutShape) -> Result<Self, RegionError> {
         let (region, rings) = (self.region(), shape.rings());
-        match bounds_of(&rings).map(|bounds| bounds.union(region.frame())) {
-            Some(frame) if frame != *region.frame() => Self::of_region(&region.reframed(frame).with(&rings)),
-            _ => Self::of_region(&region.with(&rings)),
+        match bounds_of(rings.iter()).map(|bounds| bounds.union(region.frame())) {
+            Some(frame) if frame != *region.frame() => {
+                Self::new(region.reframed(frame).with(&rings).polygons())
+            }
+            _ => Self::new(region.with(&rings).polygons()),
         }
     }
 
@@ -87,22 +102,7 @@ impl Mask {
     /// Fails as [`Self::new`] does.
     pub fn without(&self, shape: &CutShape) -> Result<Option<Self>, RegionError> {
         let region = self.region().without(&shape.rings());
-        if region.is_empty() { Ok(None) } else { Self::of_region(&region).map(Some) }
-    }
-
-    /// Returns the mask of a region. It is the mask that is read back after its polygons are saved.
-    fn of_region(region: &Region) -> Result<Self, RegionError> {
-        let mut mask = Self::new(region.polygons())?;
-        // Corners move to the grid of the tight frame, and a part thinner than its step vanishes: the frame
-        // of what is left can be smaller.
-        for _ in 0..MOST_FRAMES {
-            let again = Self::new(mask.polygons())?;
-            if again == mask {
-                break;
-            }
-            mask = again;
-        }
-        Ok(mask)
+        if region.is_empty() { Ok(None) } else { Self::new(region.polygons()).map(Some) }
     }
 
     /// Returns the polygons as a region. Clones of a mask share it.
@@ -196,8 +196,8 @@ impl Mask {
 const MOST_FRAMES: u32 = 8;
 
 /// Returns the smallest rectangle that holds all corners of rings.
-fn bounds_of(rings: &[Ring]) -> Option<Rect> {
-    rings.iter().flatten().map(|&corner| Rect::new(corner, corner)).reduce(|a, b| a.union(&b))
+fn bounds_of<'a>(rings: impl Iterator<Item = &'a Ring>) -> Option<Rect> {
+    rings.flatten().map(|&corner| Rect::new(corner, corner)).reduce(|a, b| a.union(&b))
 }
 
 /// Returns whether an edge crosses the ray from `p` to the right. An end at the height of `p` counts as

@@ -416,7 +416,7 @@ mod tests {
             ("ncols 2\nnrows 2\n1 2 3 4".into(), ": the header has no `cellsize`."),
             ("ncols 2.5\nnrows 2\n1".into(), ": ncols and nrows are whole numbers, and 2.5 is not."),
             ("ncols 9e9 nrows 9e9 1".into(), ": 9,000,000,000 × 9,000,000,000 pixels cannot be read"),
-            (header.replace("size 1", "size 0") + "1 2\n3 4", ": with cells of 0 × 0"),
+            (header.replace("size 1", "size 0") + "1 2\n3 4", ": with pixels of 0 × 0"),
             (format!("{header}1 2\n3"), ", line 7: the file ends too early"),
             (format!("{header}1 2\n3 x"), ", line 7: `x` is not a number"),
             (format!("{header}1 2\n3 inf"), ", line 7: `inf` is not a number"),

@@ -155,6 +155,9 @@ impl Unpacking<'_> {
     /// # Errors
     /// Fails when bytes are left, or the checksum does not match.
     pub fn finish(mut self) -> Result<(), Flaw> {
+        if self.left > 0 {
+            return Err(Flaw::Syntax(format!("it has {} bytes more than its values take.", self.left)));
+        }
         let surplus = self.bytes.read(&mut [0]).map_err(|_| Flaw::Damaged)?;
         let valid = self.left == 0 && surplus == 0 && self.crc.finalize() == self.expected;
         if valid { Ok(()) } else { Err(Flaw::Damaged) }

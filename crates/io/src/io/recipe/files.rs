@@ -16,7 +16,7 @@ use super::super::{
 use super::LoadedLayer;
 use super::grid_region::contour_of_grid;
 use super::notes::{cut_at_antimeridian, in_the_plane, notes};
-use meshbrush_core::document::{Document, Settings};
+use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
 use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
@@ -100,10 +100,12 @@ impl SavedSettings {
     /// Fails when a file cannot be read or used, there is no coarse grid, or a layer asks for the distance to
     /// the outline of a domain that has none.
     pub fn load_files(&self, name: &str, loading: &Loading) -> Result<Loaded, LoadError> {
+        let unsuited = |error: SettingsError| LoadError::Unsuited(error.to_string());
+        check_layer_count(self.layer.len()).map_err(unsuited)?;
         let mut files = Files::new(loading);
         let settings = self.load(name, &loading.usual, &mut files)?;
         check_outline(&settings)?;
-        settings.check_depth_unit().map_err(|error| LoadError::Unsuited(error.to_string()))?;
+        settings.check_depth_unit().map_err(unsuited)?;
         // Without a domain of its own, the mesh covers all rasters.
         let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
         let notes = files.note.into_iter().chain(notes(&settings, has_frame));

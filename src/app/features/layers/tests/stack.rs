@@ -366,9 +366,11 @@ fn a_stroke_without_a_usable_layer_offers_what_helps() {
     click_button(&mut window, "Show the layer");
     assert!(layer(2, &window).visible);
     click_button(&mut window, "Delete layer");
+    assert_eq!(active(&window).paints(), Some(Quantity::Diameter), "the brush paints the layer that is left");
+    click_button(&mut window, "Delete layer");
     stroke(&mut window, FREE, FREE);
     click_button(&mut window, "Add a paint layer");
-    assert_eq!(active(&window).paints(), Some(Quantity::Risk));
+    assert_eq!(active(&window).paints(), Some(Quantity::Diameter));
     stroke(&mut window, FREE, FREE);
     assert!(level_at(&window, FREE) > 3, "now it can be painted on");
 }

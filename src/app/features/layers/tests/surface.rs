@@ -149,10 +149,13 @@ fn the_relief_of_a_surface_has_the_colours_of_its_legend() {
     fs::write(&file, header.to_owned() + &rows.collect::<Vec<_>>().join("\n")).unwrap();
     let mut window = drawn_window();
     send(&mut window, Command::File(FileCommand::New));
+    wait_for_jobs(&mut window);
     send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     assert!(window.query_by_label_contains("Legend: no layer of a surface").is_some());
     send(&mut window, Command::Layer(LayerCommand::OpenSurface(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Surface(_)));
+    // A document of the extent of the surface has taken the place of the empty one.
+    send(&mut window, Command::View(ViewCommand::SetOverlay(FieldOverlay::Surface)));
     window.hover_at(RESTING_PLACE);
     window.run();
     wait_for_jobs(&mut window);
