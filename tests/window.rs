@@ -155,10 +155,10 @@ fn copy_and_paste_reach_other_programs() {
     display.copy("0.25, ");
     display.xdotool(&["key", GO_TO_KEYS]);
     display.point_at(RESTING_PLACE);
-    display.settled_picture(&scratch, "2-go to");
+    display.picture_with_cursor(&scratch, "2-go to");
     display.xdotool(&["key", PASTE_KEYS]);
     display.xdotool(&["type", "0.75"]);
-    display.settled_picture(&scratch, "3-pasted");
+    display.picture_with_cursor(&scratch, "3-pasted");
     display.xdotool(&["key", "ctrl+a", COPY_KEYS]);
     wait_for("the text of the field in the clipboard", || {
         display.copied().filter(|text| text == "0.25, 0.75")
@@ -530,6 +530,12 @@ impl Display {
             let ends = painter.join().expect("painting does not fail");
             (ends.into_iter().filter(|&end| end < killed).count(), last_seen)
         })
+    }
+
+    /// Takes a picture a while after an input, where a cursor blinks and the picture never settles.
+    fn picture_with_cursor(&self, scratch: &Scratch, name: &str) {
+        sleep(Duration::from_secs(1));
+        Picture::read_xwd(&self.frame_buffer).write_png(&scratch.path(&format!("{name}.png")));
     }
 
     /// Returns the screen once it has not changed for a while and no work is in progress, kept as `name`.png.
