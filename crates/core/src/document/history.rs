@@ -116,6 +116,11 @@ impl History {
         }
     }
 
+    /// Returns all settings that undo and redo can return to.
+    pub(super) fn all_settings(&self) -> impl Iterator<Item = &Settings> {
+        self.done.iter().chain(&self.undone).filter_map(|entry| entry.data.settings())
+    }
+
     pub(super) fn last_done(&self) -> Option<&Entry> {
         self.done.back()
     }

@@ -1,5 +1,7 @@
 //! The layers of a document: which one a brush paints on, and blank pixels for it.
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 
 use super::{Document, Edit, EditError, Setting, Settings, SettingsError};
@@ -102,11 +104,16 @@ impl Document {
         self.active.and_then(|id| self.settings.layer(id))
     }
 
-    /// Returns an identifier for a new layer: no layer has it, and no pixels of a deleted layer are kept
-    /// under it.
+    /// Returns an identifier for a new layer: no layer has it, also none that undo or redo brings back, and no
+    /// pixels of a deleted layer are kept under it.
     pub fn unused_layer_id(&self) -> LayerId {
-        let is_used = |id: LayerId| self.settings.layer(id).is_some() || self.paint.get(id).is_some();
-        (0..=u32::MAX).map(LayerId).find(|id| !is_used(*id)).expect("there are fewer layers than numbers")
+        let settings = self.history.all_settings().chain([&self.settings]);
+        let layers = settings.flat_map(|settings| &settings.layers).map(|layer| layer.id);
+        let used: HashSet<LayerId> = layers.chain(self.paint.iter().map(|(id, _)| id)).collect();
+        (0..=u32::MAX)
+            .map(LayerId)
+            .find(|id| !used.contains(id))
+            .expect("there are fewer layers than numbers")
     }
 
     /// Selects the layer that brush and eraser are used on. This is no edit.
@@ -181,6 +188,22 @@ mod tests {
     use super::*;
     use crate::field::Formula;
     use crate::paint::{Brush, DiameterChange};
+
+    /// A diameter layer got the number of a deleted layer of risks. Undo then showed the pixels of one as those
+    /// of the other, and the project could not be opened.
+    #[test]
+    fn a_new_layer_does_not_have_the_identifier_of_one_that_undo_brings_back() {
+        let kinds = [Quantity::Diameter, Quantity::Risk].map(LayerKind::Paint);
+        let layers = Layer::stack(kinds);
+        let mut document =
+            Document::new(Settings { layers: layers.clone(), ..Settings::default() }, None).unwrap();
+        document.set(Setting::Layers(vec![layers[0].clone()])).unwrap();
+        document.end_gesture();
+        assert_eq!(document.unused_layer_id(), LayerId(2));
+        assert!(document.undo() && document.settings().layers == layers);
+        assert_eq!(document.unused_layer_id(), LayerId(2));
+        assert!(document.redo() && document.unused_layer_id() == LayerId(2));
+    }
 
     #[test]
     fn painted_pixels_are_not_read_as_another_quantity() {
