@@ -104,8 +104,8 @@ impl Document {
         self.active.and_then(|id| self.settings.layer(id))
     }
 
-    /// Returns an identifier for a new layer: no layer has it, also none that undo or redo brings back, and no
-    /// pixels of a deleted layer are kept under it.
+    /// Returns an identifier for a new layer: no layer has it, also none that undo or redo brings back, and
+    /// no pixels of a deleted layer are kept under it.
     pub fn unused_layer_id(&self) -> LayerId {
         let settings = self.history.all_settings().chain([&self.settings]);
         let layers = settings.flat_map(|settings| &settings.layers).map(|layer| layer.id);
@@ -189,8 +189,8 @@ mod tests {
     use crate::field::Formula;
     use crate::paint::{Brush, DiameterChange};
 
-    /// A diameter layer got the number of a deleted layer of risks. Undo then showed the pixels of one as those
-    /// of the other, and the project could not be opened.
+    /// A diameter layer got the number of a deleted layer of risks. Undo then showed the pixels of one as
+    /// those of the other, and the project could not be opened.
     #[test]
     fn a_new_layer_does_not_have_the_identifier_of_one_that_undo_brings_back() {
         let kinds = [Quantity::Diameter, Quantity::Risk].map(LayerKind::Paint);
