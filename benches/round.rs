@@ -15,7 +15,7 @@ use glam::{DVec2, dvec2};
 use meshbrush_benches::risks::processor_time;
 use meshbrush_core::build::MeshBuilder;
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryTreatment, Domain, corners};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DepthRule, DepthSizes, Depths, DistanceTo, FeatureSize, Layer, LayerKind, Mask, PositiveDepth,
@@ -211,8 +211,12 @@ fn settings(name: &str, seed: u64, factor: f64) -> Settings {
         let mask = [None, None, None, Some(diamond), Some(square)][sliders.random.usize(..5)].clone();
         layer.mask = mask.map(|ring| Mask::new(&[vec![ring]]).expect("a mask"));
         layer.kind = match &layer.kind {
-            LayerKind::Straits(straits) => LayerKind::Straits(straits.for_domain(&domain)),
-            LayerKind::FeatureSize(size) => LayerKind::FeatureSize(size.for_domain(&domain)),
+            LayerKind::Straits(straits) => {
+                LayerKind::Straits(straits.for_domain(&domain, &BoundaryMarks::default()))
+            }
+            LayerKind::FeatureSize(size) => {
+                LayerKind::FeatureSize(size.for_domain(&domain, &BoundaryMarks::default()))
+            }
             other => other.clone(),
         };
     }

@@ -29,10 +29,10 @@ pub use meshbrush_core::build::{
 };
 #[doc(inline)]
 pub use meshbrush_core::domain::{
-    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutShape,
-    DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, MOST_CORNERS, MeshBoundary,
-    NamedPolygon, PieceChoice, PieceFigures, PieceRun, PixelLengths, Polygon, Region, RegionError,
-    RegionOnLattice, Ring,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, CutFrame,
+    CutShape, DepthContour, DepthContourError, Domain, DomainOnLattice, DomainShape, MOST_CORNERS,
+    MeshBoundary, NamedPolygon, OutlineOnEarth, PieceChoice, PieceFigures, PieceRun, PixelLengths, Polygon,
+    Region, RegionError, RegionOnLattice, Ring,
 };
 #[doc(inline)]
 pub use meshbrush_core::field::formula::ParseError;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use meshbrush_core::document::{MAX_COARSE_TRIANGLES, Settings};
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, OutlineOnEarth};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{CoarseError, KeptParts, MOST_TRIANGLES};
@@ -169,11 +169,7 @@ fn domain_of(domain: Table<'_>) -> Result<(Domain, BoundaryMarks), JsError> {
                 "The domain has no polygon: give a ring of points, rings, or GeoJSON with polygons.",
             ));
         }
-        let Some(bounds) = bounds else { return BoundaryMarks::domain_of(&polygons).map_err(error) };
-        let plain = polygons.iter().map(|named| named.polygon.clone()).collect();
-        let domain = Domain::of_stored_polygons(plain, bounds).map_err(error)?;
-        let marks = BoundaryMarks::of_polygons(&polygons, &domain);
-        return Ok((domain, marks));
+        return BoundaryMarks::domain_of(&polygons, bounds, &OutlineOnEarth::default()).map_err(error);
     }
     let bounds: Rect = domain.needed("bounds", bounds)?;
     let inside = domain.text("inside")?.map(|text| compiled("inside", &text, Formula::parse)).transpose()?;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import TracebackType
@@ -13,19 +14,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import MeshError
+from ._errors import MeshbrushWarning, MeshError
 from .domain import Domain
-from .layers import Layers, Length
+from .layers import Layers, Length, _depth
 from .mesh import Mesh, Why
 from .paths import Path
 from .progress import Progress, watching
-from .shapes import ShapesLike, as_path, geojson
+from .shapes import ShapesLike, as_path, each_shape, geojson
 from .window import View, edited, shown
 
 #: The options by the table of a recipe that has them.
 _TABLES = {
     "domain": (
-        *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits"),
+        *("boundary", "boundary_diameter", "parts", "keep_pinches", "unit", "crs", "projection", "splits", "open"),
         *("contour", "positive", "smallest_island", "smallest_inlet", "outside_nodata"),
     ),
     "mesh": ("spacing", "rule", "max_triangles", "max_level", "max_memory"),
@@ -35,7 +36,7 @@ _TABLES = {
 
 #: Options that belong to the domain, and are not changed later.
 _OF_DOMAIN = {
-    *("unit", "crs", "projection", "splits"),
+    *("unit", "crs", "projection", "splits", "open"),
     *("contour", "positive", "smallest_island", "smallest_inlet", "outside_nodata"),
 }
 
@@ -49,6 +50,34 @@ def _tables(options: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     return {table: {key: values[key] for key in keys if key in values} for table, keys in _TABLES.items()}
 
 
+#: Where the open boundary is, in the memory.
+_OPEN = "open.geojson"
+
+
+def _openings(value: Any, given: list[tuple[str, Any]]) -> list[Any]:
+    """Returns where the boundary is open as a recipe has it. Shapes go into `given`."""
+    if (path := as_path(value)) is not None:
+        return [path]
+    is_box = isinstance(value, (list, tuple)) and len(value) == 4
+    if is_box and all(isinstance(side, (int, float, np.number)) for side in value):
+        return [[float(side) for side in value]]
+    if isinstance(value, (list, tuple)) and not _is_ring(value):
+        return [entry for one in value for entry in _openings(one, given)]
+    name = f"{len(given)}-{_OPEN}"
+    given.append((name, geojson(value, "Polygon")))
+    return [name]
+
+
+def _is_ring(value: Sequence[Any]) -> bool:
+    """Whether these are points with two coordinates each."""
+    return all(isinstance(at, (list, tuple, np.ndarray)) and len(at) == 2 for at in value)
+
+
+def _warn(notes: Sequence[str]) -> None:
+    for note in notes:
+        warnings.warn(note, MeshbrushWarning, stacklevel=_depth())
+
+
 class Document:
     """What to mesh, and how fine: a domain, layers and limits. Everything can be changed and undone.
 
@@ -59,7 +88,8 @@ class Document:
     `spacing` is the longest side of a coarse cell; `h_min`, `h_max` and `h_risk` limit the target diameter, and
     `gradation` its growth by unit of length. `boundary` is "outline", "fitted" or "report", with triangles of the
     diameter `boundary_diameter` along the outline. `names` and `types` are names and types of the piece of the boundary
-    at a point, as in {(24.5, 37.9): "harbour"}. Where the domain is a file with a grid of heights, `contour` is the depth
+    at a point, as in {(24.5, 37.9): "harbour"}. `open` says where the boundary is open: "frame", "depth>50", a box (west,
+    south, east, north), polygons, or a list of these. Where the domain is a file with a grid of heights, `contour` is the depth
     of its shore; with `outside_nodata`, the domain is where the grid has values. `rule` is "area" or "vertex". Other keywords are those of a recipe.
     """
 
@@ -84,6 +114,7 @@ class Document:
         names: Mapping[tuple[float, float], str] | None = None,
         types: Mapping[tuple[float, float], str] | None = None,
         splits: Sequence[tuple[float, float]] | None = None,
+        open: Any = None,
         contour: float | None = None,
         positive: str | None = None,
         smallest_island: float | None = None,
@@ -103,8 +134,12 @@ class Document:
             tables["domain"].pop("unit", None)
         tables["domain"]["names"] = [{"at": list(at), "name": word} for at, word in (names or {}).items()]
         tables["domain"]["types"] = [{"at": list(at), "type": word} for at, word in (types or {}).items()]
-        core, notes = _core.Document.new(tables, of._given, name)
+        given = list(of._given)
+        if open is not None:
+            tables["domain"]["open"] = _openings(open, given)
+        core, notes, without_effect = _core.Document.new(tables, given, name)
         self._take(core, notes)
+        _warn(without_effect)
 
     def _take(self, core: _core.Document, notes: Sequence[str] = ()) -> None:
         self._core = core
@@ -180,7 +215,7 @@ class Document:
         length_weight: float | None = None,
         risk_weight: float | None = None,
         cost: str | None = None,
-        keep_out: Sequence[ShapesLike] = (),
+        keep_out: ShapesLike | Sequence[ShapesLike] = (),
         clearance: Length | None = None,
         within: float | None = None,
         progress: Progress = None,
@@ -189,12 +224,12 @@ class Document:
         """Returns the path of least cost between places in world units, and bounds of the least cost.
 
         The cost by unit of length is `length_weight` + `risk_weight` · risk, or the formula `cost` of x, y and risk.
-        `keep_out` are polygons that it does not enter, and `clearance` is its least distance from them and from the
+        `keep_out` are polygons that it does not enter: a file, or what else stands for shapes, or several of these; and `clearance` is its least distance from them and from the
         outline. With `within`, as 0.01, the bounds are narrowed to that share.
         """
         weights = {"length_weight": length_weight, "risk_weight": risk_weight, "cost": cost, "clearance": clearance}
         places = np.asarray([start, *via, goal], dtype=np.float64)
-        regions = [_polygons(region) for region in keep_out]
+        regions = [as_path(region) or geojson(region, "Polygon") for region in each_shape(keep_out)]
         mesh = self.mesh(threads=threads)
         with watching(progress, threads) as watch:
             points, figures, stops, note = mesh._core.path(places, weights, regions, within, watch)
@@ -326,7 +361,8 @@ def open(path: Any) -> Document:  # noqa: A001
 
 def read_recipe(path: Any) -> Document:
     """Reads a recipe and the files that it names. Its outputs are not written."""
-    core, notes = _core.Document.read_recipe(_path(path))
+    core, notes, without_effect = _core.Document.read_recipe(_path(path))
+    _warn(without_effect)
     return Document._of(core, notes)
 
 
@@ -335,11 +371,3 @@ def _path(path: Any) -> str:
     if name is None:
         raise TypeError(f"A path is a text or an os.PathLike, not {type(path).__name__}.")
     return name
-
-
-def _polygons(region: ShapesLike) -> bytes:
-    path = as_path(region)
-    if path is None:
-        return geojson(region, "Polygon")
-    with os.fdopen(os.open(path, os.O_RDONLY), "rb") as file:
-        return file.read()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import warnings
 from collections.abc import Mapping
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
@@ -12,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._errors import MeshError
+from ._errors import MeshbrushWarning, MeshError
 from .progress import Progress, watching
 from .shapes import as_path
 
@@ -227,7 +228,10 @@ class Mesh:
         output.update(binary=bool(binary), flat=bool(flat), quantities=list(quantities or []))
         named = [(_valid(name), np.ascontiguousarray(v, dtype=np.float64)) for name, v in (values or {}).items()]
         with watching(progress) as watch:
-            return [str(file) for file in self._core.write(output, format, crs, named, watch)]
+            files, note = self._core.write(output, format, crs, named, watch)
+        if note is not None:
+            warnings.warn(note, MeshbrushWarning, stacklevel=2)
+        return [str(file) for file in files]
 
     def picture(
         self,

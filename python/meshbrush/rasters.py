@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import MeshError
+from ._errors import MeshbrushWarning, MeshError
+from .shapes import crs_text
 
 #: x0, y0, x1, y1 in world units.
 Bounds = Sequence[float]
@@ -21,6 +23,7 @@ class Grid(NamedTuple):
     bounds: list[float] | None
     lowest_first: bool
     crs: str | None
+    attributes: dict[str, str] = {}
 
     def data(self) -> dict[str, Any]:
         """Returns the grid as the compiled module takes it."""
@@ -36,8 +39,8 @@ def grid_of(values: Any, bounds: Bounds | None, origin: str, crs: str | None) ->
         raise MeshError("bounds are four numbers, (x0, y0, x1, y1).")
     if hasattr(values, "dims") and hasattr(values, "coords"):
         grid = _of_xarray(values)
-    elif hasattr(values, "read") and hasattr(values, "bounds") and hasattr(values, "nodata"):
-        grid = Grid(_filled(values.read(1, masked=True)), list(values.bounds), False, _crs(values.crs))
+    elif hasattr(values, "read") and hasattr(values, "transform") and hasattr(values, "nodata"):
+        grid = _of_rasterio(values)
     else:
         grid = Grid(_filled(values), None, origin == "lower", None)
     return grid._replace(bounds=place or grid.bounds, crs=crs or grid.crs)
@@ -57,9 +60,24 @@ def _filled(values: Any) -> npt.NDArray[Any]:
     return array
 
 
-def _crs(crs: Any) -> str | None:
-    epsg = crs.to_epsg() if hasattr(crs, "to_epsg") else None
-    return None if epsg is None else f"EPSG:{epsg}"
+def _of_rasterio(dataset: Any) -> Grid:
+    """Returns the first band of a data set with its scale, its offset and its unit."""
+    names = [str(getattr(color, "name", color)) for color in dataset.colorinterp]
+    if names[0] == "red":
+        raise MeshError("This is a picture in colours, and its bands are no values: give an array, as dataset.read(2).")
+    if len(names) - names.count("alpha") > 1:
+        note = f"The data set has {len(names)} bands, and the first is read: give an array, as dataset.read(2), for another."
+        warnings.warn(note, MeshbrushWarning, stacklevel=5)
+    place = dataset.transform
+    if place.b or place.d or place.a <= 0:
+        raise MeshError("The data set is turned or mirrored: warp it first, for example with rasterio.vrt.WarpedVRT.")
+    values = _filled(dataset.read(1, masked=True))
+    scale, offset = dataset.scales[0], dataset.offsets[0]
+    if (scale, offset) != (1.0, 0.0):
+        values = values * scale + offset
+    sides = sorted((place.f, place.f + place.e * dataset.height))
+    bounds = [place.c, sides[0], place.c + place.a * dataset.width, sides[1]]
+    return Grid(values, bounds, place.e > 0, crs_text(dataset.crs), {"units": dataset.units[0] or ""})
 
 
 def _of_xarray(array: Any) -> Grid:
@@ -75,13 +93,23 @@ def _of_xarray(array: Any) -> Grid:
         x, values = x[::-1], values[:, ::-1]
     west, east = _ends(x, x_name)
     south, north = _ends(y, y_name)
-    nodata = array.attrs.get("_FillValue")
     crs = None
+    marks = [array.attrs.get("_FillValue"), array.attrs.get("missing_value")]
     if hasattr(array, "rio"):
-        nodata, crs = array.rio.nodata, _crs(array.rio.crs)
-    if nodata is not None and not np.isnan(nodata):
-        values = np.where(values == nodata, np.nan, values)
-    return Grid(values, [west, min(south, north), east, max(south, north)], bool(y[0] < y[-1]), crs)
+        marks, crs = [array.rio.nodata, *marks], crs_text(array.rio.crs)
+    for mark in marks:
+        if mark is not None and not np.isnan(mark):
+            values = np.where(values == mark, np.nan, values)
+    scale, offset = array.attrs.get("scale_factor", 1.0), array.attrs.get("add_offset", 0.0)
+    if (scale, offset) != (1.0, 0.0):
+        # A data array that was opened without decoding has them.
+        values = values * scale + offset
+    known = {name: str(array.attrs[name]) for name in _ATTRIBUTES if name in array.attrs}
+    return Grid(values, [west, min(south, north), east, max(south, north)], bool(y[0] < y[-1]), crs, known)
+
+
+#: Attributes of the CF conventions that say what heights and depths are.
+_ATTRIBUTES = ("units", "positive", "standard_name")
 
 
 def _axis(array: Any, names: tuple[str, ...]) -> Any:

@@ -23,18 +23,24 @@ def as_path(value: object) -> str | None:
     return None
 
 
+def each_shape(shapes: Any) -> list[ShapesLike]:
+    """Returns shapes one by one: those of a list, or what stands for shapes itself."""
+    is_one = as_path(shapes) is not None or isinstance(shapes, dict) or hasattr(shapes, "__geo_interface__")
+    return [shapes] if is_one or _points(shapes) is not None else list(shapes)
+
+
 def geojson(shapes: ShapesLike, kind: str) -> bytes:
     """Returns shapes as GeoJSON. Arrays are `kind`: "Polygon", "LineString" or "MultiPoint"."""
     found = _geo_interface(shapes)
     if found is None:
         found = _of_arrays(shapes, kind)
-    return json.dumps(found).encode()
+    return json.dumps(found, default=str).encode()
 
 
 def _geo_interface(shapes: ShapesLike) -> dict[str, Any] | None:
     interface = getattr(shapes, "__geo_interface__", None)
     if interface is not None:
-        return _with_crs(dict(interface), getattr(shapes, "crs", None))
+        return _with_crs(_plain(dict(interface)), getattr(shapes, "crs", None))
     if isinstance(shapes, dict) and "type" in shapes:
         return shapes
     if isinstance(shapes, (list, tuple)) and shapes and all(hasattr(s, "__geo_interface__") for s in shapes):
@@ -42,11 +48,36 @@ def _geo_interface(shapes: ShapesLike) -> dict[str, Any] | None:
     return None
 
 
-def _with_crs(interface: dict[str, Any], crs: Any) -> dict[str, Any]:
-    """Adds the code of the coordinate system, which GeoJSON of geopandas does not have."""
+#: Properties of features that are names.
+_NAMES = ("name", "NAME", "Name", "title", "id")
+
+
+def _plain(interface: dict[str, Any]) -> dict[str, Any]:
+    """Returns features with their names only: other properties may be dates, or numbers that no JSON has."""
+    if interface.get("type") == "FeatureCollection":
+        return {"type": "FeatureCollection", "features": [_plain(dict(f)) for f in interface.get("features", ())]}
+    if interface.get("type") == "Feature":
+        own = interface.get("properties") or {}
+        names = {key: own[key] for key in _NAMES if isinstance(own.get(key), (str, int, np.integer))}
+        texts = {key: name if isinstance(name, str) else str(name) for key, name in names.items()}
+        return {"type": "Feature", "properties": texts, "geometry": interface.get("geometry")}
+    return interface
+
+
+def crs_text(crs: Any) -> str | None:
+    """Returns the code of a coordinate system of pyproj or rasterio, or its well-known text where it has none."""
     epsg = crs.to_epsg() if hasattr(crs, "to_epsg") else None
-    if epsg is not None and "crs" not in interface:
-        interface["crs"] = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{epsg}"}}
+    if epsg is not None:
+        return f"EPSG:{epsg}"
+    text = crs.to_wkt() if crs is not None and hasattr(crs, "to_wkt") else None
+    return text or None
+
+
+def _with_crs(interface: dict[str, Any], crs: Any) -> dict[str, Any]:
+    """Adds the coordinate system, which GeoJSON of geopandas does not have."""
+    text = crs_text(crs)
+    if text is not None and "crs" not in interface:
+        interface["crs"] = {"type": "name", "properties": {"name": text}}
     return interface
 
 

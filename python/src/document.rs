@@ -61,7 +61,7 @@ pub struct State {
 
 impl Document {
     fn of(loaded: LoadedDocument, saved: &SavedSettings) -> Self {
-        let LoadedDocument { document, coordinates, notes: _ } = loaded;
+        let LoadedDocument { document, coordinates, notes: _, without_effect: _ } = loaded;
         Self::of_state(State {
             document,
             assumed: saved.domain.assumed().ok().flatten(),
@@ -104,14 +104,15 @@ pub fn lock<T>(value: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 #[pymethods]
 impl Document {
-    /// Makes a document from tables with the keys of a recipe, and returns it with notes for a person.
+    /// Makes a document from tables with the keys of a recipe, and returns it with notes for a person, and
+    /// those of them on what has no effect.
     #[staticmethod]
     fn new(
         py: Python<'_>,
         tables: &Bound<'_, PyDict>,
         given: Vec<(String, GivenData<'_>)>,
         name: String,
-    ) -> PyResult<(Self, Vec<String>)> {
+    ) -> PyResult<(Self, Vec<String>, Vec<String>)> {
         let tables = text_value(tables)?;
         let given = given_of(given, None)?;
         let saved = SavedSettings::of_value(&tables, &given).map_err(|fault| fault_in(&tables, &fault))?;
@@ -120,13 +121,14 @@ impl Document {
             saved.into_document(&name, &loading).map(|loaded| (loaded, saved))
         })?;
         let (loaded, saved) = loaded.map_err(|error| load_error(&tables, &error))?;
-        let notes = loaded.notes.clone();
-        Ok((Self::of(loaded, &saved), notes))
+        let (notes, without_effect) = (loaded.notes.clone(), loaded.without_effect.clone());
+        Ok((Self::of(loaded, &saved), notes, without_effect))
     }
 
-    /// Reads a recipe, and returns its document with notes for a person.
+    /// Reads a recipe, and returns its document with notes for a person, and those of them on what has no
+    /// effect.
     #[staticmethod]
-    fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
+    fn read_recipe(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>, Vec<String>)> {
         let loaded = run(py, &Watching::QUIET, move |watch| {
             let recipe = recipe::read(&path)?;
             let loaded = recipe.into_document(&Loading::for_document(&watch.meter))?;
@@ -134,8 +136,8 @@ impl Document {
         })?;
         let (loaded, saved) =
             loaded.map_err(|error: recipe::LoadError| load_error(&TextValue::Nothing, &error))?;
-        let notes = loaded.notes.clone();
-        Ok((Self::of(loaded, &saved), notes))
+        let (notes, without_effect) = (loaded.notes.clone(), loaded.without_effect.clone());
+        Ok((Self::of(loaded, &saved), notes, without_effect))
     }
 
     /// Reads a project.

@@ -295,7 +295,7 @@ impl Mesh {
         })
     }
 
-    /// Writes files, and returns their names.
+    /// Writes files, and returns their names, and a note where a coastal solver finds no open boundary.
     #[pyo3(signature = (output, format, crs, values, watching))]
     fn write(
         slf: &Bound<'_, Self>,
@@ -304,7 +304,7 @@ impl Mesh {
         crs: Option<&str>,
         values: Vec<(String, PyReadonlyArray1<'_, f64>)>,
         watching: Watching,
-    ) -> PyResult<Vec<PathBuf>> {
+    ) -> PyResult<(Vec<PathBuf>, Option<String>)> {
         let shared = slf.get().0.clone();
         let table = text_value(output)?;
         let requested = SavedOutput::of_value(&table)
@@ -331,7 +331,8 @@ impl Mesh {
                 let (finished, provenance) = (&shared.finished, &provenance);
                 let exported =
                     ExportedMesh { finished, extract, details, provenance, coordinates, target_diameter };
-                requested.write(&exported, values, &watch.meter)
+                let files = requested.write(&exported, values, &watch.meter)?;
+                Ok((files, requested.closed_note(details)))
             })
         })?;
         written.map_err(|failure| match failure {

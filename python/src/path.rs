@@ -1,6 +1,6 @@
 //! Paths of least cost through a mesh.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -11,10 +11,10 @@ use meshbrush_core::path::{
     CertificateTask, CostDensity, PathArea, PathCertificate, PathMesh, PathRequest, Planner, Solution,
     Weights,
 };
-use meshbrush_io::io::DocumentPlane;
 use meshbrush_io::io::geojson::{read_outline_from, without_names};
 use meshbrush_io::io::settings::SavedSettings;
-use meshbrush_io::io::shape_format::placed_polygons;
+use meshbrush_io::io::shape_format::{placed_polygons, read_polygons};
+use meshbrush_io::io::{DocumentPlane, Meter};
 use meshbrush_mesh::text::LengthUnit;
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -30,10 +30,19 @@ use crate::work::{Watch, Watching, run};
 struct Asked {
     places: Vec<DVec2>,
     cost: PathCost,
-    keep_out: Vec<Vec<u8>>,
+    keep_out: Vec<KeepOut>,
     clearance: f64,
     /// The width of the interval around the least cost, as a share.
     within: Option<f64>,
+}
+
+/// Polygons that a path does not enter.
+#[derive(FromPyObject)]
+enum KeepOut {
+    /// A file.
+    File(PathBuf),
+    /// GeoJSON.
+    Shapes(Vec<u8>),
 }
 
 /// The points of a path, its figures, and the places of its stops among the points.
@@ -48,7 +57,7 @@ impl Mesh {
         slf: &Bound<'py, Self>,
         places: PyReadonlyArray2<'py, f64>,
         table: &Bound<'py, PyDict>,
-        keep_out: Vec<Vec<u8>>,
+        keep_out: Vec<KeepOut>,
         within: Option<f64>,
         watching: Watching,
     ) -> PyResult<PathArrays<'py>> {
@@ -98,8 +107,11 @@ impl Asked {
             |error: meshbrush_core::path::PathError| error.in_domain(domain, &self.places).to_string();
         let density = self.cost.density(finished.risk(), domain).map_err(sentence)?;
         let plane = domain.projection.map(DocumentPlane::from);
-        let keep_out =
-            self.keep_out.iter().map(|text| mask(text, plane.as_ref())).collect::<Result<_, _>>()?;
+        let keep_out = self
+            .keep_out
+            .iter()
+            .map(|shapes| mask(shapes, plane.as_ref(), &watch.meter))
+            .collect::<Result<_, _>>()?;
         let area = PathArea::new(domain, keep_out, self.clearance).map_err(sentence)?;
         watch.tell("finding the path", 0);
         let (mut solution, mesh) = shared.with_extract(|extract| {
@@ -149,9 +161,15 @@ fn proved(
     end.map(|end| end.to_string())
 }
 
-fn mask(text: &[u8], plane: Option<&DocumentPlane>) -> Result<Mask, String> {
-    let name = Path::new("keep_out");
-    let outline = read_outline_from(text, name).map_err(|error| error.to_string())?;
-    let polygons = placed_polygons(outline, plane, name).map_err(|error| error.to_string())?;
+fn mask(shapes: &KeepOut, plane: Option<&DocumentPlane>, meter: &Meter) -> Result<Mask, String> {
+    let polygons = match shapes {
+        KeepOut::File(file) => read_polygons(file, plane, meter),
+        KeepOut::Shapes(text) => {
+            let name = Path::new("keep_out");
+            read_outline_from(&text[..], name)
+                .and_then(|outline| placed_polygons(outline.in_degrees(), plane, name))
+        }
+    };
+    let polygons = polygons.map_err(|error| error.to_string())?;
     Mask::new(&without_names(polygons)).map_err(|error| format!("keep_out: {error}"))
 }

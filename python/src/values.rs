@@ -1,8 +1,10 @@
 //! Dictionaries of Python as the tables of a recipe, and data in memory.
 
+use std::collections::HashMap;
+
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::raster::RasterPyramid;
-use meshbrush_io::io::{FileCoordinates, Given, GivenGrid, TextValue};
+use meshbrush_io::io::{CoordinateSystem, FileCoordinates, Given, GivenGrid, TextValue, ValueFacts};
 use meshbrush_mesh::text::{Length, LengthUnit};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -94,6 +96,9 @@ pub struct GridData<'py> {
     /// What the coordinates of `bounds` are.
     #[pyo3(item)]
     crs: Option<String>,
+    /// What is known about its values: `units`, `positive` and `standard_name` of the CF conventions.
+    #[pyo3(item)]
+    attributes: HashMap<String, String>,
 }
 
 /// The place and the plane of a document, for grids that have none of their own.
@@ -122,7 +127,7 @@ pub fn given_of(given: Vec<(String, GivenData<'_>)>, frame: Option<Frame>) -> Py
 
 impl GridData<'_> {
     fn placed(self, name: &str, frame: Option<Frame>) -> PyResult<GivenGrid> {
-        let Self { values, bounds, lowest_first, crs } = self;
+        let Self { values, bounds, lowest_first, crs, attributes } = self;
         let in_frame = frame.filter(|_| bounds.is_none());
         let Some(place) = bounds.or(frame.map(|frame| frame.bounds)) else {
             return Err(mesh_error(format!("{name}: bounds are missing; give bounds=(x0, y0, x1, y1).")));
@@ -130,15 +135,22 @@ impl GridData<'_> {
         let raster = raster_of(&values, place, lowest_first, name)?;
         let stated = match &crs {
             Some(text) if text == "plane" => frame.and_then(|frame| frame.plane),
+            // Well-known text.
+            Some(text) if text.contains('[') => None,
             Some(text) => {
                 Some(text.parse::<Coordinates>().map_err(|error| mesh_error(format!("crs: {error}")))?)
             }
             None => in_frame.and_then(|frame| frame.plane),
         };
+        let described = crs.as_deref().and_then(CoordinateSystem::from_wkt).map(|system| system.stated());
         let [x0, y0, x1, y1] = place;
         let can_be_degrees = y0 >= -91.0 && y1 <= 91.0 && x0 >= -181.0 && x1 <= 361.0;
-        let coordinates = stated.map_or(FileCoordinates::Unstated { can_be_degrees }, FileCoordinates::Known);
-        Ok(GivenGrid { raster: RasterPyramid::new(raster).into(), coordinates })
+        let unstated = described.unwrap_or(FileCoordinates::Unstated { can_be_degrees });
+        let coordinates = stated.map_or(unstated, FileCoordinates::Known);
+        let attribute = |name: &str| attributes.get(name).map(String::as_str);
+        let facts =
+            ValueFacts::of_attributes(attribute("units"), attribute("positive"), attribute("standard_name"));
+        Ok(GivenGrid { raster: RasterPyramid::new(facts.in_metres(raster)).into(), coordinates, facts })
     }
 }
 

@@ -184,6 +184,7 @@ fn the_largest_courant_number_is_a_floor_for_all_other_sizes() {
     let (plain, floored) = (mesh(""), mesh("--max-courant 0.5 --time-step 20"));
     let triangles = |summary: &serde_json::Value| summary["triangles"].as_u64().unwrap();
     assert!(triangles(&floored) < triangles(&plain) / 2, "{floored}");
+    assert!(plain["courant"].is_null());
     for (options, sentence) in [
         ("--max-courant 0.5", "--time-step <SECONDS>"),
         ("--max-courant 0 --time-step 2", "--max-courant"),
@@ -192,6 +193,67 @@ fn the_largest_courant_number_is_a_floor_for_all_other_sizes() {
     ] {
         let ran = folder.run(format!("mesh {DOMAIN} --depth bay.asc {options}"));
         assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+}
+
+/// The Courant numbers of all edges of a file, at the mean depth of their ends.
+fn courant_numbers(text: &str, time_step: f64) -> Vec<f64> {
+    let (nodes, triangles) = fort14(text);
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges: std::collections::BTreeSet<[usize; 2]> = sides.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    let number = |[a, b]: [usize; 2]| {
+        let ([ax, ay, a_deep], [bx, by, b_deep]) = (nodes[a], nodes[b]);
+        let depth = (0.5 * (a_deep + b_deep)).max(1.0);
+        let speed = (G * depth).sqrt() + (G / depth).sqrt();
+        (a_deep > 0.0 || b_deep > 0.0).then(|| speed * time_step / (ax - bx).hypot(ay - by))
+    };
+    edges.into_iter().filter_map(number).collect()
+}
+
+/// Along edges, because solvers check edges. On a plane bottom nothing but the floor decides; on a disc, nodes
+/// on the outline make shorter edges, and over a bank the floor changes within a triangle: these are counted.
+#[test]
+fn edges_keep_the_largest_courant_number_or_are_counted() {
+    let folder = Folder::new("depth-courant");
+    let rows = (0..101).map(|_| (0..101).map(|x| format!("{:.2}", -5.0 - 0.95 * f64::from(x))));
+    let rows: Vec<String> = rows.map(|row| row.collect::<Vec<_>>().join(" ")).collect();
+    let head = "ncols 101\nnrows 101\nxllcorner -50\nyllcorner -50\ncellsize 100\n";
+    folder.file("plane.asc", head.to_owned() + &rows.join("\n"));
+    folder.file("bay.asc", Bay::new().grid(|_, _| true));
+    let corner = |n: i32| {
+        let (sine, cosine) = (f64::from(n) * TAU / 90.0).sin_cos();
+        format!("[{}, {}]", 5000.0 + 4500.0 * cosine, 5000.0 + 4500.0 * sine)
+    };
+    let ring: Vec<String> = (0..=90).map(corner).collect();
+    folder
+        .file("disc.geojson", format!("{{\"type\": \"Polygon\", \"coordinates\": [[{}]]}}", ring.join(", ")));
+    let plane = "--domain 0,0,10000,10000 --spacing 2000 --depth plane.asc --target 10";
+    let disc = "--region disc.geojson --spacing 2000 --boundary-diameter 2000 --depth plane.asc --target 10";
+    let bay = format!("{DOMAIN} --depth bay.asc --target 300");
+    for (domain, is_kept) in [(plane, true), (disc, false), (&bay, false)] {
+        for (limit, time_step) in [(1.0, 5.0), (0.5, 5.0), (0.7, 10.0)] {
+            let ran = folder
+                .run(format!("mesh {domain} --max-courant {limit} --time-step {time_step} -o out.14 --json"));
+            let summary: serde_json::Value = serde_json::from_str(&ran.out).unwrap();
+            let numbers = courant_numbers(&folder.read("out.14"), time_step);
+            // Coordinates in files are rounded.
+            let above = |share: f64| numbers.iter().filter(|&&number| number > share * limit).count() as u64;
+            let counted = summary["courant"]["above"].as_u64().unwrap();
+            assert!((above(1.0 + 1e-6)..=above(1.0 - 1e-6)).contains(&counted), "{domain}: {summary}");
+            assert_eq!(summary["courant"]["edges"], numbers.len());
+            let largest = numbers.iter().fold(0.0, |a: f64, b| a.max(*b));
+            let said = summary["courant"]["largest"].as_f64().unwrap();
+            assert!((said / largest - 1.0).abs() < 1e-6, "{said} and {largest}");
+            assert_eq!(counted > 0, ran.err.contains("edges have a Courant number above"), "{}", ran.err);
+            assert!(!is_kept || counted == 0, "{domain}: {}", ran.err);
+            // The floor is no higher than needed: the longest edges are within a factor of it.
+            let median = {
+                let mut sorted = numbers.clone();
+                sorted.sort_by(f64::total_cmp);
+                sorted[sorted.len() / 2]
+            };
+            assert!(median > 0.35 * limit, "{domain}: {median}");
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use glam::dvec2;
 use meshbrush_core::document::{Document, Example, Follower, KeepOut, PathCost, PathPlan, Settings, Stage};
 use meshbrush_core::domain::{
     BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryTreatment, BoundaryType, Domain, DomainShape,
+    OutlineOnEarth,
 };
 use meshbrush_core::field::{CostFormula, Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
@@ -204,14 +205,15 @@ fn saved_polygons_open_with_equal_corners() {
     let mut random = fastrand::Rng::with_seed(23);
     for _ in 0..1000 {
         let domain = polygons(&mut random);
-        let again = Domain::of_stored_polygons(domain.region().unwrap().polygons().to_vec(), domain.bounds);
+        let polygons = domain.region().unwrap().polygons().to_vec();
+        let again = Domain::of_stored_polygons(polygons, domain.bounds, &OutlineOnEarth::default());
         assert_eq!(again.as_ref(), Ok(&domain));
     }
     // What is no region's is put right: a square twice, and a square that runs the wrong way.
     let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| dvec2(x, y)).to_vec();
     let clockwise: Vec<_> = square.iter().rev().copied().collect();
     for polygons in [vec![vec![square.clone()], vec![square]], vec![vec![clockwise]]] {
-        let domain = Domain::of_stored_polygons(polygons, Rect::UNIT).unwrap();
+        let domain = Domain::of_stored_polygons(polygons, Rect::UNIT, &OutlineOnEarth::default()).unwrap();
         assert_eq!(domain.region().unwrap().area(), 1.0);
         assert_eq!(domain.region().unwrap().polygons().len(), 1);
     }

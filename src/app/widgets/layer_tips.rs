@@ -32,7 +32,7 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ),
     ("Size by/Time step", "The diameter at which a wave has a Courant number in a time step of a solver."),
     ("Only between two depths", "Shallower and deeper water asks for nothing."),
-    ("Leave out open boundaries", "Only coasts count, and no boundary along the frame of the domain."),
+    ("Leave out open boundaries", "Only coasts count, and no open part of the boundary."),
     ("Only some pieces", "The distance is that to pieces of the boundary, by their types and names."),
     ("Use outline", "Measures the distance to the outline of the domain again."),
     (

@@ -395,7 +395,7 @@ pub struct LocateArguments {
     #[command(flatten)]
     pub input: InputArguments,
 
-    /// Table of points with the columns x and y, or lon and lat; - is standard input
+    /// Table of points with the columns x and y, or lon and lat in degrees; - is standard input
     #[arg(long, value_name = "FILE.csv", help_heading = "Points")]
     pub points: PathBuf,
 

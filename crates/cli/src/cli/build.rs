@@ -107,22 +107,9 @@ impl FinishedMesh {
         boundary.on_ground(extract, self.ground())
     }
 
-    /// Returns the names, types and splits of the boundary that are not on it, a sentence each.
-    pub fn misplaced_marks(&self, boundary: &MeshBoundary) -> Vec<String> {
-        let pieces = boundary.pieces();
-        let is_off = |place: &DVec2| pieces.nearest(*place, pieces.tolerance()).is_none();
-        let names = self.origin.marks.names.iter().filter(|(place, _)| is_off(place)).map(|(place, name)| {
-            format!("The name “{name}” at {}, {} is not on the boundary: it names nothing.", place.x, place.y)
-        });
-        let types =
-            self.origin.marks.types.iter().filter(|(place, _)| is_off(place)).map(|(place, of_piece)| {
-                let (word, x, y) = (of_piece.word(), place.x, place.y);
-                format!("The type “{word}” at {x}, {y} is not on the boundary: no piece has it.")
-            });
-        let splits = self.origin.marks.splits.iter().filter(|place| is_off(place)).map(|place| {
-            format!("The split at {}, {} is not on the boundary: it splits nothing.", place.x, place.y)
-        });
-        names.chain(types).chain(splits).collect()
+    /// Names, types and splits of the boundary.
+    pub fn marks(&self) -> &BoundaryMarks {
+        &self.origin.marks
     }
 
     /// Which points of a triangle count.

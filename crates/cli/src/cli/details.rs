@@ -7,7 +7,7 @@ use super::earth_args::OutputCoordinates;
 use super::input::Input;
 use meshbrush_core::domain::{Domain, HoleFigures, MeshBoundary, PieceFigures};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
+use meshbrush_core::layers::{CourantFit, DepthFit, Layer, LayerKind, NoDepth, NodeDepths, StraitCount};
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
@@ -22,6 +22,8 @@ pub struct MeshDetails {
     pub provenance: Provenance,
     /// The depths at the nodes, if a layer has them and they are wanted.
     pub depths: Option<NodeDepths>,
+    /// The Courant numbers of the edges, if a layer keeps them below a number and the depths are wanted.
+    pub courant: Option<CourantFit>,
     /// How far the mesh is from the surfaces of its layers, if one is a surface.
     pub surface: Option<SurfaceFit>,
     /// The height of the surface at each node, if a layer is one and files are wanted.
@@ -70,12 +72,16 @@ impl MeshDetails {
             true => NodeDepths::of(layers, extract.view()).transpose()?,
             false => None,
         };
+        let courant = depths.as_ref().and_then(|depths| {
+            let ground = finished.ground();
+            CourantFit::of(layers, extract.view(), &depths.depths, |ends| ground.length(ends))
+        });
         let straits = uses.json.then(|| StraitSummary::of(layers, extract, finished.domain())).flatten();
         let (boundary, parts) = (finished.boundary(extract), extract.part_numbers());
         let surface = finished.surface_fit(extract);
         let filled = surface.as_ref().filter(|_| uses.node_data);
         let heights = filled.map(|fit| fit.filled_heights(extract.view()));
-        Ok(Self { boundary, parts, provenance, depths, surface, heights, straits })
+        Ok(Self { boundary, parts, provenance, depths, courant, surface, heights, straits })
     }
 
     /// Returns the number of triangles of each part.
@@ -189,6 +195,30 @@ impl From<&NodeDepths> for DepthSummary {
             filled_nodes: *filled,
             farthest_filled: *farthest,
         }
+    }
+}
+
+/// The Courant numbers of edges, u Δt / L, for a layer that keeps them below a number.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CourantSummary {
+    /// The number that was given.
+    pub limit: f64,
+    /// The time step, in seconds.
+    pub time_step: f64,
+    /// The edges with water at an end.
+    pub edges: usize,
+    /// The number of these edges that exceed the limit.
+    pub above: usize,
+    /// The largest Courant number.
+    pub largest: f64,
+    /// The middle of the edge that has it.
+    pub at: [f64; 2],
+}
+
+impl From<CourantFit> for CourantSummary {
+    fn from(fit: CourantFit) -> Self {
+        let CourantFit { limit, time_step, edges, above, largest, at } = fit;
+        Self { limit, time_step, edges, above, largest, at: at.into() }
     }
 }
 

@@ -30,8 +30,8 @@ pub struct DistanceArguments {
     /// Pieces of the boundary from which it grows too, by type: open, land, "no-slip land", "natural land",
     /// inflow, "no-slip inflow" or "natural inflow"; may be repeated
     ///
-    /// Sides along the frame of the domain are open, and other pieces land, unless their names begin with
-    /// open or land.
+    /// Sides of a rectangle that cuts the domain off are open, and other pieces land, unless their names
+    /// begin with open or land.
     #[arg(long, value_name = "TYPE")]
     pub distance_to_type: Vec<String>,
 

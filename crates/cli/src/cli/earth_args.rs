@@ -1,4 +1,4 @@
-//! Arguments on coordinates: what they are in files, and in which plane a region is meshed.
+//! Arguments on a region: what its coordinates are, in which plane it is meshed, and where it is open.
 
 use std::str::FromStr;
 
@@ -6,7 +6,7 @@ use clap::Args;
 
 use meshbrush_core::earth::{Coordinates, CoordinatesTextError};
 
-/// What the coordinates of files are, and the plane of the mesh.
+/// What the coordinates of files are, the plane of the mesh, and its open boundary.
 #[derive(Debug, Args)]
 pub struct EarthArguments {
     /// Mesh the region in metres on the Earth, in the plane of a conformal projection
@@ -27,6 +27,16 @@ pub struct EarthArguments {
     /// Without it, coordinates within the range of longitudes and latitudes are taken as degrees.
     #[arg(long, value_name = "lonlat|EPSG:N|PROJ")]
     pub crs: Option<String>,
+
+    /// Where the boundary is open: in the polygons of a file, where the water is deeper, along the frame, or
+    /// in a box. May be repeated
+    ///
+    /// frame is the rectangle around the region, in the coordinates of its file. depth>50 is where the
+    /// grids of --depth are deeper than 50 m. A box is west, south, east and north, in the coordinates of
+    /// the region's file. Islands stay land. Without this option, sides along which the region was cut off
+    /// by a rectangle are open.
+    #[arg(long, value_name = "FILE|depth>N|frame|W,S,E,N", allow_hyphen_values = true)]
+    pub open: Vec<String>,
 }
 
 /// Coordinates in files.

@@ -130,7 +130,8 @@ impl Input {
                 (settings, paint, Coordinates::Geographic)
             }
             None => {
-                let Loaded { settings, paint, coordinates, notes } = self.read_files(terminal)?;
+                let Loaded { settings, paint, coordinates, notes, without_effect: _ } =
+                    self.read_files(terminal)?;
                 notes.iter().for_each(|note| terminal.note(note));
                 (settings, paint, coordinates.unwrap_or(Coordinates::Geographic))
             }
@@ -167,7 +168,9 @@ impl Input {
             terminal.note("--boundary changes nothing: the domain of the project has no polygons.");
         }
         let settings = self.settings.override_settings(document.settings().clone());
-        let settings = settings.map_err(|fault| Failure::Usage(fault.to_string()))?;
+        let mut settings = settings.map_err(|fault| Failure::Usage(fault.to_string()))?;
+        let notes = self.settings.open_boundary_of(&mut settings, &Loading::for_document(&meter))?;
+        notes.iter().for_each(|note| terminal.note(note));
         settings.transfer.checked()?;
         Ok((settings, document.paint().clone()))
     }

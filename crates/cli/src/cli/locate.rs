@@ -15,7 +15,8 @@ use super::output::{check_place, is_standard_stream};
 use super::terminal::Terminal;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::located::LocatedIn;
-use meshbrush_io::io::{Interruption, points, write_file_metered};
+use meshbrush_io::io::points::{self, PointTable};
+use meshbrush_io::io::{Interruption, write_file_metered};
 use meshbrush_mesh::mesh::Extract;
 
 /// Runs the command. `out` is standard output.
@@ -31,8 +32,9 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
         check_place(path, &inputs)?;
     }
     input.options_without_effect(&typed.input).iter().for_each(|note| terminal.note(note));
-    let points = read_points(&typed.points, &input)?;
+    let table = read_points(&typed.points, &input)?;
     let finished = build(&input, terminal)?;
+    let points = placed_points(table, &typed.points, &finished, terminal);
     note_capped(&finished, terminal);
     let extract = finished.extract();
     let answers = Answers { finished: &finished, extract, quantity: quantity.as_ref() };
@@ -49,15 +51,39 @@ pub fn run(typed: &LocateArguments, out: &mut dyn Write, terminal: &mut Terminal
     written.map_err(|error| Failure::Write { file: path.clone(), problem: error.to_string() })
 }
 
-fn read_points(path: &Path, input: &Input) -> Result<Vec<DVec2>, Failure> {
+fn read_points(path: &Path, input: &Input) -> Result<PointTable, Failure> {
     if !is_standard_stream(path) {
-        return Ok(points::read(path)?);
+        return Ok(points::read_table(path)?);
     }
     if input.settings.domain.region.as_deref().is_some_and(is_standard_stream) {
         let problem = "--region - and --points - both read standard input";
         return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
     }
-    Ok(points::read_from(io::stdin().lock(), Path::new("standard input"))?)
+    Ok(points::read_table_from(io::stdin().lock(), Path::new("standard input"))?)
+}
+
+/// Returns the points of a table in world units, and says what is assumed about them.
+fn placed_points(
+    table: PointTable,
+    path: &Path,
+    finished: &FinishedMesh,
+    terminal: &mut Terminal,
+) -> Vec<DVec2> {
+    let (domain, has_header, file) = (finished.domain(), table.has_header, path.display());
+    let points = table.points(domain.projection);
+    if !has_header {
+        terminal.note(&format!(
+            "{file} has no header: its first two columns are taken for x and y, in the coordinates of the mesh."
+        ));
+    }
+    let is_elsewhere = !points.is_empty() && !points.iter().any(|&at| domain.bounds.contains(at));
+    if is_elsewhere && domain.projection.is_some() {
+        terminal.note(&format!(
+            "No point of {file} is in the rectangle of the domain. Columns called lon and lat are degrees, and x and y are \
+             metres in the plane of the mesh."
+        ));
+    }
+    points
 }
 
 /// The data from which answers are computed.

@@ -13,7 +13,7 @@ use super::requested_files::{RequestedFiles, write_files};
 use super::standard_output;
 use super::summary::Summary;
 use super::terminal::Terminal;
-use meshbrush_core::layers::SurfaceNorm;
+use meshbrush_core::layers::{CourantFit, SurfaceNorm};
 use meshbrush_core::surface::SampleCount;
 use meshbrush_io::io::ThirdCoordinate;
 use meshbrush_mesh::mesh::{Extract, TriangleId};
@@ -66,8 +66,9 @@ pub fn run(
     }
     note_capped(&finished, terminal);
     note_filled(details.as_ref(), terminal);
+    note_courant(details.as_ref(), terminal);
     note_far_from_surface(&finished, &extract, details.as_ref(), terminal);
-    note_misplaced_marks(&input, &finished, &extract, terminal);
+    note_idle_marks(&input, &finished, &extract, terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
@@ -105,6 +106,22 @@ fn note_filled(details: Option<&MeshDetails>, terminal: &mut Terminal) {
             depths.farthest
         ));
     }
+}
+
+/// Tells the user how many edges exceed the Courant number of a layer.
+fn note_courant(details: Option<&MeshDetails>, terminal: &mut Terminal) {
+    let Some(fit) = details.and_then(|details| details.courant).filter(|fit| fit.above > 0) else { return };
+    let CourantFit { limit, time_step, edges, above, largest, at } = fit;
+    terminal.note(&format!(
+        "{} of {} edges have a Courant number above {limit} with the time step {time_step} s; the largest is {largest:.3}, \
+         at x = {}, y = {}. Neighbours that must fit together, nodes on the outline and steep bottoms make edges shorter \
+         than the layer asks for. The largest time step that keeps {limit} everywhere is {:.3} s.",
+        Grouped(above),
+        Grouped(edges),
+        at.x,
+        at.y,
+        time_step * limit / largest,
+    ));
 }
 
 /// Share by which sums of the same numbers may differ.
@@ -165,10 +182,11 @@ fn note_far_from_surface(
     }
 }
 
-/// Tells the user about names, types and splits of a recipe that are not on the boundary.
-fn note_misplaced_marks(input: &Input, finished: &FinishedMesh, extract: &Extract, terminal: &mut Terminal) {
-    if input.settings.domain.has_marks() {
-        let notes = finished.misplaced_marks(&finished.boundary(extract));
+/// Tells the user about names, types and splits of a recipe that have no effect on the boundary of a formula,
+/// which is that of the mesh. For other domains that was said when the recipe was read.
+fn note_idle_marks(input: &Input, finished: &FinishedMesh, extract: &Extract, terminal: &mut Terminal) {
+    if input.settings.domain.has_marks() && finished.domain().formula().is_some() {
+        let notes = finished.boundary(extract).pieces().idle_marks(finished.marks());
         notes.iter().for_each(|note| terminal.note(note));
     }
 }

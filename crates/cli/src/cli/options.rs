@@ -10,7 +10,8 @@ use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;
 use meshbrush_io::io::layers::{SavedKind, SavedLayer, SavedQuantity};
 use meshbrush_io::io::settings::{
-    METRES, SavedDomain, SavedLimits, SavedMesh, SavedParts, SavedSettings, SavedTreatment,
+    METRES, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOpenings, SavedParts, SavedSettings,
+    SavedTreatment,
 };
 use meshbrush_io::io::{KeyFault, Step};
 use meshbrush_mesh::geometry::Rect;
@@ -38,6 +39,7 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
             inside: typed.inside.clone(),
             region,
             outside_nodata: typed.water.outside_nodata,
+            open: openings(&typed.earth.open)?,
             contour: typed.water.contour,
             positive: typed.water.contour.and(typed.water.depth_positive).map(Into::into),
             smallest_island: typed.water.smallest_island,
@@ -69,6 +71,13 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
     };
     settings.check().map_err(|fault| refused(&fault, typed, &layers))?;
     Ok(settings)
+}
+
+/// Returns where the boundary is open.
+fn openings(typed: &[String]) -> Result<SavedOpenings, Failure> {
+    let entries = typed.iter().map(|text| SavedOpen::parse(text));
+    let entries = entries.collect::<Result<_, _>>();
+    entries.map(SavedOpenings).map_err(|problem| Failure::Usage(format!("--open: {problem}")))
 }
 
 /// Returns the projection: lengths in metres need a plane in metres.

@@ -105,6 +105,11 @@ impl Output {
         self.format.has_targets()
     }
 
+    /// Returns whether a coastal solver finds its open boundary there.
+    pub fn has_open_boundary(&self) -> bool {
+        self.format.has_open_boundary()
+    }
+
     /// Returns what the third coordinate of nodes is.
     pub fn third_coordinate(&self) -> ThirdCoordinate {
         self.format.third_coordinate()

@@ -19,10 +19,11 @@ use super::output::{RequestedLook, check_place};
 use super::path_args::PathArguments;
 use super::path_proof::{About, Proof, task, write_certificate};
 use super::points::TypedPoint;
+use super::requested_files::NOT_ON_EARTH;
 use super::terminal::Terminal;
 use meshbrush_core::document::{PathCost, PathPlan};
 use meshbrush_core::domain::Domain;
-use meshbrush_core::earth::{EarthPlane, Projection, Speed, hours_and_minutes, metres_along};
+use meshbrush_core::earth::{Coordinates, EarthPlane, Projection, Speed, hours_and_minutes, metres_along};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::layers::Mask;
 use meshbrush_core::path::{
@@ -83,10 +84,23 @@ pub fn run(
     let simplify = typed.simplify.as_ref().map(|length| length.value);
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
     let export = export.at_speed(speed, unit);
+    if projection.is_none() && matches!(typed.out_crs, Some(OutputCoordinates::Other(_))) {
+        return Err(Failure::Usage(NOT_ON_EARTH.into()));
+    }
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
-    outputs.iter().try_for_each(|output| output.write(&export, &over, &provenance, terminal))?;
+    let coordinates = |format| match typed.out_crs {
+        Some(OutputCoordinates::Lonlat) => Some(Coordinates::Geographic),
+        Some(OutputCoordinates::Other(other)) => Some(other),
+        Some(OutputCoordinates::Plane) => projection.map(Coordinates::Plane),
+        None => (format == PathFormat::Csv).then(|| finished.coordinates()),
+    };
+    let mut export = export;
+    for output in &outputs {
+        export = export.in_coordinates(finished.domain(), coordinates(output.format));
+        output.write(&export, &over, &provenance, terminal)?;
+    }
     let about = asked.about(finished.domain());
     let write = |file| write_certificate(file, certificate.as_ref(), &about, &provenance, terminal);
     typed.certificate.as_deref().map_or(Ok(()), write)?;

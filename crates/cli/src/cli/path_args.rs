@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::args::InputArguments;
+use super::earth_args::OutputCoordinates;
 use super::picture_args::PictureArguments;
 use meshbrush_mesh::text::Length;
 
@@ -106,6 +107,12 @@ pub struct PathArguments {
     /// has the mesh, with the path over it.
     #[arg(short, long = "output", value_name = "FILE", help_heading = "Output")]
     pub output: Vec<PathBuf>,
+
+    /// Coordinates in .geojson and .csv of a region on the Earth: longitude and latitude (lonlat), those of
+    /// the plane of --projection (plane), or those of a code or of a projection as PROJ writes it [default: of
+    /// .geojson lonlat, of .csv those of the region's file]
+    #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
+    pub out_crs: Option<OutputCoordinates>,
 
     /// Print the result as one JSON object on standard output
     #[arg(long, help_heading = "Output")]

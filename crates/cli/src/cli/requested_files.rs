@@ -163,7 +163,7 @@ fn check_use(saved: &SavedOutput, output: &Output) -> Result<(), KeyFault> {
 }
 
 /// Why coordinates in a file cannot be those of another plane.
-const NOT_ON_EARTH: &str = "--out-crs: the domain is not in the plane of a projection, so its coordinates are those of its \
+pub(super) const NOT_ON_EARTH: &str = "--out-crs: the domain is not in the plane of a projection, so its coordinates are those of its \
      files. Choose a plane with --projection, or leave this out.";
 
 /// A mesh as its files have it.
@@ -224,10 +224,19 @@ pub fn write_files(
             }
         }
     }
+    let notes = requested.iter().filter_map(|files| files.closed_note(details));
+    notes.take(1).for_each(|note| terminal.note(&note));
     Ok(())
 }
 
 impl RequestedFiles {
+    /// Returns a sentence for a person where a file for a coastal solver has no open boundary.
+    pub fn closed_note(&self, details: &MeshDetails) -> Option<String> {
+        let output = self.outputs.iter().find(|output| output.has_open_boundary())?;
+        let note = details.boundary.pieces().closed_note()?;
+        Some(format!("{}: {note}", output.name()))
+    }
+
     /// Returns the look of its pictures of a mesh as files get it.
     ///
     /// # Errors

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use super::build::FinishedMesh;
 use super::details::{
-    DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary, SurfaceSummary,
+    CourantSummary, DepthSummary, LostIsland, LostPiece, MeshDetails, NewHole, PieceSummary, StraitSummary,
+    SurfaceSummary,
 };
 use meshbrush_core::domain::{Domain, FitQuality, MeshBoundary, Region};
 use meshbrush_core::earth::Ground;
@@ -51,6 +52,9 @@ pub struct Summary {
     /// How far the depths at the nodes are from the layers of depths, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<DepthSummary>,
+    /// The Courant numbers of the edges, if a layer keeps them below a number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub courant: Option<CourantSummary>,
     /// How far the mesh is from surfaces, if a layer is one.
     #[serde(flatten)]
     pub surface: Option<SurfaceSummary>,
@@ -305,6 +309,7 @@ impl Summary {
             hash: mesh.fingerprint().to_string(),
             seconds: finished.refinement.as_secs_f64(),
             depth: details.and_then(|details| details.depths.as_ref()).map(DepthSummary::from),
+            courant: details.and_then(|details| details.courant).map(CourantSummary::from),
             surface: fit
                 .as_ref()
                 .zip(finished.built().surface.as_ref())

@@ -78,7 +78,11 @@ pub struct WaterArguments {
     #[arg(long, value_name = "LENGTH", requires = "per_slope", allow_hyphen_values = true)]
     pub smoothing: Option<Length>,
 
-    /// Largest Courant number of a wave of 1 m with --time-step: triangles are no smaller than this needs
+    /// Largest Courant number of a wave of 1 m with --time-step, along edges
+    ///
+    /// A floor for all other sizes: no triangle is bisected whose halves would have a shorter edge than this
+    /// needs. A note counts the edges that exceed it all the same, where neighbours, nodes on the outline or
+    /// a steep bottom make them shorter.
     #[arg(long, value_name = "C", requires_all = ["depth", "time_step"], allow_hyphen_values = true)]
     pub max_courant: Option<f64>,
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DVec2, dvec2};
 
 use super::{PathPlan, Settings};
-use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon, Polygon};
+use crate::domain::{BoundaryMarks, BoundaryTreatment, Domain, NamedPolygon, OutlineOnEarth, Polygon};
 use crate::earth::{Coordinates, GeographicExtent, ProjectionChoice, Reprojection, projected_polygons};
 use crate::field::Transfer;
 use crate::geometry::Rect;
@@ -107,7 +107,9 @@ impl Making {
             Step::Cut(work) => {
                 let (polygons, depths, reprojection) = *work;
                 let frame = Rect::new(FRAME[0], FRAME[1]);
-                let domain = Domain::of_stored_polygons(polygons, frame).expect("a valid outline");
+                // The frame was chosen, so that it alone cuts the sea.
+                let chosen = OutlineOnEarth::default();
+                let domain = Domain::of_stored_polygons(polygons, frame, &chosen).expect("a valid outline");
                 let domain = Domain { projection: Some(reprojection.to), ..domain };
                 Step::Project(Box::new((domain, depths, reprojection)))
             }
@@ -128,7 +130,7 @@ impl Making {
             }
             Step::Straits(work) => {
                 let (domain, kinds) = *work;
-                let search = StraitSearch::new(&domain, STRAITS);
+                let search = StraitSearch::new(&domain, &marks(), STRAITS);
                 Step::Search(Box::new((domain, kinds, search)))
             }
             Step::Search(mut work) => match work.2.advance(EDGES) {
@@ -157,8 +159,13 @@ fn plane_for(sea: &[NamedPolygon]) -> Reprojection {
     Reprojection { from: Coordinates::Geographic, to: projection }
 }
 
-fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {
+/// Returns the names of the islands and coasts.
+fn marks() -> BoundaryMarks {
     let names = NAMES.map(|(at, name)| (at, name.to_owned())).to_vec();
+    BoundaryMarks { names, ..BoundaryMarks::default() }
+}
+
+fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {
     let route = PathPlan { routes: vec![ROUTE.to_vec()], clearance: CLEARANCE, ..PathPlan::default() };
     let mut layers = Layer::stack(kinds);
     layers.iter_mut().zip(LAYERS).for_each(|(layer, name)| layer.name = name.into());
@@ -166,7 +173,7 @@ fn settings(name: &str, domain: Domain, kinds: [LayerKind; 4]) -> Settings {
         unit: LengthUnit::Metre,
         spacing: SPACING,
         boundary: BoundaryTreatment::OnOutline { diameter: 2500.0 },
-        boundary_marks: Arc::new(BoundaryMarks { names, ..BoundaryMarks::default() }),
+        boundary_marks: Arc::new(marks()),
         transfer: Transfer::between(1500.0, 24_000.0),
         layers,
         gradation: Some(0.25),

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use super::{Setting, Settings};
 use crate::domain::{
-    BoundaryMarks, DepthContour, DepthContourError, Domain, NamedPolygon, PixelLengths, Polygon, RegionError,
+    BoundaryMarks, DepthContour, DepthContourError, Domain, NamedPolygon, OutlineOnEarth, PixelLengths,
+    Polygon, RegionError,
 };
+use crate::earth::Coordinates;
 use crate::geometry::{GridError, Rect};
 use crate::layers::Depths;
 use crate::raster::Raster;
@@ -68,14 +70,20 @@ impl Settings {
             return Err(OutlineError::Formula);
         }
         let plain: Vec<Polygon> = polygons.iter().map(|named| named.polygon.clone()).collect();
-        let outline = Domain::of_polygons(&plain)?.bounds;
+        let on_earth = self.outline_on_earth();
+        let added = Domain::of_polygons_on_earth(&plain, &on_earth)?;
+        let outline = added.bounds;
         if before.bounds.intersection(&outline).is_none_or(|common| !common.is_proper()) {
             return Err(OutlineError::Outside { outline, document: before.bounds });
         }
         let bounds = before.bounds.union(&outline);
         let earlier = before.region().map_or(&[][..], |region| region.polygons());
-        let projection = before.projection;
-        let domain = Domain { projection, ..Domain::of_stored_polygons([earlier, &plain].concat(), bounds)? };
+        let domain = Domain::of_stored_polygons([earlier, &plain].concat(), bounds, &on_earth)?;
+        // What was open before stays open, and so do the sides of the outline that is added.
+        let domain = match before.region() {
+            Some(region) => domain.cut_by([region.cuts(), added.cuts()].concat()),
+            None => domain,
+        };
         let mut marks = (*self.boundary_marks).clone();
         marks.names.extend(BoundaryMarks::of_polygons(polygons, &domain).names);
         let grown = Self { domain: domain.clone(), ..self.clone() };
@@ -105,11 +113,25 @@ impl Settings {
         self.with_polygons_on(raster, polygons)
     }
 
+    /// Returns what the coordinates of files with outlines are for this document, as far as is known:
+    /// longitudes and latitudes, where it lies on the Earth.
+    pub fn coordinates_of_outlines(&self) -> Option<Coordinates> {
+        let is_geographic = self.unit == LengthUnit::Degree || self.domain.projection.is_some();
+        is_geographic.then_some(Coordinates::Geographic)
+    }
+
     fn pixel_lengths(&self) -> PixelLengths {
-        match (self.unit, self.domain.projection) {
-            (LengthUnit::Degree, None) => PixelLengths::Degrees,
+        match self.outline_on_earth().file {
+            Some(Coordinates::Geographic) => PixelLengths::Degrees,
             _ => PixelLengths::Plane,
         }
+    }
+
+    /// Returns what the coordinates of an outline mean that is in world units.
+    fn outline_on_earth(&self) -> OutlineOnEarth {
+        let projection = self.domain.projection;
+        let is_geographic = projection.is_none() && self.unit == LengthUnit::Degree;
+        OutlineOnEarth { file: is_geographic.then_some(Coordinates::Geographic), projection }
     }
 
     fn with_polygons_on(&self, raster: &Raster, polygons: Vec<Polygon>) -> Result<Setting, OutlineError> {
@@ -117,8 +139,7 @@ impl Settings {
         let bounds = before.bounds.intersection(&raster.bounds()).filter(Rect::is_proper);
         let outside = OutlineError::Outside { outline: raster.bounds(), document: before.bounds };
         let bounds = bounds.ok_or(outside)?;
-        let projection = before.projection;
-        let domain = Domain { projection, ..Domain::of_stored_polygons(polygons, bounds)? };
+        let domain = Domain::of_stored_polygons(polygons, bounds, &self.outline_on_earth())?;
         let changed = Self { domain: domain.clone(), ..self.clone() };
         changed.lattice().map_err(OutlineError::TooLarge)?;
         Ok(Setting::Outline { domain, boundary_marks: self.boundary_marks.clone() })

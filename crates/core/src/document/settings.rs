@@ -30,7 +30,8 @@ pub struct Settings {
     pub boundary: BoundaryTreatment,
     /// Which triangles of a domain of polygons stay in the derived mesh.
     pub cleaning: Cleaning,
-    /// Names and types of pieces of the boundary, and where it is split. They do not change the mesh.
+    /// Names and types of pieces of the boundary, and where it is split. They change the mesh only through
+    /// layers that follow pieces.
     pub boundary_marks: Arc<BoundaryMarks>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
@@ -311,7 +312,7 @@ impl Settings {
         let mut layer = layer.clone();
         if let LayerKind::Distance { to, .. } = &mut layer.kind {
             let shapes = match to {
-                DistanceTo::Coasts => Shapes::coasts(&self.domain),
+                DistanceTo::Coasts => Shapes::coasts(&self.domain, &self.boundary_marks),
                 DistanceTo::Pieces(chosen) => Shapes::lines(chosen.lines(&self.domain, &self.boundary_marks)),
                 _ => Err(ShapesError::Empty),
             };
@@ -333,8 +334,8 @@ impl Settings {
 
     fn find_straits_of(&self, layer: &mut Layer) {
         match &mut layer.kind {
-            LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain),
-            LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain),
+            LayerKind::Straits(straits) => *straits = straits.for_domain(&self.domain, &self.boundary_marks),
+            LayerKind::FeatureSize(size) => *size = size.for_domain(&self.domain, &self.boundary_marks),
             LayerKind::Depth(depths) => *depths = depths.in_plane(self.domain.projection),
             _ => {}
         }

@@ -11,6 +11,8 @@ mod outline;
 mod outline_query;
 mod region;
 mod region_builder;
+mod cut_frame;
+mod cut_search;
 mod cut_shape;
 mod depth_contour;
 mod complexity;
@@ -31,12 +33,14 @@ use crate::text::Grouped;
 
 pub use crate::geometry::signed_area;
 pub use boundary::{
-    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts, FrameSide,
+    BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces, BoundaryType, CoastEdge, Coasts,
     LONGEST_NAME, MeshBoundary, NamedPolygon, PieceChoice, PieceFigures, PieceRun, coasts,
 };
 pub use comparison::RegionComparison;
 use complexity::check_complexity;
 pub use complexity::{MOST_CORNERS, MOST_CROSSINGS};
+pub use cut_frame::{CutFrame, FrameSide};
+pub use cut_search::OutlineOnEarth;
 pub use cut_shape::CutShape;
 pub use depth_contour::{DepthContour, DepthContourError, PixelLengths};
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
@@ -129,6 +133,18 @@ impl Domain {
     /// # Errors
     /// Fails when the polygons cover no area, or are too large or too complex.
     pub fn of_polygons(polygons: &[Polygon]) -> Result<Self, RegionError> {
+        Self::of_polygons_on_earth(polygons, &OutlineOnEarth::default())
+    }
+
+    /// Returns the domain that polygons cover, as [`Self::of_polygons`] does. Where it was cut off from its
+    /// surroundings by a box in the coordinates of its file, the sides of the box are open.
+    ///
+    /// # Errors
+    /// Fails as [`Self::of_polygons`] does.
+    pub fn of_polygons_on_earth(
+        polygons: &[Polygon],
+        on_earth: &OutlineOnEarth,
+    ) -> Result<Self, RegionError> {
         let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
         let bounds = points.reduce(|a, b| a.union(&b)).ok_or(RegionError::NoArea)?;
         if !bounds.is_proper() {
@@ -140,7 +156,7 @@ impl Domain {
         // Every crossing becomes a corner.
         match region.corner_count() {
             corners if corners > MOST_CORNERS => Err(RegionError::TooManyCorners { corners }),
-            _ => Self::of_region(region),
+            _ => Self::of_region(region, on_earth),
         }
     }
 
@@ -157,17 +173,48 @@ impl Domain {
     ///
     /// # Errors
     /// Fails as [`Self::of_polygons`] does.
-    pub fn of_stored_polygons(polygons: Vec<Polygon>, bounds: Rect) -> Result<Self, RegionError> {
+    pub fn of_stored_polygons(
+        polygons: Vec<Polygon>,
+        bounds: Rect,
+        on_earth: &OutlineOnEarth,
+    ) -> Result<Self, RegionError> {
         check_complexity(&polygons, &bounds)?;
-        Self::of_region(Region::stored(polygons, bounds))
+        Self::of_region(Region::stored(polygons, bounds), on_earth)
     }
 
-    fn of_region(region: Region) -> Result<Self, RegionError> {
+    fn of_region(region: Region, on_earth: &OutlineOnEarth) -> Result<Self, RegionError> {
         if region.is_empty() {
             return Err(RegionError::NoArea);
         }
+        let region = if *on_earth == OutlineOnEarth::default() { region } else { region.on_earth(on_earth) };
         let (bounds, shape) = (*region.frame(), DomainShape::Region(Arc::new(region)));
-        Ok(Self { bounds, shape, projection: None })
+        Ok(Self { bounds, shape, projection: on_earth.projection })
+    }
+
+    /// Returns the rectangles that cut it off from its surroundings, where polygons give it.
+    pub fn cuts(&self) -> &[CutFrame] {
+        self.region().map_or(&[], |region| region.cuts())
+    }
+
+    /// Returns the domain cut by the bounding rectangle of its outline in the coordinates of its file,
+    /// whether or not that looks like it; unless a rectangle is known already.
+    pub fn cut_by_own_frame(&self, on_earth: &OutlineOnEarth) -> Self {
+        let Some(region) = self.region().filter(|region| region.cuts().is_empty()) else {
+            return self.clone();
+        };
+        self.clone().cut_by(CutFrame::around(region, on_earth).into_iter().collect())
+    }
+
+    /// Returns the domain with other rectangles that cut it off from its surroundings, where polygons give
+    /// it.
+    pub fn cut_by(self, cuts: Vec<CutFrame>) -> Self {
+        let shape = match self.shape {
+            DomainShape::Region(region) => {
+                DomainShape::Region(Arc::new(Arc::unwrap_or_clone(region).cut_by(cuts)))
+            }
+            other => other,
+        };
+        Self { shape, ..self }
     }
 
     /// Returns the region, if the domain is given by polygons.
@@ -198,9 +245,19 @@ impl Domain {
     /// Returns the coordinates of each node of a mesh of the domain; `None` where it does not lie on the
     /// Earth.
     pub fn nodes_in(&self, coordinates: &Coordinates, mesh: &Extract) -> Option<Vec<DVec2>> {
-        let reprojection = Reprojection { from: *coordinates, to: self.projection? };
-        let place = |&node: &LatticePoint| reprojection.from_plane(mesh.lattice().world_from_lattice(node));
+        let place = self.place_in(coordinates)?;
+        let place = |&node: &LatticePoint| place(mesh.lattice().world_from_lattice(node));
         Some(mesh.nodes().par_iter().map(place).collect())
+    }
+
+    /// Returns what gives points of the domain their coordinates; `None` where it does not lie on the Earth.
+    ///
+    /// Longitudes are within half a turn of that of the centre of the domain: those of a domain across the
+    /// antimeridian do not jump, and may be beyond 180 or below −180.
+    pub fn place_in(&self, coordinates: &Coordinates) -> Option<impl Fn(DVec2) -> DVec2 + Sync + use<>> {
+        let reprojection = Reprojection { from: *coordinates, to: self.projection? };
+        let center = reprojection.from_plane(self.bounds.center()).x;
+        Some(move |at| reprojection.from.beside(reprojection.from_plane(at), center))
     }
 
     /// Returns the longest that a length in the plane is on the Earth, anywhere in the bounds; the same
@@ -239,6 +296,15 @@ impl Domain {
     /// 20 ms, for a table.
     pub fn ground(&self) -> Ground {
         Ground::new(self.projection.as_ref(), &self.bounds)
+    }
+
+    /// Returns the point in world units that a person means: in the plane of a projection, a point that is
+    /// not in the bounds is a longitude and a latitude if that is in them.
+    pub fn place_of(&self, typed: DVec2) -> DVec2 {
+        let is_geographic = typed.y.abs() <= 90.0 && typed.x.abs() <= 360.0;
+        let projection = self.projection.filter(|_| is_geographic && !self.bounds.contains(typed));
+        let place = projection.map(|projection| projection.plane_from_geographic(typed));
+        place.filter(|&place| self.bounds.contains(place)).unwrap_or(typed)
     }
 
     /// Returns the domain with other bounds. Polygons are clipped to them.

@@ -7,6 +7,8 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::i_float::int::point::IntPoint;
 
+use super::cut_frame::{CutFrame, FrameSide};
+use super::cut_search::OutlineOnEarth;
 use crate::geometry::{Rect, signed_area};
 
 /// A closed polyline in world units; an edge joins the last point to the first, which is not repeated.
@@ -26,6 +28,8 @@ pub struct Region {
     /// regions that differ rarely have equal areas.
     area: f64,
     polygons: Vec<Polygon>,
+    /// The rectangles that cut it off from its surroundings.
+    cuts: Vec<CutFrame>,
 }
 
 // `PartialEq` compares all data, and no number is NaN. With `Eq`, `Arc<Region>` compares pointers before the
@@ -50,7 +54,7 @@ impl Region {
             .flatten()
             .collect();
         let contours: Vec<Contour> = simple.into_iter().flatten().collect();
-        Self::cut_to_frame(&grid, &contours)
+        Self::cut_to_frame(&grid, &contours).on_earth(&OutlineOnEarth::default())
     }
 
     /// Returns the region with exactly these polygons, if they are valid polygons of a region; otherwise the
@@ -73,12 +77,52 @@ impl Region {
             (stored.area() - covered).abs() <= 1e-6 * covered
         };
         let valid = stored.polygons.iter().all(turned) && stored.rings().all(within) && alike();
-        if valid { stored } else { Self::new(&stored.polygons, frame) }
+        if valid { stored.on_earth(&OutlineOnEarth::default()) } else { Self::new(&stored.polygons, frame) }
     }
 
     fn of_simple(frame: Rect, polygons: Vec<Polygon>) -> Self {
         let area = polygons.iter().flatten().map(|ring| signed_area(ring)).sum();
-        Self { frame, polygons, area }
+        Self { frame, polygons, area, cuts: Vec::new() }
+    }
+
+    /// Returns the region with the rectangles that cut it: its frame, if that was chosen and is not just the
+    /// bounding rectangle; and the one by which its outline was cut before.
+    pub(super) fn on_earth(self, on_earth: &OutlineOnEarth) -> Self {
+        let points = self.rings().flatten();
+        let bounds = points.map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
+        let chosen = (bounds != Some(self.frame)).then(|| CutFrame::of_world(self.frame));
+        let is_alone = chosen.is_none() || *on_earth != OutlineOnEarth::default();
+        let found = is_alone.then(|| CutFrame::of_region(&self, on_earth)).flatten();
+        // The bounding rectangle of what a chosen frame leaves was chosen by nobody.
+        let found = found.filter(|found| chosen.is_none() || found.coordinates.is_some());
+        let cuts = chosen.into_iter().chain(found).collect();
+        Self { cuts, ..self }
+    }
+
+    /// Returns the region with other rectangles that cut it.
+    pub(super) fn cut_by(self, cuts: Vec<CutFrame>) -> Self {
+        Self { cuts, ..self }
+    }
+
+    /// Returns the rectangles that cut it off from its surroundings: edges along their sides are open.
+    pub fn cuts(&self) -> &[CutFrame] {
+        &self.cuts
+    }
+
+    /// Returns the side of a rectangle that cuts it along which each edge runs, ring by ring, in the order of
+    /// [`Self::rings`]: number n is the edge from corner n.
+    pub(super) fn sides(&self) -> Vec<Vec<Option<FrameSide>>> {
+        let rings: Vec<&Ring> = self.rings().collect();
+        let size = self.frame.size().max_element();
+        let mut sides: Vec<Vec<Option<FrameSide>>> =
+            rings.iter().map(|ring| vec![None; ring.len()]).collect();
+        for cut in &self.cuts {
+            for (all, of_cut) in sides.iter_mut().flatten().zip(cut.sides(&rings, size).into_iter().flatten())
+            {
+                *all = all.or(of_cut);
+            }
+        }
+        sides
     }
 
     fn cut_to_frame(grid: &Grid, contours: &[Contour]) -> Self {
@@ -131,6 +175,7 @@ impl Region {
         let grid = Grid::over(&self.frame);
         let operation = OverlayOperation(rule, fill);
         grid.region(overlay(&grid.contours_of(self), &grid.contours(rings), operation))
+            .cut_by(self.cuts.clone())
     }
 
     /// Returns the bounded connected parts of the plane that neither the region nor the domain of some rings
@@ -160,7 +205,9 @@ impl Region {
 
     /// Returns the union with the points that at least one of the rings encloses, within the frame.
     pub fn with(&self, rings: &[Ring]) -> Self {
-        self.combined(rings, OverlayOperation::EITHER)
+        let with = self.combined(rings, OverlayOperation::EITHER);
+        // What nothing had cut can reach the frame now.
+        if self.cuts.is_empty() { with.on_earth(&OutlineOnEarth::default()) } else { with }
     }
 
     /// Returns the difference from the points that at least one of the rings encloses.
@@ -173,12 +220,19 @@ impl Region {
         let frame = [grid.contour(&corners(&self.frame))];
         let within: Vec<Contour> =
             overlay(&grid.contours(rings), &frame, OverlayOperation::BOTH).into_iter().flatten().collect();
-        grid.region(overlay(&grid.contours_of(self), &within, rule))
+        grid.region(overlay(&grid.contours_of(self), &within, rule)).cut_by(self.cuts.clone())
     }
 
-    /// Returns the region in another frame, clipped to it.
+    /// Returns the region in another frame, clipped to it. What was open stays open.
     pub fn reframed(&self, frame: Rect) -> Self {
-        Self::new(&self.polygons, frame)
+        let reframed = Self::new(&self.polygons, frame);
+        let (rings, size) = (reframed.rings().collect::<Vec<_>>(), frame.size().max_element());
+        let is_met =
+            |cut: &&CutFrame| cut.sides(&rings, size).into_iter().flatten().any(|side| side.is_some());
+        let earlier: Vec<CutFrame> = self.cuts.iter().filter(is_met).cloned().collect();
+        let chosen = CutFrame::of_world(frame);
+        let is_chosen = reframed.cuts.contains(&chosen) && !earlier.contains(&chosen);
+        reframed.cut_by(earlier.into_iter().chain(is_chosen.then_some(chosen)).collect())
     }
 }
 

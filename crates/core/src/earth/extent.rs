@@ -58,7 +58,8 @@ impl GeographicExtent {
         coordinates: &Coordinates,
         rings: impl Iterator<Item = &'a [DVec2]> + Clone,
     ) -> Option<Self> {
-        if *coordinates == Coordinates::Geographic {
+        // Other geographic systems are shifted by less than a kilometre.
+        if coordinates.are_degrees() {
             return Self::of_rings(rings);
         }
         let corners = rings.flatten().map(|&at| Rect::new(at, at));

@@ -11,6 +11,7 @@ mod coordinates;
 mod edge_lengths;
 mod ellipsoid;
 mod extent;
+mod geographic;
 mod graticule;
 mod ground;
 mod inverse_scale;
@@ -38,6 +39,7 @@ pub use choice::{ProjectionChoice, ProjectionError};
 pub use coordinates::{Coordinates, CoordinatesTextError};
 pub use edge_lengths::{EdgeLengths, LEVELS};
 pub use extent::GeographicExtent;
+pub use geographic::GeographicSystem;
 pub use graticule::{GraticuleLine, graticule};
 pub use ground::Ground;
 pub use inverse_scale::InverseScale;
@@ -227,7 +229,7 @@ impl Projection {
 }
 
 /// Returns an angle in degrees from −180 up to 180. Angles within these limits stay as they are.
-fn wrapped(degrees: f64) -> f64 {
+pub(crate) fn wrapped(degrees: f64) -> f64 {
     if (-180.0..=180.0).contains(&degrees) {
         return degrees;
     }

@@ -1,7 +1,7 @@
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{Coordinates, Reprojection, wrapped};
+use super::{Reprojection, wrapped};
 
 /// Largest distance of an edge from its curve, as a share of the extent of the polygons.
 const TOLERANCE: f64 = 1e-6;
@@ -21,7 +21,7 @@ pub fn projected_polygons(polygons: &[Vec<Vec<DVec2>>], reprojection: &Reproject
     if reprojection.is_identity() {
         return polygons.to_vec();
     }
-    let is_geographic = reprojection.from == Coordinates::Geographic;
+    let is_geographic = reprojection.from.are_degrees();
     let is_pole = |corner: &&DVec2| is_geographic && corner.y.abs() == 90.0;
     let ring = |ring: &Vec<DVec2>| {
         let corners: Vec<DVec2> = ring.iter().filter(|corner| !is_pole(corner)).copied().collect();
@@ -52,7 +52,7 @@ pub fn projected_line(line: &[DVec2], reprojection: &Reprojection) -> Vec<DVec2>
 
 /// Places corners in the plane, on all threads.
 fn placed(corners: &[DVec2], reprojection: &Reprojection) -> Vec<Placed> {
-    let is_geographic = reprojection.from == Coordinates::Geographic;
+    let is_geographic = reprojection.from.are_degrees();
     let placed = |&corner: &DVec2| {
         let corner = if is_geographic { canonical(corner) } else { corner };
         (corner, reprojection.in_plane(corner))
@@ -77,7 +77,7 @@ fn curved(corners: &[Placed], reprojection: &Reprojection, tolerance: f64) -> Ve
             continue;
         }
         let mut to = to;
-        if reprojection.from == Coordinates::Geographic {
+        if reprojection.from.are_degrees() {
             // The shorter way round the Earth.
             to.0.x = from.0.x + wrapped(to.0.x - from.0.x);
         }
@@ -115,7 +115,7 @@ fn divide(
 mod tests {
     use glam::dvec2;
 
-    use super::super::{GeographicExtent, Projection, ProjectionChoice};
+    use super::super::{Coordinates, GeographicExtent, Projection, ProjectionChoice};
     use super::*;
 
     fn projected(rings: &[Vec<DVec2>]) -> (Projection, Vec<Vec<DVec2>>) {

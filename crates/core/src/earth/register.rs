@@ -2,15 +2,14 @@
 
 use glam::dvec2;
 
-use super::{Coordinates, Parameters, Projection};
+use super::{Coordinates, Parameters, Projection, geographic};
 
-/// Returns the system of a code: longitudes and latitudes, the UTM zones, national grids with a conformal
-/// projection, and systems of the oceans and the poles.
+/// Returns the system of a code: longitudes and latitudes of any geographic system, the UTM zones, national
+/// grids with a conformal projection, and systems of the oceans and the poles.
 pub(super) fn coordinates(code: u32) -> Option<Coordinates> {
     match code {
-        4326 | 4258 | 4269 | 4979 => Some(Coordinates::Geographic),
         3857 | 900_913 => Some(Coordinates::WebMercator),
-        _ => projection(code).map(Coordinates::Plane),
+        _ => projection(code).map(Coordinates::Plane).or_else(|| geographic::of_code(code)),
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::RasterSource;
+use super::{Combine, RasterSource};
 use crate::earth::{Ground, Projection};
 use crate::raster::{Raster, RasterPyramid};
 
@@ -49,7 +49,7 @@ pub enum DepthRule {
         smoothing: f64,
     },
     /// The distance that a wave of 1 m travels in a time step, by the Courant number: u Δt / C, with
-    /// u = √(g H) + √(g / H).
+    /// u = √(g H) + √(g / H). A floor asks for twice that ([`DepthRule::factor_in`]).
     Courant {
         /// The time step, in seconds.
         time_step: f64,
@@ -104,6 +104,24 @@ pub struct DepthError {
 impl DepthRule {
     /// Thirty triangles in the length of the semidiurnal lunar tide (M2).
     pub const USUAL_WAVELENGTH: Self = Self::Wavelength { period: 44_712.0, triangles: 30.0 };
+
+    /// Returns the factor of the diameters in a layer that is combined in this way.
+    ///
+    /// A solver needs the Courant number kept along edges. A triangle whose diameter is just above a floor is
+    /// bisected, and the shortest edges of its halves are half as long: so a floor for a Courant number is
+    /// twice the distance that a wave travels.
+    pub(super) fn factor_in(self, combine: Combine) -> f64 {
+        match (self, combine) {
+            (Self::Courant { .. }, Combine::Floor) => 2.0,
+            _ => 1.0,
+        }
+    }
+}
+
+/// Returns the speed of a wave of 1 m, in m/s, at a depth of water in metres: u = √(g H) + √(g / H).
+pub(super) fn wave_speed(depth: f64) -> f64 {
+    let depth = depth.max(LEAST_DEPTH);
+    libm::sqrt(GRAVITY * depth) + libm::sqrt(GRAVITY / depth)
 }
 
 impl DepthSizes {
@@ -169,14 +187,13 @@ impl DepthSizes {
     /// Returns the target diameter at a depth of water above 0; infinite where nothing is asked for, and NaN
     /// for [`DepthRule::Slope`], where it does not follow from the depth.
     fn diameter_at(&self, depth: f64) -> f64 {
-        let depth = depth.max(LEAST_DEPTH);
         match self.rule {
             DepthRule::Nothing => f64::INFINITY,
-            DepthRule::Wavelength { period, triangles } => wavelength(period, depth) / triangles,
-            DepthRule::Slope { .. } => f64::NAN,
-            DepthRule::Courant { time_step, number } => {
-                (libm::sqrt(GRAVITY * depth) + libm::sqrt(GRAVITY / depth)) * time_step / number
+            DepthRule::Wavelength { period, triangles } => {
+                wavelength(period, depth.max(LEAST_DEPTH)) / triangles
             }
+            DepthRule::Slope { .. } => f64::NAN,
+            DepthRule::Courant { time_step, number } => wave_speed(depth) * time_step / number,
         }
     }
 
@@ -285,7 +302,8 @@ impl Depths {
         self.lengths.as_ref()
     }
 
-    /// Returns the target diameters for finite values of [`Self::deciding`], from `least` to `greatest`.
+    /// Returns the target diameters for finite values of [`Self::deciding`], from `least` to `greatest`, without
+    /// the factor of a combination ([`DepthRule::factor_in`]).
     pub(super) fn asked(&self, least: f64, greatest: f64) -> AskedOfRange {
         if let DepthRule::Slope { triangles, .. } = self.sizes.rule {
             let [least, greatest] = [least, greatest].map(|length| TAU * length / triangles);

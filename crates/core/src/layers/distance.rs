@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Mask;
 use super::engine::convex::Convex;
-use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, coasts};
+use crate::domain::{BoundaryMarks, CutShape, Domain, Polygon, Region, RegionError, coasts};
 use crate::earth::{Reprojection, projected_line, projected_polygons};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
@@ -211,12 +211,13 @@ impl Shapes {
         Self::new(ShapeList { lines, ..ShapeList::default() }, false)
     }
 
-    /// Returns the coasts of a domain: its boundary without the open parts.
+    /// Returns the coasts of a domain: its boundary without the parts across which water flows, as marks and
+    /// the outline itself have them.
     ///
     /// # Errors
     /// Fails when there is no coast.
-    pub fn coasts(domain: &Domain) -> Result<Self, ShapesError> {
-        Self::lines(coasts(domain))
+    pub fn coasts(domain: &Domain, marks: &BoundaryMarks) -> Result<Self, ShapesError> {
+        Self::lines(coasts(domain, marks))
     }
 
     /// Returns the shapes as they were given.

@@ -24,7 +24,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{Shapes, StraitDisc, StraitDiscs};
-use crate::domain::Domain;
+use crate::domain::{BoundaryMarks, Domain};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect};
 
@@ -69,11 +69,11 @@ impl FeatureSize {
         0.5 * self.across * diameter * (1.0 + 1e-9) + 0.5 * MIDDLE * widest
     }
 
-    /// Returns the same for another domain.
-    pub fn for_domain(&self, domain: &Domain) -> Self {
-        let found = match self.found.0.discs.is_of(domain) {
+    /// Returns the same for another domain, or other coasts of it.
+    pub fn for_domain(&self, domain: &Domain, marks: &BoundaryMarks) -> Self {
+        let found = match self.found.0.discs.is_of(domain, marks) {
             true => self.found.clone(),
-            false => WaterMiddle::of(domain, self.found.between()),
+            false => WaterMiddle::of(domain, marks, self.found.between()),
         };
         Self { found, ..*self }
     }
@@ -102,8 +102,8 @@ impl WaterMiddle {
     /// Finds the middle of water that is between the first and the second length wide, in world units, or in
     /// metres on the Earth. That of wider water is left out: where 2 W is greater, it can be too large. None
     /// in a domain without coasts.
-    pub fn of(domain: &Domain, between: [f64; 2]) -> Self {
-        Self::new(StraitDiscs::of(domain, between), Shapes::coasts(domain).ok())
+    pub fn of(domain: &Domain, marks: &BoundaryMarks, between: [f64; 2]) -> Self {
+        Self::new(StraitDiscs::of(domain, marks, between), Shapes::coasts(domain, marks).ok())
     }
 
     fn new(discs: StraitDiscs, shores: Option<Shapes>) -> Self {
@@ -212,7 +212,7 @@ mod tests {
     fn a_channel_is_half_as_wide_everywhere_as_its_width() {
         let rings = vec![ring(DVec2::ZERO, 400, |_| 10.0), ring(DVec2::ZERO, 400, |_| 8.0)];
         let channel = Domain::of_polygons(&[rings]).unwrap();
-        let found = WaterMiddle::of(&channel, [0.5, 5.0]);
+        let found = WaterMiddle::of(&channel, &BoundaryMarks::default(), [0.5, 5.0]);
         let mut random = fastrand::Rng::with_seed(3);
         for _ in 0..2000 {
             let at = (8.0 + 2.0 * random.f64()) * DVec2::from_angle(TAU * random.f64());
@@ -221,10 +221,10 @@ mod tests {
         }
         // Away from the shores it grows with the way: twice as fast on land, and as fast from the middle.
         assert!((found.half_width_at(DVec2::ZERO) - 17.0).abs() < 0.2);
-        let none = WaterMiddle::of(&channel, [0.5, 1.5]);
+        let none = WaterMiddle::of(&channel, &BoundaryMarks::default(), [0.5, 1.5]);
         assert_eq!(none.half_width_at(dvec2(9.0, 0.0)), f64::INFINITY, "wider than what is looked for");
         let square = Domain::of_polygons(&[vec![ring(DVec2::ZERO, 4, |_| 3.0)]]).unwrap();
-        let square = WaterMiddle::of(&square, [0.1, 100.0]);
+        let square = WaterMiddle::of(&square, &BoundaryMarks::default(), [0.1, 100.0]);
         assert_eq!(square.half_width_at(DVec2::ZERO), f64::INFINITY, "right angles have no middle");
     }
 
@@ -238,7 +238,10 @@ mod tests {
             let Some(water) = water(&mut random) else { continue };
             let region = water.region().unwrap();
             let mask = Mask::new(region.polygons()).unwrap();
-            let size = FeatureSize { across: 3.0, found: WaterMiddle::of(&water, [0.2, 8.0]) };
+            let size = FeatureSize {
+                across: 3.0,
+                found: WaterMiddle::of(&water, &BoundaryMarks::default(), [0.2, 8.0]),
+            };
             let edges: Vec<(usize, [DVec2; 2])> = region
                 .rings()
                 .enumerate()
@@ -272,7 +275,7 @@ mod tests {
     fn bounds_hold_w_at_every_point_and_it_changes_by_at_most_twice_the_way() {
         let mut random = fastrand::Rng::with_seed(6);
         let water = water(&mut random).unwrap();
-        let found = WaterMiddle::of(&water, [0.2, 8.0]);
+        let found = WaterMiddle::of(&water, &BoundaryMarks::default(), [0.2, 8.0]);
         let size = FeatureSize { across: 3.0, found: found.clone() };
         let mut steepest = 0.0_f64;
         let shore: Vec<[DVec2; 2]> = water.region().unwrap().edges().collect();

@@ -331,7 +331,7 @@ impl LayerKind {
 
     /// Returns whether it changes with the names and types of the pieces of the boundary.
     pub fn follows_pieces(&self) -> bool {
-        matches!(self, Self::Distance { to: DistanceTo::Pieces(_), .. })
+        matches!(self, Self::Distance { to: DistanceTo::Pieces(_) | DistanceTo::Coasts, .. })
     }
 
     /// Returns the raster that the layer reads, if it reads one.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::domain::{CutShape, Domain, Polygon, Region, RegionError, Ring};
+use crate::domain::{CutShape, Domain, OutlineOnEarth, Polygon, Region, RegionError, Ring};
 use crate::earth::Ground;
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
@@ -62,7 +62,9 @@ impl Mask {
     fn in_frame(polygons: &[Polygon]) -> Result<Self, RegionError> {
         let domain = match bounds_of(polygons.iter().flatten()) {
             // The polygons of another mask stay as they are: a saved mask is read back exactly.
-            Some(bounds) if bounds.is_proper() => Domain::of_stored_polygons(polygons.to_vec(), bounds)?,
+            Some(bounds) if bounds.is_proper() => {
+                Domain::of_stored_polygons(polygons.to_vec(), bounds, &OutlineOnEarth::default())?
+            }
             _ => Domain::of_polygons(polygons)?,
         };
         let region = domain.region().ok_or(RegionError::NoArea)?;

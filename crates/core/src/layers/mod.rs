@@ -2,6 +2,7 @@
 
 mod areas;
 mod check;
+mod courant;
 mod curve;
 mod depth;
 mod depth_surface;
@@ -41,6 +42,7 @@ mod usual;
 
 pub use areas::PaintChange;
 pub use check::{InvalidLayer, LayerCheck};
+pub use courant::CourantFit;
 pub use curve::{CurveError, FineAt, ValueCurve};
 pub use depth::{DepthError, DepthRule, DepthSizes, Depths, PositiveDepth, wavelength};
 pub use depth_surface::DepthSurface;

@@ -9,7 +9,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::straits::{CENTERS, POINTS, StraitDisc, StraitDiscs};
-use crate::domain::{CoastEdge, Coasts, Domain, Region};
+use crate::domain::{BoundaryMarks, CoastEdge, Coasts, Domain, Region};
 use crate::geometry::{BoxTree, NumberMap, Rect, nearest_on_segment};
 use crate::mesh::Progress;
 
@@ -29,6 +29,7 @@ const MOST_POINTS: usize = 100_000;
 #[derive(Debug)]
 pub(crate) struct StraitSearch {
     region: Option<Arc<Region>>,
+    marks: BoundaryMarks,
     between: [f64; 2],
     finder: Finder,
     /// The first edge of the coasts that was not looked at.
@@ -37,11 +38,12 @@ pub(crate) struct StraitSearch {
 }
 
 impl StraitSearch {
-    /// Begins to look for the straits of a domain.
-    pub(crate) fn new(domain: &Domain, between: [f64; 2]) -> Self {
+    /// Begins to look for the straits of a domain, between the coasts that marks leave.
+    pub(crate) fn new(domain: &Domain, marks: &BoundaryMarks, between: [f64; 2]) -> Self {
         let in_plane = [between[0] * domain.least_scale(), between[1] * domain.greatest_scale()];
-        let finder = Finder::new(Coasts::of(domain), domain.bounds, in_plane);
-        Self { region: domain.region().cloned(), between, finder, next: 0, found: Vec::new() }
+        let finder = Finder::new(Coasts::of(domain, marks), domain.bounds, in_plane);
+        let (region, marks) = (domain.region().cloned(), marks.of_coasts());
+        Self { region, marks, between, finder, next: 0, found: Vec::new() }
     }
 
     /// Looks along so many edges of the coasts.
@@ -57,7 +59,8 @@ impl StraitSearch {
 
     /// Returns the straits, once all edges were looked at.
     pub(crate) fn finish(self) -> StraitDiscs {
-        StraitDiscs::new(self.region, thinned(self.found), self.between, self.finder.between)
+        let of = (self.region, self.marks);
+        StraitDiscs::new(of, thinned(self.found), self.between, self.finder.between)
     }
 }
 
@@ -155,8 +158,9 @@ impl Finder {
         if length <= NARROWEST * self.between[0] {
             return false;
         }
-        let apart = (a.along - b.along).abs();
-        a.ring != b.ring || apart.min(self.coasts.lengths[a.ring as usize] - apart) >= LAMBDA * length
+        let whole = self.coasts.lengths[a.ring as usize];
+        let apart = (a.along - b.along).rem_euclid(whole);
+        a.ring != b.ring || apart.min(whole - apart) >= LAMBDA * length
     }
 }
 

@@ -22,7 +22,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::strait_search::StraitSearch;
-use crate::domain::{Domain, Region};
+use crate::domain::{BoundaryMarks, Domain, Region};
 use crate::field::Bounds;
 use crate::geometry::{BoxTree, Rect};
 
@@ -62,11 +62,11 @@ impl Straits {
         width / (self.across + 1.0)
     }
 
-    /// Returns the same for another domain.
-    pub fn for_domain(&self, domain: &Domain) -> Self {
-        let found = match self.found.is_of(domain) {
+    /// Returns the same for another domain, or other coasts of it.
+    pub fn for_domain(&self, domain: &Domain, marks: &BoundaryMarks) -> Self {
+        let found = match self.found.is_of(domain, marks) {
             true => self.found.clone(),
-            false => StraitDiscs::of(domain, self.found.between()),
+            false => StraitDiscs::of(domain, marks, self.found.between()),
         };
         Self { found, ..*self }
     }
@@ -80,6 +80,8 @@ pub struct StraitDiscs(Arc<Indexed>);
 struct Indexed {
     /// The outline that they were found for.
     region: Option<Arc<Region>>,
+    /// The marks that decide which parts of the outline are coasts.
+    marks: BoundaryMarks,
     /// The least and the greatest width that are asked for.
     between: [f64; 2],
     /// The same as lengths in the plane.
@@ -103,15 +105,15 @@ impl PartialEq for StraitDiscs {
 impl StraitDiscs {
     /// Finds the straits of a domain that are at most as wide as the second length, in world units, or in
     /// metres on the Earth. Those narrower than the first one count as that wide. None in a domain without
-    /// coasts.
-    pub fn of(domain: &Domain, between: [f64; 2]) -> Self {
-        let mut search = StraitSearch::new(domain, between);
+    /// coasts. Marks decide which parts of its boundary are coasts.
+    pub fn of(domain: &Domain, marks: &BoundaryMarks, between: [f64; 2]) -> Self {
+        let mut search = StraitSearch::new(domain, marks, between);
         search.advance(usize::MAX);
         search.finish()
     }
 
     pub(super) fn new(
-        region: Option<Arc<Region>>,
+        (region, marks): (Option<Arc<Region>>, BoundaryMarks),
         discs: Vec<StraitDisc>,
         between: [f64; 2],
         in_plane: [f64; 2],
@@ -122,18 +124,20 @@ impl StraitDiscs {
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
         let middles = discs.iter().map(|disc| Rect::new(disc.center, disc.center));
         let middles = middles.reduce(|all, one| all.union(&one));
-        Self(Arc::new(Indexed { region, between, in_plane, discs, middles, tree, least }))
+        Self(Arc::new(Indexed { region, marks, between, in_plane, discs, middles, tree, least }))
     }
 
     /// Returns straits that were not looked for yet: there are none.
     pub fn unknown(between: [f64; 2]) -> Self {
-        Self::new(None, Vec::new(), between, between)
+        Self::new((None, BoundaryMarks::default()), Vec::new(), between, between)
     }
 
-    /// Returns whether they were found for this domain.
-    pub(super) fn is_of(&self, domain: &Domain) -> bool {
+    /// Returns whether they were found for the coasts of this domain.
+    pub(super) fn is_of(&self, domain: &Domain, marks: &BoundaryMarks) -> bool {
         match (&self.0.region, domain.region()) {
-            (Some(own), Some(region)) => Arc::ptr_eq(own, region) || own == region,
+            (Some(own), Some(region)) => {
+                (Arc::ptr_eq(own, region) || own == region) && self.0.marks == marks.of_coasts()
+            }
             (None, None) => self.0.discs.is_empty(),
             _ => false,
         }
@@ -279,6 +283,8 @@ mod tests {
     use crate::layers::Mask;
     use crate::mesh::Progress;
 
+    const NONE: BoundaryMarks = BoundaryMarks { splits: Vec::new(), names: Vec::new(), types: Vec::new() };
+
     fn domain(rings: Vec<Ring>) -> Domain {
         let mut rings = rings.into_iter();
         let outer = rings.next().unwrap();
@@ -297,7 +303,7 @@ mod tests {
         let text = "+proj=merc +lat_ts=0 +ellps=WGS84 +units=m";
         let plain = Domain::rectangle(bounds);
         let on_earth = Domain { projection: Some(text.parse().unwrap()), ..plain.clone() };
-        let straits = |domain: &Domain, least: f64| StraitDiscs::of(domain, [least, 5e3]);
+        let straits = |domain: &Domain, least: f64| StraitDiscs::of(domain, &NONE, [least, 5e3]);
         let all = [straits(&plain, 1e3), straits(&plain, 2e3), straits(&on_earth, 1e3)];
         for (n, one) in all.iter().enumerate() {
             assert!(one.discs().is_empty());
@@ -309,7 +315,7 @@ mod tests {
     #[test]
     fn a_ring_of_water_is_as_wide_everywhere() {
         let water = domain(vec![ring(DVec2::ZERO, 400, |_| 10.0), ring(DVec2::ZERO, 400, |_| 8.0)]);
-        let straits = StraitDiscs::of(&water, [0.5, 5.0]);
+        let straits = StraitDiscs::of(&water, &NONE, [0.5, 5.0]);
         assert!(straits.discs().len() > 100, "{}", straits.discs().len());
         for disc in straits.discs() {
             assert!((disc.width - 2.0).abs() < 2e-2 && (disc.center.length() - 9.0).abs() < 2e-2, "{disc:?}");
@@ -320,12 +326,16 @@ mod tests {
             assert!((1.8..=2.0).contains(&width), "{width} at {at}");
         }
         assert_eq!(straits.width_at(DVec2::ZERO), f64::INFINITY);
-        let mut search = StraitSearch::new(&water, [0.5, 5.0]);
+        let mut search = StraitSearch::new(&water, &NONE, [0.5, 5.0]);
         while search.advance(3) == Progress::More {}
         assert_eq!(search.finish(), straits, "found in slices");
-        assert_eq!(StraitDiscs::of(&water, [0.5, 1.5]).discs().len(), 0, "wider than what is looked for");
         assert_eq!(
-            StraitDiscs::of(&water, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),
+            StraitDiscs::of(&water, &NONE, [0.5, 1.5]).discs().len(),
+            0,
+            "wider than what is looked for"
+        );
+        assert_eq!(
+            StraitDiscs::of(&water, &NONE, [1.95, 5.0]).width_at(dvec2(9.0, 0.0)),
             1.95,
             "counts as the least"
         );
@@ -334,9 +344,9 @@ mod tests {
     #[test]
     fn a_convex_water_and_a_shallow_cove_have_no_straits() {
         let round = domain(vec![ring(DVec2::ZERO, 60, |_| 10.0)]);
-        assert!(StraitDiscs::of(&round, [0.1, 100.0]).discs().is_empty());
+        assert!(StraitDiscs::of(&round, &NONE, [0.1, 100.0]).discs().is_empty());
         let square = domain(vec![vec![dvec2(0.0, 0.0), dvec2(4.0, 0.0), dvec2(4.0, 3.0), dvec2(0.0, 3.0)]]);
-        assert!(StraitDiscs::of(&square, [0.1, 100.0]).discs().is_empty());
+        assert!(StraitDiscs::of(&square, &NONE, [0.1, 100.0]).discs().is_empty());
     }
 
     /// Crossings of random water: from many points of the coast to the nearest point of another ring.
@@ -357,7 +367,7 @@ mod tests {
             let rings: Vec<Ring> = std::iter::once(outer).chain(islands).collect();
             let Ok(water) = Domain::of_polygons(&[rings]) else { continue };
             let [narrowest, widest] = [0.2, 6.0];
-            let straits = StraitDiscs::of(&water, [narrowest, widest]);
+            let straits = StraitDiscs::of(&water, &NONE, [narrowest, widest]);
             let region = water.region().unwrap();
             let mask = Mask::new(region.polygons()).unwrap();
             let edges: Vec<[DVec2; 2]> = region.edges().collect();
@@ -398,7 +408,7 @@ mod tests {
                 StraitDisc { center, shores: [center; 2], width: 0.02 + 0.3 * random.f64() }
             })
             .collect();
-        StraitDiscs::new(None, discs, [0.05, 1.0], [0.05, 1.0])
+        StraitDiscs::new((None, NONE), discs, [0.05, 1.0], [0.05, 1.0])
     }
 
     #[test]

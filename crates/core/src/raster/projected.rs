@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::linear::linear;
 use super::{LONGEST_SIDE, MOST_PIXELS, Raster};
-use crate::earth::{Coordinates, Reprojection};
+use crate::earth::Reprojection;
 use crate::geometry::Rect;
 use crate::text::{Grouped, Number};
 
@@ -54,7 +54,7 @@ pub fn projected_raster(
     reprojection: &Reprojection,
     area: Rect,
 ) -> Result<Raster, ProjectedRasterError> {
-    let is_geographic = reprojection.from == Coordinates::Geographic;
+    let is_geographic = reprojection.from.are_degrees();
     let bounds = if is_geographic { eastward(source.bounds()) } else { source.bounds() };
     let source = Source { raster: source, bounds, is_geographic, reprojection };
     let (bounds, side) = source.place(area).ok_or(ProjectedRasterError::Apart(source.raster.bounds()))?;
@@ -217,7 +217,7 @@ impl Source<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::earth::{GeographicExtent, Projection, ProjectionChoice, ProjectionKind};
+    use crate::earth::{Coordinates, GeographicExtent, Projection, ProjectionChoice, ProjectionKind};
 
     fn projected(
         source: &Raster,

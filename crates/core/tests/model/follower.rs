@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, dvec2};
 use meshbrush_core::document::{Document, Follower, MeshChange, Setting, Settings, Stage};
-use meshbrush_core::domain::{Domain, corners};
+use meshbrush_core::domain::{Domain, OutlineOnEarth, corners};
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, ShapeList, Shapes, Threat, ThreatLaw,
@@ -309,7 +309,8 @@ fn an_edited_outline_changes_the_layer_that_measures_the_distance_to_it() {
         let (mut document, mut follower) = with_layers(Layer::stack([LayerKind::constant(0.2), distance]));
         let l_shape = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.5, 0.5], [0.5, 1.0], [0.0, 1.0]];
         let l_shape = l_shape.map(DVec2::from).to_vec();
-        let domain = Domain::of_stored_polygons(vec![vec![l_shape]], Rect::UNIT).unwrap();
+        let domain =
+            Domain::of_stored_polygons(vec![vec![l_shape]], Rect::UNIT, &OutlineOnEarth::default()).unwrap();
         document.set(Setting::Domain(domain)).unwrap();
         document.end_gesture();
         follower.take_change();

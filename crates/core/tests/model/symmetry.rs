@@ -9,7 +9,7 @@ use crate::runs::seeds;
 use fastrand::Rng;
 use glam::{DVec2, dvec2};
 use meshbrush_core::build::{BuiltMesh, MeshBuilder, MeshSpec};
-use meshbrush_core::domain::{BoundaryTreatment, Domain, Polygon, corners};
+use meshbrush_core::domain::{BoundaryTreatment, Domain, OutlineOnEarth, Polygon, corners};
 use meshbrush_core::field::{Formula, RefinementRule, Transfer};
 use meshbrush_core::layers::{
     Combine, DistanceTo, Layer, LayerId, LayerKind, Mask, Quantity, RasterReading, RasterSource, ShapeList,
@@ -281,7 +281,9 @@ fn compare_coasts(derived: bool, usual: u64) {
         let (map, polygon) = (any_map(&mut random), coast(&mut random));
         let mesh = |map: &Map| {
             let polygons = vec![map.polygon(&polygon)];
-            let domain = Domain::of_stored_polygons(polygons, map.rect(&Rect::UNIT)).unwrap();
+            let domain =
+                Domain::of_stored_polygons(polygons, map.rect(&Rect::UNIT), &OutlineOnEarth::default())
+                    .unwrap();
             let boundary = BoundaryTreatment::OnOutline { diameter: 0.05 * map.scale };
             let field = spec(seed, map, &domain);
             built(domain, boundary, field, map.scale)

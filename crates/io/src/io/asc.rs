@@ -14,8 +14,10 @@ use glam::DVec2;
 use super::coordinate_system::CoordinateSystem;
 use super::disk::File;
 use super::error::PlacedFlaw;
+use super::gdal_metadata::BandMetadata;
 use super::rows::reverse_rows;
-use super::samples::{no_rectangle, single};
+use super::samples::{NoData, SampleType, Unpacking, no_rectangle};
+use super::vertical::ValueUnit;
 use super::{FileGrid, Flaw, GridPlace, Meter, Number, RasterFormatSpec, ReadError, ReadRaster};
 use meshbrush_core::raster::{LONGEST_SIDE, Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
@@ -23,7 +25,7 @@ use meshbrush_mesh::text::excerpt;
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["asc"], read: ReadRaster::Grid(read_grid) };
+    RasterFormatSpec { endings: &["asc"], has_parts: false, read: ReadRaster::Grid(read_grid) };
 
 /// Reads a grid. Pixels without a value (`NODATA_value`, and `nan` as GDAL writes it) are NaN.
 ///
@@ -39,20 +41,31 @@ pub fn read(path: &Path) -> Result<Raster, ReadError> {
 /// # Errors
 /// Fails as [`read`] does, and when the work was cancelled.
 pub fn read_metered(path: &Path, meter: &Meter) -> Result<Raster, ReadError> {
-    read_placed(path, None, meter)
+    read_placed(path, None, meter).map(|grid| grid.raster)
 }
 
 /// Reads a grid, and the text beside it that describes its coordinates (`.prj`).
 fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
-    let raster = read_placed(path, place.over, meter)?;
-    Ok(FileGrid { raster, system: CoordinateSystem::beside(path) })
+    let mut grid = read_placed(path, place.over, meter)?;
+    grid.system = CoordinateSystem::beside(path);
+    grid.facts.positive = grid.system.as_ref().and_then(|system| system.vertical.positive);
+    Ok(if place.over.is_some() { grid } else { grid.in_degrees() })
 }
 
 /// Reads a grid over the given rectangle, or else over that of its header.
-fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<Raster, ReadError> {
+fn read_placed(path: &Path, place: Option<Rect>, meter: &Meter) -> Result<FileGrid, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.length()?);
-        parse_over(BufReader::with_capacity(1 << 16, meter.count(file)), place)
+        let metadata = BandMetadata::beside(path, 0);
+        let vertical = CoordinateSystem::beside(path).map(|system| system.vertical).unwrap_or_default();
+        let unit = ValueUnit::named(metadata.unit.as_deref().unwrap_or_default()).or(vertical.unit);
+        let unpacking = Unpacking {
+            scale: metadata.scale.unwrap_or(1.0),
+            offset: metadata.offset.unwrap_or(0.0),
+            unit,
+            ..Unpacking::plain(REMEDY)
+        };
+        parse_over(BufReader::with_capacity(1 << 16, meter.count(file)), place, unpacking)
     });
     read.map_err(|flaw| flaw.in_file(path))
 }
@@ -146,16 +159,21 @@ impl fmt::Display for Single {
 }
 
 fn parse(source: impl BufRead) -> Result<Raster, PlacedFlaw> {
-    parse_over(source, None)
+    parse_over(source, None, Unpacking::plain(REMEDY)).map(|grid| grid.raster)
 }
 
-fn parse_over(source: impl BufRead, place: Option<Rect>) -> Result<Raster, PlacedFlaw> {
+/// `unpacking` is what is said beside the file about its values.
+fn parse_over(
+    source: impl BufRead,
+    place: Option<Rect>,
+    mut unpacking: Unpacking,
+) -> Result<FileGrid, PlacedFlaw> {
     let mut words = Words { source, line: 1, word: String::new() };
     let header = Header::parse(&mut words)?;
     let [columns, rows] = header.size()?;
     let bounds = header.bounds([columns, rows])?;
-    let no_data = header.number("nodata_value");
-    let has_value = |value: f64| !value.is_nan() && Some(value) != no_data;
+    unpacking.marks = vec![header.no_data()];
+    unpacking.has_declared = header.number(NO_DATA).is_some();
     let count = columns as usize * rows as usize;
     // Grows with the values in the file: a header alone takes no memory.
     let mut values: Vec<f32> = Vec::new();
@@ -165,47 +183,48 @@ fn parse_over(source: impl BufRead, place: Option<Rect>) -> Result<Raster, Place
             let problem = format!("there are more values than {columns} columns × {rows} rows");
             return Err(Flaw::Syntax(problem + "; check ncols and nrows.").at(words.line));
         }
-        let value = number(words.text(), words.line)?;
-        values.push(if has_value(value) {
-            single(value, REMEDY).map_err(|flaw| flaw.at(words.line))?
-        } else {
-            f32::NAN
-        });
+        let value =
+            if header.is_no_data(words.text()) { f64::NAN } else { number(words.text(), words.line)? };
+        // Cells have single precision, in which GDAL compares them: the last digit of a number may differ.
+        let single = f64::from(value as f32);
+        let value = if single.is_infinite() { value } else { single };
+        values.push(unpacking.value(value).map_err(|flaw| flaw.at(words.line))?);
         has_word = words.advance()?;
     }
     if values.len() < count {
         return Err(Flaw::CutOff.at(words.line));
     }
     reverse_rows(&mut values, columns);
-    Ok(Raster::from_values(place.unwrap_or(bounds), [columns, rows], values))
+    let raster = Raster::from_values(place.unwrap_or(bounds), [columns, rows], values);
+    Ok(FileGrid { raster, system: None, facts: unpacking.facts() })
 }
 
-/// The names of the header in lower case, with their numbers.
-struct Header(HashMap<String, f64>);
+/// The number of cells without a value where the header names none.
+const USUAL_NO_DATA: f64 = -9999.0;
 
-const NAMES: [&str; 10] = [
-    "ncols",
-    "nrows",
-    "xllcorner",
-    "yllcorner",
-    "xllcenter",
-    "yllcenter",
-    "cellsize",
-    "dx",
-    "dy",
-    "nodata_value",
-];
+/// What the header says.
+struct Header {
+    /// Its names in lower case, with their numbers.
+    numbers: HashMap<String, f64>,
+    /// What marks a cell without a value, where that is no number.
+    no_data_word: Option<String>,
+}
+
+const NAMES: [&str; 10] =
+    ["ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter", "cellsize", "dx", "dy", NO_DATA];
+const NO_DATA: &str = "nodata_value";
 
 impl Header {
     /// Reads names and numbers up to the first number in the place of a name. That is the first value; it
     /// stays the current word.
     fn parse(words: &mut Words<impl BufRead>) -> Result<Self, PlacedFlaw> {
         let mut known = HashMap::new();
+        let mut no_data_word = None;
         loop {
             let name = words.required()?.to_owned();
             let is_nan = name.eq_ignore_ascii_case("nan");
             if is_nan || name.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
-                return Ok(Self(known));
+                return Ok(Self { numbers: known, no_data_word });
             }
             let lower = name.to_ascii_lowercase();
             if !NAMES.contains(&lower.as_str()) {
@@ -215,9 +234,14 @@ impl Header {
                     .at(words.line));
             }
             let value = words.required()?.to_owned();
+            let is_word = value.chars().all(|c| c.is_ascii_alphabetic()) && value.parse::<f64>().is_err();
+            if lower == NO_DATA && is_word && no_data_word.is_none() {
+                no_data_word = Some(value);
+                continue;
+            }
             // Each name is allowed once, so the loop is bounded by the list of names.
             let number = number(&value, words.line)?;
-            if number.is_nan() && lower != "nodata_value" {
+            if number.is_nan() && lower != NO_DATA {
                 return Err(Flaw::Syntax(format!("`{name}` is nan, and it must be a number.")).at(words.line));
             }
             if known.insert(lower, number).is_some() {
@@ -227,7 +251,17 @@ impl Header {
     }
 
     fn number(&self, name: &str) -> Option<f64> {
-        self.0.get(name).copied()
+        self.numbers.get(name).copied()
+    }
+
+    /// Returns the number of cells without a value.
+    fn no_data(&self) -> NoData {
+        NoData::rounded(self.number(NO_DATA).unwrap_or(USUAL_NO_DATA), SampleType::Single)
+    }
+
+    /// Returns whether a word stands for a cell without a value.
+    fn is_no_data(&self, word: &str) -> bool {
+        self.no_data_word.as_deref() == Some(word)
     }
 
     fn required(&self, name: &str) -> Result<f64, Flaw> {

@@ -10,8 +10,10 @@ use glam::DVec2;
 
 use super::coordinates::{self, FileCoordinates};
 use super::disk::File;
+use super::vertical::{ValueUnit, VerticalSystem};
 use super::wkt_projection::projection;
-use meshbrush_core::earth::Coordinates;
+use meshbrush_core::earth::{Coordinates, GeographicSystem};
+use meshbrush_core::layers::PositiveDepth;
 use meshbrush_mesh::text::LengthUnit;
 
 /// A coordinate reference system, as a file describes it.
@@ -27,6 +29,8 @@ pub struct CoordinateSystem {
     pub on_earth: Option<Coordinates>,
     /// The unit of coordinates; `None` also for units that the program does not know, such as feet.
     pub unit: LengthUnit,
+    /// What it says about heights or depths, where it is compound.
+    pub vertical: VerticalSystem,
 }
 
 /// The kind of a coordinate reference system.
@@ -70,18 +74,18 @@ impl CoordinateSystem {
     /// Returns the system of an EPSG code, as GeoTIFF keys state it.
     pub(super) fn of_keys(kind: CoordinateKind, epsg: Option<u32>, name: Option<String>) -> Self {
         let by_code = epsg.map(coordinates::of_epsg);
-        let unit = match (kind, by_code) {
-            (CoordinateKind::Geographic, _) => LengthUnit::Degree,
-            (_, Some(known)) => known.unit(),
-            (_, None) => LengthUnit::None,
+        let named = || name.as_deref().and_then(GeographicSystem::named).map(GeographicSystem::coordinates);
+        let on_earth = by_code.and_then(|known| known.on_earth(None)).or_else(|| match kind {
+            CoordinateKind::Geographic => Some(named().unwrap_or(Coordinates::Geographic)),
+            CoordinateKind::Projected | CoordinateKind::Other => None,
+        });
+        let unit = match (on_earth, by_code) {
+            (Some(known), _) => FileCoordinates::Known(known).unit(),
+            (None, Some(foreign)) => foreign.unit(),
+            (None, None) => LengthUnit::None,
         };
-        let on_earth = match kind {
-            CoordinateKind::Geographic => Some(Coordinates::Geographic),
-            CoordinateKind::Projected | CoordinateKind::Other => {
-                by_code.and_then(|known| known.on_earth(None))
-            }
-        };
-        Self { kind, epsg, name: name.and_then(|name| kept_name(&name)), on_earth, unit }
+        let vertical = VerticalSystem::default();
+        Self { kind, epsg, name: name.and_then(|name| kept_name(&name)), on_earth, unit, vertical }
     }
 
     /// Returns what coordinates of these corners are, beside a text that describes their system.
@@ -96,7 +100,7 @@ impl CoordinateSystem {
     }
 
     /// Returns what the system says about coordinates.
-    pub(super) fn stated(&self) -> FileCoordinates {
+    pub fn stated(&self) -> FileCoordinates {
         self.on_earth.map_or(FileCoordinates::Foreign(self.unit), FileCoordinates::Known)
     }
 
@@ -128,13 +132,75 @@ impl CoordinateSystem {
         let name = system.values.first().and_then(|name| kept_name(name));
         let unit = unit_of(kind, factor);
         let on_earth = match (kind, unit) {
-            (CoordinateKind::Geographic, LengthUnit::Degree) => Some(Coordinates::Geographic),
+            (CoordinateKind::Geographic, _) => geographic(&inner, epsg, name.as_deref(), factor),
             (CoordinateKind::Projected, LengthUnit::Metre) => {
                 epsg.and_then(Coordinates::of_epsg).or_else(|| projection(&inner).map(Coordinates::Plane))
             }
             _ => None,
         };
-        Some(Self { kind, epsg, name, on_earth, unit })
+        Some(Self { kind, epsg, name, on_earth, unit, vertical: vertical(&elements) })
+    }
+}
+
+/// Returns the geographic system that elements describe. `radians` is the size of its unit.
+fn geographic(
+    inner: &[&Element],
+    epsg: Option<u32>,
+    name: Option<&str>,
+    radians: Option<f64>,
+) -> Option<Coordinates> {
+    let element = |keywords: &[&str]| {
+        let is = |part: &&&Element| keywords.iter().any(|word| part.keyword.eq_ignore_ascii_case(word));
+        inner.iter().find(is).copied()
+    };
+    let numbers = |element: &Element| -> Vec<f64> {
+        element.values.iter().skip(1).map_while(|value| value.parse().ok()).collect()
+    };
+    if let Some(known) = epsg.and_then(Coordinates::of_epsg) {
+        return Some(known);
+    }
+    if let Some(known) = name.and_then(GeographicSystem::named) {
+        return Some(known.coordinates());
+    }
+    let ellipsoid = element(&["SPHEROID", "ELLIPSOID"]).map(numbers);
+    let ellipsoid = match ellipsoid.as_deref() {
+        Some(&[radius, reciprocal, ..]) => [radius, reciprocal],
+        _ => return Some(Coordinates::Geographic),
+    };
+    let meridian = element(&["PRIMEM", "PRIMEMERIDIAN"]).and_then(|part| numbers(part).first().copied());
+    let shift = element(&["TOWGS84", "ABRIDGEDTRANSFORMATION"]).and_then(|part| {
+        let numbers: Option<Vec<f64>> = part.values.iter().map(|value| value.parse().ok()).collect();
+        let mut numbers = numbers?;
+        numbers.resize(7, 0.0);
+        numbers.try_into().ok()
+    });
+    let system = GeographicSystem::on_ellipsoid(ellipsoid);
+    let unit = radians.map_or(1.0, |radians| radians.to_degrees());
+    let unit = if (unit - 1.0).abs() < 1e-6 { 1.0 } else { unit };
+    let accuracy = if shift.is_some() { 10.0 } else { system.accuracy };
+    let prime_meridian = meridian.unwrap_or(0.0);
+    Some(GeographicSystem { prime_meridian, unit, shift, accuracy, ..system }.coordinates())
+}
+
+/// Returns what the vertical part of a compound system says.
+fn vertical(elements: &[Element]) -> VerticalSystem {
+    let is = |part: &Element, keywords: &[&str]| {
+        keywords.iter().any(|keyword| part.keyword.eq_ignore_ascii_case(keyword))
+    };
+    let Some(at) =
+        elements.iter().position(|part| is(part, &["VERT_CS", "VERTCS", "VERTCRS", "VERTICALCRS"]))
+    else {
+        return VerticalSystem::default();
+    };
+    let depth = elements[at].depth;
+    let inner: Vec<&Element> = elements[at + 1..].iter().take_while(|part| part.depth > depth).collect();
+    let unit = inner.iter().rfind(|part| is(part, &["UNIT", "LENGTHUNIT"]));
+    let metres = unit.and_then(|part| Some((part.values.get(1)?.parse().ok()?, part.values.first()?)));
+    let axis = inner.iter().rfind(|part| is(part, &["AXIS"]));
+    let is_down = axis.is_some_and(|part| part.values.iter().any(|value| value.eq_ignore_ascii_case("down")));
+    VerticalSystem {
+        unit: metres.map_or(ValueUnit::Unstated, |(metres, name)| ValueUnit::of_metres(metres, name)),
+        positive: is_down.then_some(PositiveDepth::Down),
     }
 }
 
@@ -220,10 +286,24 @@ mod tests {
             (second, Projected, Some(3035), "ETRS89-extended / LAEA Europe", LengthUnit::Metre, None),
             (&compound, Projected, Some(32633), "WGS 84 / UTM zone 33N", LengthUnit::Metre, utm),
         ] {
-            let name = Some(name.to_owned());
-            let expected = CoordinateSystem { kind, epsg, name, on_earth, unit };
-            assert_eq!(CoordinateSystem::from_wkt(text), Some(expected));
+            let (name, found) = (Some(name.to_owned()), CoordinateSystem::from_wkt(text));
+            let vertical = found.as_ref().unwrap().vertical.clone();
+            let expected = CoordinateSystem { kind, epsg, name, on_earth, unit, vertical };
+            assert_eq!(found, Some(expected));
         }
+    }
+
+    #[test]
+    fn the_vertical_part_says_unit_and_direction() {
+        let compound = |vertical: &str| {
+            CoordinateSystem::from_wkt(&format!(r#"COMPD_CS["both",{UTM},{vertical}]"#)).unwrap().vertical
+        };
+        let feet = r#"VERT_CS["NAVD88 depth (ftUS)",VERT_DATUM["NAVD88",2005],
+            UNIT["US survey foot",0.304800609601219],AXIS["Depth",DOWN]]"#;
+        assert_eq!(compound(feet).unit.metres(), 1200.0 / 3937.0);
+        assert_eq!(compound(feet).positive, Some(PositiveDepth::Down));
+        let metres = r#"VERTCRS["EGM96 height",VDATUM["EGM96"],CS[vertical,1],AXIS["up (H)",up,LENGTHUNIT["metre",1]]]"#;
+        assert_eq!((compound(metres).unit.metres(), compound(metres).positive), (1.0, None));
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use glam::DVec2;
 
+use super::CoordinateSystem;
 use super::error::Flaw;
 use meshbrush_core::domain::Ring;
 use meshbrush_core::earth::{Coordinates, Projection, Reprojection};
 use meshbrush_mesh::text::LengthUnit;
 
-/// Codes of coordinate systems whose unit is known, and no more: NAD27, and Europe's equal-area system.
-const UNITS: [(u32, LengthUnit); 2] = [(4267, LengthUnit::Degree), (3035, LengthUnit::Metre)];
+/// Codes of coordinate systems whose unit is known, and no more: Europe's equal-area system.
+const UNITS: [(u32, LengthUnit); 1] = [(3035, LengthUnit::Metre)];
 
 /// What the coordinates in a file are, as far as it says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,8 @@ impl FileCoordinates {
             Self::Known(Coordinates::Geographic) | Self::Unstated { can_be_degrees: true } => {
                 LengthUnit::Degree
             }
-            Self::Known(_) => LengthUnit::Metre,
+            Self::Known(Coordinates::OnDatum(system)) => system.length_unit(),
+            Self::Known(Coordinates::Plane(_) | Coordinates::WebMercator) => LengthUnit::Metre,
             Self::Foreign(unit) => unit,
             Self::Unstated { can_be_degrees: false } => LengthUnit::None,
         }
@@ -47,6 +49,26 @@ impl FileCoordinates {
     /// Returns the same, where the coordinates of a file that does not name a known system are `assumed`.
     pub(super) fn assuming(self, assumed: Option<Coordinates>) -> Self {
         self.on_earth(assumed).map_or(self, Self::Known)
+    }
+
+    /// Returns the same in degrees from Greenwich, where they are other longitudes and latitudes, and the factor
+    /// and the summand that lead there.
+    pub(super) fn in_degrees(self) -> Option<(Self, f64, DVec2)> {
+        let Self::Known(Coordinates::OnDatum(system)) = self else { return None };
+        let (plain, factor, summand) = system.in_degrees();
+        let is_other = factor != 1.0 || summand != DVec2::ZERO;
+        is_other.then_some((Self::Known(plain.coordinates()), factor, summand))
+    }
+
+    /// Returns what a person should know about the places of coordinates that count as these.
+    pub fn note(&self) -> Option<String> {
+        match self {
+            Self::Known(Coordinates::OnDatum(system)) if system.is_uncertain() => Some(format!(
+                "the shift of its geographic system to WGS 84 is not known here: places may be up to about {} m off.",
+                system.accuracy
+            )),
+            _ => None,
+        }
     }
 
     /// Returns what the coordinates are on the Earth. Those of a file that does not name a known system are
@@ -99,12 +121,18 @@ impl DocumentPlane {
 }
 
 /// Returns what coordinates are in a system `crs`, which is named as in `urn:ogc:def:crs:EPSG::4326`,
-/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`. A system that is not listed here may be in feet: there is
+/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`, or by its text. A system that is not listed here may be in feet: there is
 /// no unit then.
 pub fn named(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> FileCoordinates {
     let Some(crs) = crs else {
         return FileCoordinates::unstated(corners);
     };
+    if let Some(described) = CoordinateSystem::from_wkt(crs) {
+        return described.stated();
+    }
+    if let Ok(known) = crs.parse() {
+        return FileCoordinates::Known(known);
+    }
     let crs = crs.to_uppercase();
     let code = crs.rsplit(':').next().and_then(|code| code.parse().ok());
     match code.filter(|_| crs.contains("EPSG")) {

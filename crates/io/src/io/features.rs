@@ -53,8 +53,14 @@ impl<W: Wanted> Object<W> {
     pub(super) fn parse(input: impl Read) -> Result<Self, PlacedFlaw> {
         let mut json = serde_json::Deserializer::from_reader(without_mark(input).map_err(Flaw::Io)?);
         let object = Self::deserialize(&mut json).map_err(placed)?;
-        json.end().map_err(placed)?;
-        Ok(object)
+        json.end().map_err(|error| match error.is_syntax() {
+            true => Flaw::Syntax(SEVERAL.into()).at(error.line().max(1)),
+            false => placed(error),
+        })?;
+        match object.kind.as_str() {
+            "Topology" => Err(Flaw::Syntax(TOPOLOGY.into()).into()),
+            _ => Ok(object),
+        }
     }
 
     fn has_wanted(&self) -> bool {
@@ -118,13 +124,25 @@ fn name_of<'de, D: Deserializer<'de>>(json: D) -> Result<String, D::Error> {
     Ok(found.unwrap_or_default())
 }
 
-/// Returns the input without the byte order mark that it may begin with.
+/// The sentence for objects one after the other.
+const SEVERAL: &str = "it has more after its first object, as lines of features have (GeoJSON Lines), and one object is \
+                       read. Join them to a FeatureCollection, for example with ogr2ogr out.geojson.";
+/// The sentence for TopoJSON.
+const TOPOLOGY: &str = "this is TopoJSON, which divides shapes into common arcs. Convert it to GeoJSON, for example with \
+                        ogr2ogr or topo2geo.";
+/// What is added to the sentence for an object without a type.
+const NO_TYPE: &str = "Files of ArcGIS (Esri JSON) have none: export the layer as GeoJSON";
+
+/// Returns the input without the byte order mark, or the separator of records, that it may begin with.
 fn without_mark(mut input: impl Read) -> io::Result<impl Read> {
     const MARK: [u8; 3] = *b"\xef\xbb\xbf";
+    const SEPARATOR: u8 = 0x1e;
     let mut start = Vec::new();
     input.by_ref().take(MARK.len() as u64).read_to_end(&mut start)?;
     if start == MARK {
         start.clear();
+    } else if start.first() == Some(&SEPARATOR) {
+        start.remove(0);
     }
     Ok(Cursor::new(start).chain(input))
 }
@@ -138,5 +156,7 @@ fn placed(error: serde_json::Error) -> PlacedFlaw {
     if error.is_io() {
         return Flaw::Io(error.into()).into();
     }
-    Flaw::Syntax(format!("this is not valid GeoJSON: {}.", problem(&error))).at(line.max(1))
+    let problem = problem(&error);
+    let help = if problem.contains("`type`") { format!(". {NO_TYPE}") } else { String::new() };
+    Flaw::Syntax(format!("this is not valid GeoJSON: {problem}{help}.")).at(line.max(1))
 }

@@ -41,6 +41,14 @@ impl Outline {
         self.coordinates.unit() == LengthUnit::Degree && coordinates::meet_at_antimeridian(rings())
     }
 
+    /// Returns polygons in other longitudes and latitudes in degrees from Greenwich, and others as they are.
+    pub fn in_degrees(mut self) -> Self {
+        let Some((coordinates, factor, summand)) = self.coordinates.in_degrees() else { return self };
+        let rings = self.polygons.iter_mut().flat_map(|named| &mut named.polygon);
+        rings.flatten().for_each(|at| *at = factor * *at + summand);
+        Self { coordinates, ..self }
+    }
+
     /// Returns the polygons in the plane of a projection that suits them. Their coordinates are `assumed`
     /// where the file does not name a known system.
     ///
@@ -93,8 +101,9 @@ impl Outline {
 pub enum ProjectOutlineError {
     /// They do not lie on the Earth, as far as the file says.
     #[error(
-        "its coordinates are not longitudes and latitudes, and it names no coordinate system that is known here, so they \
-         cannot be projected. Say what they are (--crs EPSG:32633, or the key `crs`), or convert the file to EPSG:4326."
+        "its coordinates are not longitudes from −180° to 180° and latitudes, and it names no coordinate system that is \
+         known here, so they cannot be projected. Say what they are: --crs lonlat for longitudes beyond 180°, or a code \
+         such as --crs EPSG:32633 (or the key `crs`); or convert the file to EPSG:4326."
     )]
     NotOnEarth,
     /// No projection suits them.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::FileCoordinates;
+use super::{FileCoordinates, ValueFacts};
 use meshbrush_core::raster::RasterPyramid;
 
 /// Data in memory by the names that settings give them. Copies share the data.
@@ -21,6 +21,8 @@ pub struct GivenGrid {
     pub raster: Arc<RasterPyramid>,
     /// What the coordinates of its place are.
     pub coordinates: FileCoordinates,
+    /// What is known about its values.
+    pub facts: ValueFacts,
 }
 
 impl Given {

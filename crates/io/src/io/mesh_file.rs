@@ -63,7 +63,15 @@ pub struct TypicalSize {
 /// Writes a mesh and its data, and updates the meter.
 pub type WriteMesh = fn(&mut dyn Write, &Extract, &MeshData, &Meter) -> io::Result<()>;
 
+/// The names of the formats in which coastal solvers find their open boundaries.
+const OF_COASTAL_SOLVERS: [&str; 8] = ["fort14", "gr3", "ll", "2dm", "slf", "mesh", "msh2", "fvcom"];
+
 impl MeshFormat {
+    /// Returns whether a coastal solver finds its open boundary in the files of the format.
+    pub fn has_open_boundary(self) -> bool {
+        OF_COASTAL_SOLVERS.contains(&self.spec.name)
+    }
+
     /// Returns all formats.
     pub fn all() -> impl Iterator<Item = Self> {
         MESH_FORMATS.into_iter().map(|spec| Self { spec, is_binary: false })

@@ -35,6 +35,7 @@ mod features;
 mod folder;
 pub mod fort14;
 pub mod fvcom;
+mod gdal_metadata;
 mod given;
 pub mod gr3;
 mod interrupt;
@@ -89,6 +90,7 @@ pub mod threats;
 mod triangle_pieces;
 pub mod ugrid;
 mod values;
+mod vertical;
 pub mod vtu;
 #[cfg(feature = "gpkg")]
 mod wkb;
@@ -118,6 +120,7 @@ use shape_format::ShapeFormatSpec;
 pub use stamp::{FileStamp, Stamping};
 pub use text_file::read_text;
 pub use values::TextValue;
+pub use vertical::{UnitOfLength, ValueFacts, ValueUnit, VerticalSystem};
 
 /// The formats of meshes. A new one is a module and an entry here.
 static MESH_FORMATS: [&FormatSpec; 17] = [

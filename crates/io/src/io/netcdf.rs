@@ -17,14 +17,15 @@ mod window;
 
 use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::{DVec2, dvec2};
 
 use super::coordinate_system::CoordinateSystem;
 use super::disk::File;
 use super::error::PlacedFlaw;
-use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster};
+use super::raster_file::file_and_part;
+use super::{FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts};
 use contents::{Sample, Source};
 use grid::Grid;
 use meshbrush_core::raster::{LONGEST_SIDE, MOST_PIXELS, Raster, is_raster_size};
@@ -34,16 +35,16 @@ use packing::Packing;
 use window::Span;
 
 /// The format, for the list of all formats of rasters.
-pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["nc", "grd", "nc4", "cdf"], read: ReadRaster::Grid(read_grid) };
+pub static RASTER: RasterFormatSpec = RasterFormatSpec {
+    endings: &["nc", "grd", "nc4", "cdf"],
+    has_parts: true,
+    read: ReadRaster::Grid(read_grid),
+};
 
 /// The first bytes of an HDF5 file.
 const HDF5_MAGIC: &[u8; 4] = b"\x89HDF";
 /// Samples that are read at once, or one row where it has more.
 const BLOCK: u64 = 1 << 22;
-
-/// What follows the name of a file before the name of a variable in it, as in `FILE.nc#VARIABLE`.
-const BEFORE_VARIABLE: char = '#';
 
 /// Reads a grid, or the part of it that is wanted, with one pixel more on each side. Longitudes repeat after
 /// 360 degrees: the raster lies where the window is. The meter counts bytes of samples. After the path of the
@@ -54,25 +55,14 @@ const BEFORE_VARIABLE: char = '#';
 /// a well-known name, has coordinates that are not evenly spaced, has no pixel in the window, too many pixels
 /// for a raster, or a value beyond single precision; and when the work was cancelled.
 pub fn read_grid(path: &Path, place: &GridPlace, meter: &Meter) -> Result<FileGrid, ReadError> {
-    let (file, variable) = file_and_variable(path);
+    let (file, variable) = file_and_part(path);
     let read = || -> Result<FileGrid, PlacedFlaw> {
         let source = File::open(&file)?;
         Ok(decode(source, variable.as_deref(), place, meter)?)
     };
     let grid = read().map_err(|flaw| flaw.in_file(path))?;
-    Ok(FileGrid { system: grid.system.or_else(|| CoordinateSystem::beside(&file)), ..grid })
-}
-
-/// Returns the file that a path means, and the variable in it that follows its name, as in `a.nc#depth`.
-pub(super) fn file_and_variable(path: &Path) -> (PathBuf, Option<String>) {
-    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    let named =
-        name.rsplit_once(BEFORE_VARIABLE).filter(|_| !super::exists(path)).and_then(|(file, variable)| {
-            let ending = Path::new(file).extension()?;
-            let is_known = RASTER.endings.iter().any(|known| ending.eq_ignore_ascii_case(known));
-            is_known.then(|| (path.with_file_name(file), Some(variable.to_owned())))
-        });
-    named.unwrap_or_else(|| (path.to_owned(), None))
+    let grid = FileGrid { system: grid.system.or_else(|| CoordinateSystem::beside(&file)), ..grid };
+    Ok(if place.over.is_some() { grid } else { grid.in_degrees() })
 }
 
 /// Reads as [`read_grid`] does, from any source of bytes; the variable with a name, if there is one.
@@ -92,13 +82,13 @@ pub fn decode(
     let window = place.window.filter(|_| place.over.is_none());
     let area = window.and_then(|window| grid.area(&window, system.as_ref()));
     let spans = spans(&mut *source, &grid, area)?;
-    let values = values(&mut *source, &grid, &spans, meter)?;
+    let (values, facts) = values(&mut *source, &grid, &spans, meter)?;
     let bounds = place.over.unwrap_or_else(|| Rect::new(corner(&spans, 0), corner(&spans, 1)));
     if !bounds.is_proper() {
         let problem = "its pixels are too small or too far from zero";
         return Err(Flaw::Syntax(format!("{problem}: they cover no rectangle with {}.", Rect::PROPER)));
     }
-    Ok(FileGrid { raster: Raster::from_values(bounds, size(&spans), values), system })
+    Ok(FileGrid { raster: Raster::from_values(bounds, size(&spans), values), system, facts })
 }
 
 fn corner([x, y]: &[Span; 2], end: usize) -> DVec2 {
@@ -166,11 +156,17 @@ fn too_large([x, y]: &[Span; 2], is_window: bool) -> Flaw {
     ))
 }
 
-/// Reads the values of the pixels, the lowest row first. Memory grows with what was read.
-fn values(source: &mut dyn Source, grid: &Grid, spans: &[Span; 2], meter: &Meter) -> Result<Vec<f32>, Flaw> {
+/// Reads the values of the pixels, the lowest row first, and what is to be known about them. Memory grows with
+/// what was read.
+fn values(
+    source: &mut dyn Source,
+    grid: &Grid,
+    spans: &[Span; 2],
+    meter: &Meter,
+) -> Result<(Vec<f32>, ValueFacts), Flaw> {
     let [x, y] = spans;
     let variable = &source.variables()[grid.variable];
-    let (packing, rank) = (Packing::of(variable), variable.dimensions.len());
+    let (mut packing, rank) = (Packing::of(variable), variable.dimensions.len());
     let sample = variable.sample.map_or(1, Sample::bytes) as u64;
     let width: u64 = x.pieces.iter().map(|piece| piece.file.end - piece.file.start).sum();
     meter.expect(width * y.count * sample);
@@ -193,7 +189,7 @@ fn values(source: &mut dyn Source, grid: &Grid, spans: &[Span; 2], meter: &Meter
         }
         meter.add(width * count * sample)?;
     }
-    Ok(values)
+    Ok((values, packing.facts()))
 }
 
 /// Pixels that are read at once: their numbers in the file.

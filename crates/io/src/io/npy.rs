@@ -9,14 +9,15 @@ use std::path::Path;
 use super::disk::File;
 use super::error::PlacedFlaw;
 use super::rows::reverse_rows;
-use super::samples::single;
-use super::{Flaw, Meter, RasterFormatSpec, ReadError, ReadRaster};
+use super::samples::Unpacking;
+use super::{FileGrid, Flaw, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts};
 use meshbrush_core::raster::{Raster, is_raster_size};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::excerpt;
 
 /// The format, for the list of all formats of rasters.
-pub static RASTER: RasterFormatSpec = RasterFormatSpec { endings: &["npy"], read: ReadRaster::Array(read) };
+pub static RASTER: RasterFormatSpec =
+    RasterFormatSpec { endings: &["npy"], has_parts: false, read: ReadRaster::Array(read_grid) };
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// Most bytes of a header. That of an array without fields has about 100.
@@ -31,9 +32,13 @@ const BLOCK: usize = 1 << 13;
 /// Fails when the file cannot be read, is no array of numbers with two dimensions, is cut off, has too many
 /// pixels for a raster, or a value beyond single precision; and when the work was cancelled.
 pub fn read(path: &Path, place: Rect, meter: &Meter) -> Result<Raster, ReadError> {
+    read_grid(path, place, meter).map(|grid| grid.raster)
+}
+
+fn read_grid(path: &Path, place: Rect, meter: &Meter) -> Result<FileGrid, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.length()?);
-        Ok(decode(BufReader::with_capacity(1 << 16, meter.count(file)), place)?)
+        Ok(decode_grid(BufReader::with_capacity(1 << 16, meter.count(file)), place)?)
     });
     read.map_err(|flaw| flaw.in_file(path))
 }
@@ -42,14 +47,18 @@ pub fn read(path: &Path, place: Rect, meter: &Meter) -> Result<Raster, ReadError
 ///
 /// # Errors
 /// Fails as [`read`] does.
-pub fn decode(mut source: impl Read, place: Rect) -> Result<Raster, Flaw> {
+pub fn decode(source: impl Read, place: Rect) -> Result<Raster, Flaw> {
+    decode_grid(source, place).map(|grid| grid.raster)
+}
+
+fn decode_grid(mut source: impl Read, place: Rect) -> Result<FileGrid, Flaw> {
     let header = Header::read(&mut source)?;
-    let mut values = header.values(&mut source)?;
+    let (mut values, facts) = header.values(&mut source)?;
     if header.is_by_columns {
         values = by_rows(&values, header.size);
     }
     reverse_rows(&mut values, header.size[0]);
-    Ok(Raster::from_values(place, header.size, values))
+    Ok(FileGrid { raster: Raster::from_values(place, header.size, values), system: None, facts })
 }
 
 /// Returns values that come column by column in the order of rows.
@@ -129,18 +138,19 @@ impl Header {
     }
 
     /// Returns the values in the order of the file. Memory grows with the values in the file.
-    fn values(&self, source: &mut impl Read) -> Result<Vec<f32>, Flaw> {
+    fn values(&self, source: &mut impl Read) -> Result<(Vec<f32>, ValueFacts), Flaw> {
         let count = self.size[0] as usize * self.size[1] as usize;
+        let mut unpacking = Unpacking::plain("Save numbers that are no data as nan.");
         let mut values = Vec::new();
         let mut block = vec![0; BLOCK * self.sample.bytes];
         while values.len() < count {
             let part = &mut block[..BLOCK.min(count - values.len()) * self.sample.bytes];
             source.read_exact(part).map_err(cut_off)?;
             for sample in part.chunks_exact(self.sample.bytes) {
-                values.push(single(self.sample.number(sample), "Save numbers that are no data as nan.")?);
+                values.push(unpacking.value(self.sample.number(sample))?);
             }
         }
-        Ok(values)
+        Ok((values, unpacking.facts()))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use glam::DVec2;
+
 use super::Provenance;
 use meshbrush_core::path::{PathSample, Solution};
 use meshbrush_mesh::text::Number;
@@ -17,14 +19,16 @@ pub struct PathLengths {
     pub seconds: Option<f64>,
 }
 
-/// Writes a path as a GeoJSON feature with its figures. `samples` are the points to write.
+/// Writes a path as a GeoJSON feature with its figures. `points` are those to write, and `system` is the name of
+/// their coordinate system, if they are no longitudes and latitudes on WGS 84.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
 pub fn write_geojson(
     out: &mut dyn Write,
     solution: &Solution,
-    samples: &[PathSample],
+    points: &[DVec2],
+    system: Option<&str>,
     lengths: &PathLengths,
     provenance: &Provenance,
 ) -> io::Result<()> {
@@ -44,25 +48,30 @@ pub fn write_geojson(
     properties
         .extend(more.into_iter().filter_map(|(name, figure)| Some((name.to_owned(), (*figure)?.into()))));
     properties.extend(provenance.entries().map(|(key, text)| (key.to_owned(), text.into())));
-    write!(out, "{{\"type\":\"Feature\",\"properties\":")?;
+    write!(out, "{{\"type\":\"Feature\",")?;
+    if let Some(system) = system {
+        let system = serde_json::json!({ "type": "name", "properties": { "name": system } });
+        writeln!(out, "\"crs\":{system},")?;
+    }
+    write!(out, "\"properties\":")?;
     serde_json::to_writer(&mut *out, &properties)?;
     writeln!(out, ",\n\"geometry\":{{\"type\":\"LineString\",\"coordinates\":[")?;
-    for (n, sample) in samples.iter().enumerate() {
-        let end = if n + 1 < samples.len() { "," } else { "" };
-        writeln!(out, "[{},{}]{end}", Number(sample.point.x), Number(sample.point.y))?;
+    for (n, point) in points.iter().enumerate() {
+        let end = if n + 1 < points.len() { "," } else { "" };
+        writeln!(out, "[{},{}]{end}", Number(point.x), Number(point.y))?;
     }
     writeln!(out, "]}}}}")
 }
 
-/// Writes a table with a row for each point: where it is, its distance from the start along the path, what
+/// Writes a table with a row for each sample: where it is, `points`, its distance from the start along the path, what
 /// the path costs up to there, the risk, and the cost per unit of length.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
-pub fn write_csv(out: &mut dyn Write, samples: &[PathSample]) -> io::Result<()> {
+pub fn write_csv(out: &mut dyn Write, samples: &[PathSample], points: &[DVec2]) -> io::Result<()> {
     writeln!(out, "x,y,distance,cost,risk,density")?;
-    for sample in samples {
-        let PathSample { point, distance, cost, risk, density } = *sample;
+    for (sample, point) in samples.iter().zip(points) {
+        let PathSample { distance, cost, risk, density, .. } = *sample;
         let [x, y, distance, cost, risk, density] =
             [point.x, point.y, distance, cost, risk, density].map(Number);
         writeln!(out, "{x},{y},{distance},{cost},{risk},{density}")?;

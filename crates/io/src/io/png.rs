@@ -19,7 +19,7 @@ use meshbrush_mesh::text::Grouped;
 
 /// The format, for the list of all formats of rasters.
 pub static RASTER: RasterFormatSpec =
-    RasterFormatSpec { endings: &["png"], read: ReadRaster::Image(read_metered) };
+    RasterFormatSpec { endings: &["png"], has_parts: false, read: ReadRaster::Image(read_metered) };
 
 /// The colour behind transparent pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,8 @@ use glam::DVec2;
 use super::ReadError;
 use super::disk::File;
 use super::error::{Flaw, PlacedFlaw};
-use super::table::Rows;
+use super::table::{Columns, Rows};
+use meshbrush_core::earth::Projection;
 use meshbrush_mesh::text::Grouped;
 
 /// Names of the columns, in lower case.
@@ -17,10 +18,48 @@ const NAMES: [&[&str]; 2] = [&["x", "lon", "lng", "long", "longitude"], &["y", "
 /// Most points that are read: a pipe may have no end.
 const MOST_POINTS: usize = 100_000_000;
 
-/// Reads the points of a table, in world units, in the order of its rows.
+/// The points of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointTable {
+    /// The numbers in the two columns, in the order of the rows.
+    pub rows: Vec<DVec2>,
+    /// Whether the header calls the columns longitudes and latitudes.
+    pub are_lonlat: bool,
+    /// Whether a header names the columns. Otherwise the first two are taken for x and y.
+    pub has_header: bool,
+}
+
+impl PointTable {
+    /// Returns the points in world units. In the plane of a projection, longitudes and latitudes are degrees,
+    /// and x and y are metres in the plane.
+    pub fn points(self, projection: Option<Projection>) -> Vec<DVec2> {
+        match projection.filter(|_| self.are_lonlat) {
+            Some(projection) => self.rows.iter().map(|&at| projection.plane_from_geographic(at)).collect(),
+            None => self.rows,
+        }
+    }
+}
+
+/// Reads the points of a table, in the order of its rows, as the numbers in two columns.
+///
+/// # Errors
+/// Fails as [`read_table`] does.
+pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
+    read_table(path).map(|table| table.rows)
+}
+
+/// Reads the points of a table as [`read`] does, from any input, such as bytes. Errors call the file `name`.
+///
+/// # Errors
+/// Fails as [`read_table`] does.
+pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadError> {
+    read_table_from(input, name).map(|table| table.rows)
+}
+
+/// Reads the points of a table.
 ///
 /// The header names the columns, in any order and case; `lon` and `lat` stand for `x` and `y`, and other
-/// columns are ignored. Fields are separated by commas, semicolons or tabs, and follow RFC 4180: one that
+/// columns are ignored. Without a header, a table of numbers has x and y first. Fields are separated by commas, semicolons or tabs, and follow RFC 4180: one that
 /// begins with a quotation mark may contain separators, but it must end on its line. Without commas between
 /// fields, a comma may be the decimal point. White space around fields and blank lines are ignored. `NaN` and
 /// `inf` are read as numbers: the location of such a point answers that it is invalid.
@@ -28,29 +67,29 @@ const MOST_POINTS: usize = 100_000_000;
 /// # Errors
 /// Fails when the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error
 /// names the line.
-pub fn read(path: &Path) -> Result<Vec<DVec2>, ReadError> {
+pub fn read_table(path: &Path) -> Result<PointTable, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| parse(BufReader::new(file)));
     read.map_err(|flaw| flaw.in_file(path))
 }
 
-/// Reads the points of a table as [`read`] does, from any input, such as bytes or standard input. Errors call
-/// the file `name`.
+/// Reads the points of a table as [`read_table`] does, from any input, such as bytes or standard input.
+/// Errors call the file `name`.
 ///
 /// # Errors
-/// Fails as [`read`] does.
-pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadError> {
+/// Fails as [`read_table`] does.
+pub fn read_table_from(input: impl BufRead, name: &Path) -> Result<PointTable, ReadError> {
     parse(input).map_err(|flaw| flaw.in_file(name))
 }
 
-fn parse(source: impl BufRead) -> Result<Vec<DVec2>, PlacedFlaw> {
+fn parse(source: impl BufRead) -> Result<PointTable, PlacedFlaw> {
     parse_at_most(source, MOST_POINTS)
 }
 
-fn parse_at_most(source: impl BufRead, most: usize) -> Result<Vec<DVec2>, PlacedFlaw> {
+fn parse_at_most(source: impl BufRead, most: usize) -> Result<PointTable, PlacedFlaw> {
     let mut rows = Rows::new(source);
-    let [Some(x), Some(y)] = rows.read_header(NAMES, 2)? else {
-        unreachable!("both columns are required");
-    };
+    let Columns { places, are_named: has_header } = rows.read_columns(NAMES, 2)?;
+    let [Some(x), Some(y)] = places else { unreachable!("both columns are required") };
+    let are_lonlat = has_header && rows.is_longitude(x);
     let mut points = Vec::new();
     while rows.advance()? {
         if points.len() == most {
@@ -60,7 +99,7 @@ fn parse_at_most(source: impl BufRead, most: usize) -> Result<Vec<DVec2>, Placed
         }
         points.push(DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?));
     }
-    Ok(points)
+    Ok(PointTable { rows: points, are_lonlat, has_header })
 }
 
 #[cfg(test)]
@@ -68,7 +107,8 @@ mod tests {
     use super::*;
 
     fn parsed(text: &str) -> Result<Vec<DVec2>, String> {
-        parse(text.as_bytes()).map_err(|e| format!("{}: {}", e.place, e.flaw))
+        let table = parse(text.as_bytes()).map(|table| table.rows);
+        table.map_err(|e| format!("{}: {}", e.place, e.flaw))
     }
 
     #[test]
@@ -88,6 +128,9 @@ mod tests {
         {
             assert_eq!(parsed(text), Ok(vec![point(1.0, 2.0)]), "{text}");
         }
+        for text in ["1,2\n3,4\n", "1;2;9\n3;4\n", "\n1,0;2,0\n3\t;4\n"] {
+            assert_eq!(parsed(text), Ok(vec![point(1.0, 2.0), point(3.0, 4.0)]), "{text}");
+        }
         let odd = parsed("x,y\nNaN,inf\n").unwrap();
         assert!(odd[0].x.is_nan() && odd[0].y == f64::INFINITY);
     }
@@ -95,7 +138,7 @@ mod tests {
     #[test]
     fn an_input_without_end_is_refused_at_the_limit() {
         let rows = |count: usize| format!("x,y\n{}", "1,2\n".repeat(count));
-        assert_eq!(parse_at_most(rows(3).as_bytes(), 3).map(|points| points.len()).ok(), Some(3));
+        assert_eq!(parse_at_most(rows(3).as_bytes(), 3).map(|table| table.rows.len()).ok(), Some(3));
         let refused = parse_at_most(rows(4).as_bytes(), 3).unwrap_err().flaw.to_string();
         assert!(refused.starts_with("it has more than 3 points"), "{refused}");
     }
@@ -104,7 +147,8 @@ mod tests {
     fn errors_name_their_line() {
         for (text, expected) in [
             ("", ": there is no header"),
-            ("\n\n1,2\n", ", line 3: the header is `1,2`, and it must name the columns x and y."),
+            ("\n\na,b\n", ", line 3: the header is `a,b`, and it must name the columns x and y."),
+            ("1,2\n1,b\n", ", line 2: y is `b`, which is not a number."),
             ("x,y\n1,2\n\n1\n", ", line 4: there is no y."),
             ("x,y\n,2\n", ", line 2: there is no x."),
             ("x,y\n1,two\n", ", line 2: y is `two`, which is not a number."),

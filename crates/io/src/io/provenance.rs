@@ -58,6 +58,9 @@ impl Provenance {
         self.lines.retain(|(key, _)| !matches!(*key, "coordinates" | "unit"));
         let (meaning, unit) = match coordinates {
             Coordinates::Geographic => ("longitude, latitude in degrees".to_owned(), LengthUnit::Degree),
+            Coordinates::OnDatum(system) => {
+                (format!("longitude, latitude in {system}"), system.length_unit())
+            }
             plane => (format!("x, y in {plane}"), LengthUnit::Metre),
         };
         self.lines.push(("coordinates", format!("{meaning}; meshed in {meshed_in}, with lengths in m")));

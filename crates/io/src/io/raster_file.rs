@@ -1,12 +1,12 @@
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::coordinate_system::{CoordinateKind, CoordinateSystem};
-use super::netcdf::file_and_variable;
 use super::png::Behind;
-use super::{DocumentPlane, FileCoordinates, Meter, RASTER_FORMATS, ReadError};
+use super::{DocumentPlane, FileCoordinates, Meter, RASTER_FORMATS, ReadError, ValueFacts};
 use meshbrush_core::raster::Raster;
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
 /// A file format of rasters: one of [`Self::all`].
 #[derive(Clone, Copy)]
@@ -16,6 +16,8 @@ pub struct RasterFormat(&'static RasterFormatSpec);
 pub struct RasterFormatSpec {
     /// The file name extensions, in lower case and without the dot; the usual one first.
     pub endings: &'static [&'static str],
+    /// Whether a file has several variables or bands, of which one is named as in `FILE.nc#VARIABLE`.
+    pub has_parts: bool,
     /// Reads a file, and counts its bytes.
     pub read: ReadRaster,
 }
@@ -26,7 +28,7 @@ pub enum ReadRaster {
     /// Reads a grid that says which rectangle it covers.
     Grid(fn(&Path, &GridPlace, &Meter) -> Result<FileGrid, ReadError>),
     /// Reads a grid that does not say which rectangle it covers, over the given one, in world units.
-    Array(fn(&Path, Rect, &Meter) -> Result<Raster, ReadError>),
+    Array(fn(&Path, Rect, &Meter) -> Result<FileGrid, ReadError>),
     /// Reads an image over the given rectangle, in world units, as values from 0 (black) to 1 (white).
     Image(fn(&Path, Rect, Behind, &Meter) -> Result<Raster, ReadError>),
 }
@@ -56,9 +58,49 @@ pub struct FileGrid {
     pub raster: Raster,
     /// What the file says about its coordinates.
     pub system: Option<CoordinateSystem>,
+    /// What it says about its values.
+    pub facts: ValueFacts,
+}
+
+/// What follows the name of a file before the name of a variable or the number of a band in it.
+const BEFORE_PART: char = '#';
+
+/// Returns the file that a path means, and the variable or band in it that follows its name, as in
+/// `a.nc#depth` and `a.tif#2`.
+pub(super) fn file_and_part(path: &Path) -> (PathBuf, Option<String>) {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let named = name.rsplit_once(BEFORE_PART).filter(|_| !super::exists(path)).and_then(|(file, part)| {
+        let ending = Path::new(file).extension()?;
+        let has = |format: &&RasterFormatSpec| {
+            format.has_parts && format.endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
+        };
+        let is_known = RASTER_FORMATS.iter().any(has);
+        is_known.then(|| (path.with_file_name(file), Some(part.to_owned())))
+    });
+    named.unwrap_or_else(|| (path.to_owned(), None))
 }
 
 impl FileGrid {
+    /// Returns a grid in other longitudes and latitudes in degrees from Greenwich, and another one as it is.
+    pub(super) fn in_degrees(mut self) -> Self {
+        let stated = self.system.as_ref().map(CoordinateSystem::stated);
+        self.facts.notes.extend(stated.and_then(|stated| stated.note()));
+        let Some((FileCoordinates::Known(known), factor, summand)) =
+            stated.and_then(FileCoordinates::in_degrees)
+        else {
+            return self;
+        };
+        let Rect { min, max } = self.raster.bounds();
+        let bounds = Rect::new(factor * min + summand, factor * max + summand);
+        let raster = Raster::from_values(bounds, self.raster.size(), self.raster.values().to_vec());
+        let system = self.system.map(|system| CoordinateSystem {
+            on_earth: Some(known),
+            unit: LengthUnit::Degree,
+            ..system
+        });
+        Self { raster, system, ..self }
+    }
+
     /// Returns what the coordinates are. Longitudes may be from 0 to 360.
     pub fn coordinates(&self) -> FileCoordinates {
         let Rect { min, max } = self.raster.bounds();
@@ -85,7 +127,7 @@ impl RasterFormat {
     /// # Errors
     /// Fails with a sentence when it is the ending of no raster.
     pub fn of(path: &Path) -> Result<Self, String> {
-        let (path, _) = file_and_variable(path);
+        let (path, _) = file_and_part(path);
         let ending = path.extension().unwrap_or_default();
         let has = |format: &Self| format.endings().iter().any(|known| ending.eq_ignore_ascii_case(known));
         Self::all().find(has).ok_or_else(|| {

@@ -1,11 +1,11 @@
 //! Files of shapes in any format: polygons as domains and masks; points, lines and polygons to measure the
 //! distance to.
 //!
-//! The ending of the name decides. A file with an unknown ending is read as GeoJSON.
+//! The ending of the name decides. A file with an unknown ending is read as GeoJSON if it is some.
 
 use std::path::Path;
 
-use super::error::PlacedFlaw;
+use super::error::{Flaw, PlacedFlaw};
 use super::geojson::Outline;
 use super::shapes::ShapeFile;
 use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS};
@@ -33,7 +33,8 @@ pub fn endings() -> Vec<&'static str> {
 /// Fails when the file cannot be read, breaks a rule of its format, or has no polygon, and when the work was
 /// cancelled.
 pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
-    (format_of(path).read_outline)(path, meter)
+    let read = (format_of(path).read_outline)(path, meter).map(Outline::in_degrees);
+    read.map_err(|error| with_endings(error, path))
 }
 
 /// Reads polygons with their names for a document, as [`read_outline`] does. `plane` is that of the document,
@@ -74,7 +75,8 @@ pub fn read_shapes(
     plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<ShapeFile, ReadError> {
-    placed_shapes((format_of(path).read_shapes)(path, meter)?, plane, path)
+    let read = (format_of(path).read_shapes)(path, meter).map_err(|error| with_endings(error, path))?;
+    placed_shapes(read.in_degrees(), plane, path)
 }
 
 /// Returns shapes for a document with this plane, if it has one. Errors call their file `name`.
@@ -98,7 +100,27 @@ pub(super) fn placed_shapes(
 }
 
 fn format_of(path: &Path) -> &'static ShapeFormatSpec {
+    known_format(path).unwrap_or(SHAPE_FORMATS[0])
+}
+
+fn known_format(path: &Path) -> Option<&'static ShapeFormatSpec> {
     let ending = path.extension().unwrap_or_default();
     let has = |format: &&&ShapeFormatSpec| format.endings.iter().any(|own| ending.eq_ignore_ascii_case(own));
-    SHAPE_FORMATS.iter().find(has).unwrap_or(&SHAPE_FORMATS[0])
+    SHAPE_FORMATS.iter().find(has).copied()
+}
+
+/// Returns the error of a file, with the endings that are known where its own is not and its content is no
+/// GeoJSON.
+fn with_endings(error: ReadError, path: &Path) -> ReadError {
+    match error.flaw {
+        Flaw::Syntax(sentence) if known_format(path).is_none() => {
+            let endings: Vec<String> = endings().into_iter().map(|ending| format!(".{ending}")).collect();
+            let known = endings.join(", ");
+            let sentence = format!(
+                "the endings of files of shapes are {known}; with another one it is read as GeoJSON, and {sentence}"
+            );
+            ReadError { flaw: Flaw::Syntax(sentence), ..error }
+        }
+        _ => error,
+    }
 }

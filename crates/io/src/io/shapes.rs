@@ -22,6 +22,18 @@ pub struct ShapeFile {
     pub coordinates: FileCoordinates,
 }
 
+impl ShapeFile {
+    /// Returns shapes in other longitudes and latitudes in degrees from Greenwich, and others as they are.
+    pub(super) fn in_degrees(mut self) -> Self {
+        let Some((coordinates, factor, summand)) = self.coordinates.in_degrees() else { return self };
+        let ShapeList { points, lines, polygons } = &mut self.shapes;
+        let lines = lines.iter_mut().flatten();
+        let all = points.iter_mut().chain(lines).chain(polygons.iter_mut().flatten().flatten());
+        all.for_each(|at| *at = factor * *at + summand);
+        Self { coordinates, ..self }
+    }
+}
+
 /// Reads every shape of a file: of a geometry, a feature, or a collection of either. The meter counts the
 /// bytes of the file.
 ///

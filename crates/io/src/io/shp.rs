@@ -29,7 +29,7 @@ const FILE_CODE: i32 = 9994;
 const HEADER: u64 = 100;
 
 /// Reads the polygons of a file. A record with several outer rings becomes several polygons, each with the
-/// holes inside it. The meter counts the bytes of the file.
+/// holes inside it, whichever way rings run. The meter counts the bytes of the file.
 ///
 /// # Errors
 /// Fails when the file cannot be read, is not a shapefile, is cut off, or has no polygon or too many points,
@@ -202,30 +202,51 @@ impl Numbers<'_> {
     }
 }
 
-/// Returns the polygons of a record: outer rings run clockwise, and holes the other way. A hole belongs to
-/// the smallest outer ring around it; one without an outer ring is a polygon itself.
+/// Returns the polygons of a record: a ring within an even number of others is an outer one, and one within an
+/// odd number a hole of the smallest ring around it. The format has outer rings clockwise, and many files do
+/// not.
 fn polygons(mut rings: Vec<Ring>) -> Vec<Polygon> {
     rings.iter_mut().for_each(open_ring);
     rings.retain(|ring| !ring.is_empty());
-    let (outer, holes): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| signed_area(ring) <= 0.0);
-    let mut polygons: Vec<Polygon> = outer.into_iter().map(|ring| vec![ring]).collect();
-    if let [polygon] = &mut polygons[..] {
-        polygon.extend(holes);
-        return polygons;
+    let around = rings_around(&rings);
+    let mut depths = vec![0; rings.len()];
+    for &(ring, around) in &around {
+        depths[ring] = around.map_or(0, |outer| depths[outer] + 1);
     }
-    let bounds: Vec<Rect> = polygons.iter().map(|polygon| bounds(&polygon[0])).collect();
-    let mut alone = Vec::new();
-    for hole in holes {
-        let around =
-            (0..polygons.len()).filter(|&i| bounds[i].contains(hole[0]) && is_inside(&hole, &polygons[i][0]));
-        let area = |i: usize| signed_area(&polygons[i][0]).abs();
-        match around.min_by(|&a, &b| area(a).total_cmp(&area(b))) {
-            Some(owner) => polygons[owner].push(hole),
-            None => alone.push(vec![hole]),
-        }
+    let mut places = vec![None; rings.len()];
+    let mut polygons: Vec<Polygon> = Vec::new();
+    for ring in (0..rings.len()).filter(|&ring| depths[ring] % 2 == 0) {
+        places[ring] = Some(polygons.len());
+        polygons.push(vec![std::mem::take(&mut rings[ring])]);
     }
-    polygons.extend(alone);
+    let mut holes: Vec<(usize, usize)> = around
+        .into_iter()
+        .filter(|(ring, _)| depths[*ring] % 2 == 1)
+        .filter_map(|(ring, outer)| Some((ring, places[outer?]?)))
+        .collect();
+    holes.sort_unstable();
+    holes.into_iter().for_each(|(ring, place)| polygons[place].push(std::mem::take(&mut rings[ring])));
     polygons
+}
+
+/// Returns each ring with the smallest ring around it, after those around it.
+fn rings_around(rings: &[Ring]) -> Vec<(usize, Option<usize>)> {
+    let bounds: Vec<Rect> = rings.iter().map(|ring| bounds(ring)).collect();
+    let areas: Vec<f64> = rings.iter().map(|ring| signed_area(ring).abs()).collect();
+    let mut order: Vec<usize> = (0..rings.len()).collect();
+    order.sort_by(|&a, &b| bounds[a].min.x.total_cmp(&bounds[b].min.x).then(areas[b].total_cmp(&areas[a])));
+    // Those that reach as far to the right as the next one begins.
+    let mut near: Vec<usize> = Vec::new();
+    let mut around = Vec::with_capacity(rings.len());
+    for ring in order {
+        near.retain(|&other| bounds[other].max.x >= bounds[ring].min.x);
+        let inside = point_inside(&rings[ring]);
+        let holds = |&&other: &&usize| bounds[other].contains(inside) && is_around(&rings[other], inside);
+        let outer = near.iter().filter(holds).min_by(|&&a, &&b| areas[a].total_cmp(&areas[b])).copied();
+        around.push((ring, outer));
+        near.push(ring);
+    }
+    around
 }
 
 fn bounds(ring: &[DVec2]) -> Rect {
@@ -233,10 +254,19 @@ fn bounds(ring: &[DVec2]) -> Rect {
     Rect::new(min, ring.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max))
 }
 
-/// Returns whether a hole lies inside a ring, which it may touch.
-fn is_inside(hole: &[DVec2], ring: &[DVec2]) -> bool {
-    let next = hole.get(1).copied().unwrap_or(hole[0]);
-    [hole[0], 0.5 * (hole[0] + next)].iter().any(|&point| is_around(ring, point))
+/// Returns a point within a ring and not on it, but for a ring without an area.
+fn point_inside(ring: &[DVec2]) -> DVec2 {
+    let mut heights: Vec<f64> = ring.iter().map(|point| point.y).collect();
+    heights.sort_by(f64::total_cmp);
+    let gap = |pair: &[f64]| pair[1] - pair[0];
+    let widest = heights.windows(2).max_by(|a, b| gap(a).total_cmp(&gap(b)));
+    let y = widest.map_or(ring[0].y, |pair| 0.5 * (pair[0] + pair[1]));
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    let crossed = edges.filter(|(a, b)| (a.y > y) != (b.y > y));
+    let mut crossings: Vec<f64> = crossed.map(|(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)).collect();
+    crossings.sort_by(f64::total_cmp);
+    let within = crossings.chunks_exact(2).max_by(|a, b| gap(a).total_cmp(&gap(b)));
+    within.map_or(ring[0], |pair| dvec2(0.5 * (pair[0] + pair[1]), y))
 }
 
 /// Returns whether a ring runs around a point, counting the edges to the right of it.

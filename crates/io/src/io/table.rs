@@ -23,6 +23,13 @@ fn parser(delimiter: u8) -> csv_core::Reader {
     ReaderBuilder::new().delimiter(delimiter).terminator(Terminator::Any(b'\n')).build()
 }
 
+/// Returns the first name of each column, as in `x, y and range`.
+fn in_words(names: &[&[&str]]) -> String {
+    let columns: Vec<&str> = names.iter().map(|names| names[0]).collect();
+    let (last, others) = columns.split_last().unwrap_or((&"", &[]));
+    format!("{} and {last}", others.join(", "))
+}
+
 /// The rows of a table, one at a time.
 pub(super) struct Rows<R> {
     source: R,
@@ -33,12 +40,33 @@ pub(super) struct Rows<R> {
     /// The fields of the current row, one after the other, and where each ends.
     text: String,
     ends: Vec<usize>,
+    /// Whether the first row was read in place of a header and is still to come.
+    is_first_ahead: bool,
 }
+
+/// The columns of a table.
+pub(super) struct Columns<const COUNT: usize> {
+    /// The column of each name.
+    pub(super) places: [Option<usize>; COUNT],
+    /// Whether a header names them; otherwise they are in the order of the names.
+    pub(super) are_named: bool,
+}
+
+/// Names of columns with longitudes; other names are those of x in the coordinates of the document.
+const LONGITUDES: [&str; 4] = ["lon", "lng", "long", "longitude"];
 
 impl<R: BufRead> Rows<R> {
     pub(super) fn new(source: R) -> Self {
         let delimiter = DELIMITERS[0];
-        Self { source, delimiter, parser: parser(delimiter), line: 0, text: String::new(), ends: Vec::new() }
+        Self {
+            source,
+            delimiter,
+            parser: parser(delimiter),
+            line: 0,
+            text: String::new(),
+            ends: Vec::new(),
+            is_first_ahead: false,
+        }
     }
 
     /// Reads the header, finds out what separates the fields, and returns the column of each name.
@@ -50,13 +78,20 @@ impl<R: BufRead> Rows<R> {
         names: [&[&str]; COUNT],
         required: usize,
     ) -> Result<[Option<usize>; COUNT], PlacedFlaw> {
-        let columns: Vec<&str> = names[..required].iter().map(|names| names[0]).collect();
-        let (last, others) = columns.split_last().unwrap_or((&"", &[]));
-        let columns = format!("{} and {last}", others.join(", "));
         let Some(line) = self.next_line()? else {
+            let columns = in_words(&names[..required]);
             let problem = format!("there is no header; the first line must name the columns {columns}.");
             return Err(Flaw::Syntax(problem).into());
         };
+        self.header_of(line, names, required)
+    }
+
+    fn header_of<const COUNT: usize>(
+        &mut self,
+        line: Vec<u8>,
+        names: [&[&str]; COUNT],
+        required: usize,
+    ) -> Result<[Option<usize>; COUNT], PlacedFlaw> {
         for delimiter in DELIMITERS {
             (self.delimiter, self.parser) = (delimiter, parser(delimiter));
             self.parse_line(line.clone())?;
@@ -69,7 +104,7 @@ impl<R: BufRead> Rows<R> {
             }
         }
         let header = String::from_utf8_lossy(&line);
-        let found = excerpt(40, header.trim());
+        let (found, columns) = (excerpt(40, header.trim()), in_words(&names[..required]));
         let problem = format!("the header is `{found}`, and it must name the columns {columns}.");
         Err(Flaw::Syntax(problem).at(self.line))
     }
@@ -89,8 +124,42 @@ impl<R: BufRead> Rows<R> {
         Err(Flaw::Syntax(problem).at(self.line))
     }
 
+    /// Returns the columns as [`Self::read_header`] does. A first line of numbers is a row of a table without
+    /// a header.
+    ///
+    /// # Errors
+    /// Fails as [`Self::read_header`] does.
+    pub(super) fn read_columns<const COUNT: usize>(
+        &mut self,
+        names: [&[&str]; COUNT],
+        required: usize,
+    ) -> Result<Columns<COUNT>, PlacedFlaw> {
+        let Some(line) = self.next_line()? else {
+            return self.read_header(names, required).map(|places| Columns { places, are_named: true });
+        };
+        for delimiter in DELIMITERS {
+            (self.delimiter, self.parser) = (delimiter, parser(delimiter));
+            let is_split = self.parse_line(line.clone()).is_ok();
+            if is_split && (0..required).all(|column| self.number(column, "").is_ok()) {
+                self.is_first_ahead = true;
+                let places = std::array::from_fn(|column| Some(column).filter(|_| column < self.ends.len()));
+                return Ok(Columns { places, are_named: false });
+            }
+        }
+        self.header_of(line, names, required).map(|places| Columns { places, are_named: true })
+    }
+
+    /// Returns whether the header calls a column a longitude. It is the current row.
+    pub(super) fn is_longitude(&self, column: usize) -> bool {
+        let name = self.field(column).unwrap_or_default();
+        LONGITUDES.iter().any(|longitude| name.eq_ignore_ascii_case(longitude))
+    }
+
     /// Goes to the next line that is not blank. Returns whether there is one.
     pub(super) fn advance(&mut self) -> Result<bool, PlacedFlaw> {
+        if std::mem::take(&mut self.is_first_ahead) {
+            return Ok(true);
+        }
         match self.next_line()? {
             Some(line) => self.parse_line(line).map(|()| true),
             None => Ok(false),

@@ -7,8 +7,9 @@ use glam::DVec2;
 
 use super::disk::File;
 use super::error::PlacedFlaw;
-use super::table::Rows;
+use super::table::{Columns, Rows};
 use super::{Flaw, Meter, Number, ReadError};
+use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{Threat, ThreatError, ThreatLaw};
 use meshbrush_mesh::text::excerpt;
 
@@ -19,17 +20,18 @@ const NAMES: [&[&str]; 5] =
 /// Reads threats in the order of their rows. Places and ranges are in world units, peaks are risks from 0
 /// to 1.
 ///
-/// The header names the columns, in any order and case; `lon` and `lat` stand for `x` and `y`, and other
-/// columns are ignored. The law is `radar`, `gaussian` or `disc`; without one it is `radar`. Numbers and
+/// The header names the columns, in any order and case. `lon` and `lat` stand for `x` and `y`; in the plane
+/// of a `projection` they are longitudes and latitudes in degrees. Other columns are ignored. Without a
+/// header, a table of numbers has x, y, range and peak in this order. The law is `radar`, `gaussian` or `disc`; without one it is `radar`. Numbers and
 /// separators are as in [`points::read`](super::points::read). The meter counts the bytes of the file.
 ///
 /// # Errors
 /// Fails when the file cannot be read, its header lacks a column, or a field is not valid, with the line and
 /// the column; and when the work was cancelled.
-pub fn read(path: &Path, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
+pub fn read(path: &Path, projection: Option<Projection>, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
     let read = File::open(path).map_err(PlacedFlaw::from).and_then(|file| {
         meter.expect(file.length()?);
-        parse(BufReader::new(meter.count(file)))
+        parse(BufReader::new(meter.count(file)), projection)
     });
     read.map_err(|flaw| flaw.in_file(path))
 }
@@ -39,17 +41,20 @@ pub fn read(path: &Path, meter: &Meter) -> Result<Vec<Threat>, ReadError> {
 /// # Errors
 /// Fails as [`read`] does.
 pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<Threat>, ReadError> {
-    parse(input).map_err(|flaw| flaw.in_file(name))
+    parse(input, None).map_err(|flaw| flaw.in_file(name))
 }
 
-fn parse(source: impl BufRead) -> Result<Vec<Threat>, PlacedFlaw> {
+fn parse(source: impl BufRead, projection: Option<Projection>) -> Result<Vec<Threat>, PlacedFlaw> {
     let mut rows = Rows::new(source);
-    let [Some(x), Some(y), Some(range), Some(peak), law] = rows.read_header(NAMES, 4)? else {
+    let Columns { places, are_named } = rows.read_columns(NAMES, 4)?;
+    let [Some(x), Some(y), Some(range), Some(peak), law] = places else {
         unreachable!("these columns are required");
     };
+    let projection = projection.filter(|_| are_named && rows.is_longitude(x));
     let mut threats = Vec::new();
     while rows.advance()? {
         let at = DVec2::new(rows.number(x, "x")?, rows.number(y, "y")?);
+        let at = projection.filter(|_| at.is_finite()).map_or(at, |plane| plane.plane_from_geographic(at));
         let (range, peak) = (rows.number(range, "range")?, rows.number(peak, "peak")?);
         let name = law.and_then(|law| rows.field(law)).filter(|name| !name.is_empty());
         let law =
@@ -101,7 +106,7 @@ mod tests {
     use glam::dvec2;
 
     fn parsed(text: &str) -> Result<Vec<Threat>, String> {
-        parse(text.as_bytes()).map_err(|e| format!("{}: {}", e.place, e.flaw))
+        parse(text.as_bytes(), None).map_err(|e| format!("{}: {}", e.place, e.flaw))
     }
 
     #[test]
@@ -160,6 +165,6 @@ mod tests {
         let threats: Vec<Threat> = (0..100_000).map(one).collect();
         let mut file = Vec::new();
         write(&mut file, &threats).unwrap();
-        assert_eq!(parse(&*file).unwrap(), threats);
+        assert_eq!(parse(&*file, None).unwrap(), threats);
     }
 }

@@ -140,6 +140,11 @@ impl ExportFormat {
         matches!(self, Self::Mesh(format) if format.has_targets())
     }
 
+    /// Returns whether a coastal solver finds its open boundary in its files.
+    pub fn has_open_boundary(self) -> bool {
+        matches!(self, Self::Mesh(format) if format.has_open_boundary())
+    }
+
     /// Returns what the third coordinate of nodes in its files is.
     pub fn third_coordinate(self) -> ThirdCoordinate {
         match self {

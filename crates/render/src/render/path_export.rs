@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::export::{ExportFormat, Look};
+use meshbrush_core::domain::Domain;
 use meshbrush_core::earth::{Coordinates, EarthPlane, Speed, metres_along};
 use meshbrush_core::path::{CostDensity, PathError, PathSample, Solution};
 use meshbrush_io::io::gpx::write_gpx;
@@ -85,6 +86,8 @@ pub struct PathExport<'a> {
     name: String,
     plane: Option<EarthPlane>,
     lengths: PathLengths,
+    /// The domain, if it lies on the Earth, and the coordinates that were asked for.
+    placed: Option<(Domain, Option<Coordinates>)>,
 }
 
 /// The mesh of a path, and its appearance in pictures.
@@ -114,7 +117,7 @@ impl<'a> PathExport<'a> {
         };
         let samples = solution.samples(density);
         let lengths = PathLengths { length: solution.length, ..PathLengths::default() };
-        Ok(Self { solution, samples, name: "Path".into(), plane: None, lengths })
+        Ok(Self { solution, samples, name: "Path".into(), plane: None, lengths, placed: None })
     }
 
     /// Gives the path a name, and says how its plane lies on the Earth, if it does: in the plane of a
@@ -130,6 +133,14 @@ impl<'a> PathExport<'a> {
             self.lengths.length = distances.last().copied().unwrap_or(0.0);
             self.lengths.in_plane = Some(self.solution.length);
         }
+        self
+    }
+
+    /// Says in which coordinates GeoJSON and tables are of a path in the plane of a projection: in these, or
+    /// without them in longitudes and latitudes.
+    #[must_use]
+    pub fn in_coordinates(mut self, domain: &Domain, coordinates: Option<Coordinates>) -> Self {
+        self.placed = domain.projection.map(|_| (domain.clone(), coordinates));
         self
     }
 
@@ -177,10 +188,8 @@ impl<'a> PathExport<'a> {
         meter: &Meter,
     ) -> io::Result<()> {
         write_file_metered(file, meter, |out: &mut dyn Write| match format {
-            PathFormat::GeoJson => {
-                write_geojson(out, &self.solution, &self.samples, &self.lengths, provenance)
-            }
-            PathFormat::Csv => write_csv(out, &self.samples),
+            PathFormat::GeoJson => self.write_geojson(out, provenance),
+            PathFormat::Csv => write_csv(out, &self.samples, &self.points_in(self.coordinates())),
             PathFormat::Gpx => write_gpx(out, &self.route(file)?, &self.of_route(provenance)),
             PathFormat::Kml => write_kml(out, &self.route(file)?, &self.of_route(provenance)),
             PathFormat::Picture(format) => {
@@ -189,6 +198,45 @@ impl<'a> PathExport<'a> {
                 format.write_path_to(out, (mesh, extract), &points, look, provenance, meter)
             }
         })
+    }
+
+    /// Returns the coordinates of GeoJSON and tables, where they are not those of the plane.
+    fn coordinates(&self) -> Option<Coordinates> {
+        let (_, coordinates) = self.placed.as_ref()?;
+        Some(coordinates.unwrap_or(Coordinates::Geographic))
+    }
+
+    /// Returns the points that are written in coordinates, or in the plane.
+    fn points_in(&self, coordinates: Option<Coordinates>) -> Vec<DVec2> {
+        let placed = self.placed.as_ref().zip(coordinates);
+        let place = placed.and_then(|((domain, _), coordinates)| domain.place_in(&coordinates));
+        let line = self.line();
+        place.map_or_else(|| line.clone(), |place| line.iter().map(|&at| place(at)).collect())
+    }
+
+    fn write_geojson(&self, out: &mut dyn Write, provenance: &Provenance) -> io::Result<()> {
+        let coordinates = self.coordinates();
+        let mut points = self.points_in(coordinates);
+        if let Some((Coordinates::Geographic, plane)) = coordinates.zip(self.plane) {
+            // Between the points of the path, programs draw other lines than those of the plane.
+            let middle = points.first().map_or(0.0, |first| first.x);
+            let mut before = middle;
+            points = plane.route(&self.line()).into_iter().map(|point| point.at).collect();
+            for point in &mut points {
+                *point = Coordinates::Geographic.beside(*point, before);
+                before = point.x;
+            }
+        }
+        let system = coordinates.filter(|coordinates| *coordinates != Coordinates::Geographic);
+        let system = system.map(|coordinates| coordinates.to_string());
+        let provenance = match coordinates {
+            Some(coordinates) => {
+                let projection = self.plane.and_then(EarthPlane::projection);
+                &provenance.clone().in_coordinates(&coordinates, projection)
+            }
+            None => provenance,
+        };
+        write_geojson(out, &self.solution, &points, system.as_deref(), &self.lengths, provenance)
     }
 
     /// Returns the path as a route.

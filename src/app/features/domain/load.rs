@@ -8,7 +8,7 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened};
 use crate::app::session::Session;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
-use meshbrush_core::domain::{BoundaryMarks, DepthContour, Domain};
+use meshbrush_core::domain::{BoundaryMarks, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::ProjectionChoice;
 use meshbrush_core::layers::{LayerId, LayerKind};
 use meshbrush_io::io::{self, Meter};
@@ -85,15 +85,14 @@ fn find_outline(
 /// Returns a new document on the polygons of a file.
 fn domain_of(path: &Path, choice: Option<ProjectionChoice>, meter: &Meter) -> Result<Document, String> {
     let mut outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
-    let mut projection = None;
+    let mut on_earth = OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None };
     if let Some(choice) = choice {
         let projected =
             outline.projected(choice, None).map_err(|error| format!("{}: {error}", path.display()))?;
-        (outline, projection) = (projected.0, Some(projected.1));
+        (outline, on_earth.projection) = (projected.0, Some(projected.1));
     }
-    let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons)
+    let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons, None, &on_earth)
         .map_err(|error| format!("{}: {error}", path.display()))?;
-    let domain = Domain { projection, ..domain };
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let (unit, boundary_marks) = (outline.coordinates.unit(), Arc::new(marks));
     let settings = Settings { unit, boundary_marks, ..Settings::for_domain(name, domain) };

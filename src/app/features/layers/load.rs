@@ -4,15 +4,17 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::app::background::{Aim, Background, Outcome, name_of};
-use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{DistanceTo, LayerKind, RasterReading, RasterSource, ShapeList, Shapes};
 use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues};
-use meshbrush_io::io::layers::{RasterError, RasterFile, RasterFrame, RasterLoader};
-use meshbrush_io::io::{self, DocumentPlane, Meter};
+use meshbrush_io::io::layers::{
+    LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader, in_direction,
+};
+use meshbrush_io::io::{self, DocumentPlane, Meter, ValueFacts};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -66,15 +68,22 @@ fn load_raster(
     let frame = raster_frame(session);
     background.start(Aim::Read, path, move |meter| {
         let read = || {
-            let source = raster_of(&file, values, &frame, meter)?;
+            let (source, facts) = raster_of(&file, values, &frame, meter)?;
             let bounds = source.raster.raster().bounds();
             let over = empty.and_then(|empty| empty.over(&file, bounds, LengthUnit::None));
             let transfer = over.as_ref().map_or(frame.transfer, |settings| settings.transfer);
             let kind = kind_of(source, &transfer).ok_or_else(|| no_values(&file))?;
-            match over {
+            let kind = in_direction(kind, facts.positive);
+            let mut commands = match over {
                 Some(settings) => show_with_layer(settings.with_nodes_on_samples(&kind), kind, &file),
                 None => check_place(&bounds, &frame.domain, &file).map(|()| commands_to_add(kind)),
+            }?;
+            let notes = facts.notes.iter().map(|note| format!("{}: {note}", name_of(&file)));
+            let notes: Vec<String> = notes.collect();
+            if !notes.is_empty() {
+                commands.push(Command::Shell(ShellCommand::Tell(notes.join(" "))));
             }
+            Ok(commands)
         };
         match read() {
             // Only what the window opens by its ending is among the recent files.
@@ -139,7 +148,8 @@ fn shapes_of(
 ) -> Result<(DistanceTo, Rect, LengthUnit), String> {
     let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let (list, unit) = if is_table {
-        let points = io::points::read(path).map_err(|error| error.to_string())?;
+        let table = io::points::read_table(path).map_err(|error| error.to_string())?;
+        let points = table.points(plane.map(|plane| plane.projection));
         (ShapeList { points, ..ShapeList::default() }, LengthUnit::None)
     } else {
         let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
@@ -157,9 +167,10 @@ fn raster_of(
     values: RasterValues,
     frame: &RasterFrame,
     meter: &Meter,
-) -> Result<RasterSource, String> {
+) -> Result<(RasterSource, ValueFacts), String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
-    let raster = RasterLoader::new(meter).load(&file, values, frame).map_err(|error| match (&error, values) {
+    let loaded = RasterLoader::new(meter).load(&file, values, frame);
+    let LoadedRaster { raster, facts } = loaded.map_err(|error| match (&error, values) {
         (RasterError::Value(_), RasterValues::Risk) => {
             format!(
                 "{error} If they are target diameters, add the file with *Add data…* in the menu File as target diameter."
@@ -175,7 +186,7 @@ fn raster_of(
         Some(bounds) => placed(raster.raster(), bounds),
         None => raster,
     };
-    Ok(RasterSource { name: name_of(path), raster })
+    Ok((RasterSource { name: name_of(path), raster }, facts))
 }
 
 fn placed(raster: &Raster, bounds: Rect) -> Arc<RasterPyramid> {

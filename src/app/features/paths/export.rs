@@ -47,6 +47,7 @@ pub fn export(
                 settings.paths.cost.density(risk, &settings.domain).map_err(std::io::Error::other)?;
             let export = PathExport::new(&solution, &*density, tolerance).map_err(std::io::Error::other)?;
             let export = export.named(name, plane).at_speed(speed, settings.unit);
+            let export = export.in_coordinates(&settings.domain, None);
             let whole = derived.is_none().then(|| mesh.extract());
             let extract = whole.as_ref().or(derived.as_deref()).expect("one of the two");
             let source = MeshSource::Document(&settings.name);

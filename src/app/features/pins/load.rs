@@ -16,9 +16,10 @@ use meshbrush_mesh::text::LengthUnit;
 /// Reads a table of points, and adds a pin at each. An empty document takes their extent.
 pub fn load_pins(session: &Session, background: &mut Background, path: &Path) {
     let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    let projection = session.document().settings().domain.projection;
     background.start(Aim::Read, path, move |_| {
-        let points = match io::points::read(&file) {
-            Ok(points) => points,
+        let points = match io::points::read_table(&file) {
+            Ok(table) => table.points(projection),
             Err(error) => return Outcome::not_read(error),
         };
         let extent = points.iter().map(|&point| Rect::new(point, point)).reduce(|a, b| a.union(&b));

@@ -17,8 +17,9 @@ use meshbrush_mesh::text::LengthUnit;
 pub fn load_threats(session: &Session, background: &mut Background, path: &Path) {
     let layer = threats_layer(session.document()).map(|(layer, _)| layer.id);
     let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
+    let projection = session.document().settings().domain.projection;
     background.start(Aim::Read, path, move |meter| {
-        let list = match io::threats::read(&file, meter) {
+        let list = match io::threats::read(&file, projection, meter) {
             Ok(list) => list,
             Err(error) => return Outcome::not_read(error),
         };

@@ -65,8 +65,8 @@ struct Seen {
 fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
     let read = RasterLoader::new(meter).load(&file, RasterValues::Any, frame);
-    let pyramid = read.map_err(|error| error.to_string())?;
-    let raster = pyramid.raster();
+    let pixels = read.map_err(|error| error.to_string())?.raster;
+    let raster = pixels.raster();
     let facts = facts(raster);
     let extent = if file.format.has_place() {
         Some(raster.bounds())
@@ -100,7 +100,7 @@ fn shapes(path: &Path, plane: Option<&DocumentPlane>, meter: &Meter) -> Result<S
 
 /// A table of threats, or else of points.
 fn table(path: &Path, meter: &Meter) -> Result<Seen, String> {
-    let no_threats = match io::threats::read(path, meter) {
+    let no_threats = match io::threats::read(path, None, meter) {
         Ok(threats) => {
             return Ok(drawn(DataContents::Threats(threats.len()), &circles(&threats), LengthUnit::None));
         }

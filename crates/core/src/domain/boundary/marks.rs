@@ -3,9 +3,9 @@
 use glam::DVec2;
 
 use super::super::segments::Segments;
-use super::super::{Domain, Polygon, RegionError};
+use super::super::{Domain, OutlineOnEarth, Polygon, RegionError};
 use super::{BoundaryKind, BoundaryPieces, BoundaryType};
-use crate::geometry::NumberMap;
+use crate::geometry::{NumberMap, Rect};
 
 /// Most characters of a name; longer ones are cut.
 pub const LONGEST_NAME: usize = 80;
@@ -43,6 +43,23 @@ impl BoundaryMarks {
         self.splits.is_empty() && self.names.is_empty() && self.types.is_empty()
     }
 
+    /// Returns these marks and others after them: of two names or types on one piece, these count.
+    pub fn before(mut self, others: Self) -> Self {
+        self.splits.extend(others.splits);
+        self.names.extend(others.names);
+        self.types.extend(others.types);
+        self
+    }
+
+    /// Returns the marks at other places.
+    pub fn moved(&self, place: impl Fn(DVec2) -> DVec2) -> Self {
+        Self {
+            splits: self.splits.iter().map(|&at| place(at)).collect(),
+            names: self.names.iter().map(|(at, name)| (place(*at), name.clone())).collect(),
+            types: self.types.iter().map(|&(at, of_piece)| (place(at), of_piece)).collect(),
+        }
+    }
+
     /// Returns the memory of names, types and places, in bytes.
     pub fn bytes(&self) -> usize {
         let names: usize = self.names.iter().map(|(_, name)| name.capacity()).sum();
@@ -62,13 +79,21 @@ impl BoundaryMarks {
         name.trim().to_owned()
     }
 
-    /// Returns the domain that named polygons cover, and the names that they bring.
+    /// Returns the domain that named polygons cover, in `bounds` where these are given, and the names that they
+    /// bring.
     ///
     /// # Errors
-    /// Fails as [`Domain::of_polygons`] does.
-    pub fn domain_of(polygons: &[NamedPolygon]) -> Result<(Domain, Self), RegionError> {
+    /// Fails as [`Domain::of_polygons_on_earth`] does.
+    pub fn domain_of(
+        polygons: &[NamedPolygon],
+        bounds: Option<Rect>,
+        on_earth: &OutlineOnEarth,
+    ) -> Result<(Domain, Self), RegionError> {
         let plain: Vec<Polygon> = polygons.iter().map(|named| named.polygon.clone()).collect();
-        let domain = Domain::of_polygons(&plain)?;
+        let domain = match bounds {
+            Some(bounds) => Domain::of_stored_polygons(plain, bounds, on_earth)?,
+            None => Domain::of_polygons_on_earth(&plain, on_earth)?,
+        };
         let marks = Self::of_polygons(polygons, &domain);
         Ok((domain, marks))
     }
@@ -77,7 +102,7 @@ impl BoundaryMarks {
     /// ring, and with `island` and a number for its holes, the largest first.
     ///
     /// A piece of the domain's boundary belongs to the polygon that has an edge at the middle of the piece.
-    /// Sides on the frame get no names.
+    /// Open sides get no names.
     pub fn of_polygons(polygons: &[NamedPolygon], domain: &Domain) -> Self {
         let mut marks = Self::default();
         let Some(pieces) = BoundaryPieces::of_domain(domain, &marks) else { return marks };

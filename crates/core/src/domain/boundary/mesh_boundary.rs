@@ -2,18 +2,18 @@
 
 use glam::DVec2;
 
-use super::super::Domain;
+use super::super::{Domain, FrameSide};
 use super::labels::{Choice, cheapest_labels};
 use super::stretches::compare;
-use super::{BoundaryKind, BoundaryMarks, BoundaryPieces, FrameSide};
+use super::{BoundaryKind, BoundaryMarks, BoundaryPiece, BoundaryPieces};
 use crate::earth::Ground;
 use crate::geometry::Rect;
 use crate::mesh::{Extract, NodeId};
 
 /// The boundary of a mesh in the pieces of its domain's boundary.
 ///
-/// An edge along the frame belongs to the open piece that contains its middle. Any other edge usually belongs
-/// to the piece of the coast nearest to its middle. Where the mesh is a staircase, the nearest piece can
+/// An edge along the frame belongs to the open piece there that contains its middle. Any other edge usually
+/// belongs to the piece nearest to its middle, without those along the frame. Where the mesh is a staircase, the nearest piece can
 /// change from edge to edge and back. So an edge may take a piece that is a little farther away, if that
 /// saves changes along the loop. The labels of a loop have the least sum of costs: for each edge, its length
 /// times the additional distance, and for each change, the square of the lengths of its edges.
@@ -166,7 +166,8 @@ impl MeshBoundary {
 struct Candidates<'a> {
     pieces: &'a BoundaryPieces,
     frame: Rect,
-    has_coast: bool,
+    /// The side of the frame that each piece is on.
+    sides: Vec<Option<FrameSide>>,
 }
 
 /// Returns the ends of the boundary edges of a mesh, in world units.
@@ -179,8 +180,9 @@ const MARGIN: f64 = 2.0;
 
 impl<'a> Candidates<'a> {
     fn new(extract: &Extract, pieces: &'a BoundaryPieces) -> Self {
-        let has_coast = pieces.list().iter().any(|piece| piece.kind != BoundaryKind::Open);
-        Self { pieces, frame: extract.lattice().bounds(), has_coast }
+        let frame = extract.lattice().bounds();
+        let sides = pieces.list().iter().map(|piece| side_of_frame(piece, &frame)).collect();
+        Self { pieces, frame, sides }
     }
 
     fn of_edge(&self, edge: [DVec2; 2]) -> Choice {
@@ -190,8 +192,12 @@ impl<'a> Candidates<'a> {
         if let Some(open) = FrameSide::of(edge, &self.frame).and_then(|side| self.open_at(side, middle)) {
             return Choice { labels: vec![(open, 0.0)], change };
         }
-        let is_coast = |kind: BoundaryKind| kind != BoundaryKind::Open || !self.has_coast;
-        let mut labels = self.pieces.distances(middle, MARGIN * length, |piece| is_coast(piece.kind));
+        let all_on_frame = self.sides.iter().all(Option::is_some);
+        let counts = |piece: usize| all_on_frame || self.sides[piece].is_none();
+        let mut labels = self.pieces.distances(middle, MARGIN * length, counts);
+        if !all_on_frame {
+            self.keep_those_along(edge, counts, &mut labels);
+        }
         let least = labels.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
         labels.iter_mut().for_each(|(_, distance)| *distance = (*distance - least) * length);
         if labels.is_empty() {
@@ -200,15 +206,50 @@ impl<'a> Candidates<'a> {
         Choice { labels, change }
     }
 
+    /// Beside an open piece, leaves of the pieces near an edge the one that both its ends are on: where water
+    /// flows across does not depend on the lengths of edges.
+    fn keep_those_along(
+        &self,
+        edge: [DVec2; 2],
+        counts: impl Fn(usize) -> bool,
+        labels: &mut Vec<(u32, f64)>,
+    ) {
+        let is_open = |piece: u32| self.pieces.list()[piece as usize].kind == BoundaryKind::Open;
+        if labels.len() < 2 || !labels.iter().any(|&(piece, _)| is_open(piece)) {
+            return;
+        }
+        let reach = self.pieces.tolerance();
+        let [a, b] = edge.map(|end| {
+            let near = self.pieces.distances(end, reach, &counts);
+            near.into_iter()
+                .filter(|(_, distance)| *distance <= reach)
+                .map(|(piece, _)| piece)
+                .collect::<Vec<_>>()
+        });
+        let along: Vec<u32> = a.into_iter().filter(|piece| b.contains(piece)).collect();
+        let open = along.iter().copied().find(|&piece| is_open(piece));
+        if let Some(open) = open {
+            labels.retain(|&(piece, _)| piece == open);
+        } else if !along.is_empty() {
+            labels.retain(|&(piece, _)| !is_open(piece));
+        }
+    }
+
     /// Returns the open piece on a side of the frame that has a point.
     fn open_at(&self, side: FrameSide, point: DVec2) -> Option<u32> {
         let axis = side.axis();
-        let open = self.pieces.list().iter().take_while(|piece| piece.kind == BoundaryKind::Open);
-        let mut open = open.enumerate().filter(|(_, piece)| piece.side == Some(side));
         let holds = |points: &[DVec2]| {
             let (from, to) = (points[0][axis], points[points.len() - 1][axis]);
             from.min(to) <= point[axis] && point[axis] <= from.max(to)
         };
-        open.find(|(_, piece)| holds(&piece.points)).map(|(number, _)| number as u32)
+        let mut open = (0..self.sides.len()).filter(|&piece| self.sides[piece] == Some(side));
+        open.find(|&piece| holds(&self.pieces.list()[piece].points)).map(|piece| piece as u32)
     }
+}
+
+/// Returns the side of a frame that an open piece is on. Sides of another rectangle are curves, or elsewhere.
+fn side_of_frame(piece: &BoundaryPiece, frame: &Rect) -> Option<FrameSide> {
+    let first = FrameSide::of([piece.points[0], piece.points[1]], frame);
+    let is_on = |ends: &[DVec2]| FrameSide::of([ends[0], ends[1]], frame) == first;
+    first.filter(|_| piece.kind == BoundaryKind::Open && piece.points.windows(2).all(is_on))
 }

@@ -13,25 +13,29 @@
 //!     `~~x~~~~'              `~~~~~~~~~~'                  `~~x~~~~~~'    x is a place where it is split
 //! ```
 //!
-//! - A *stretch* is a maximal part of a ring along one side of the frame (open), or along none (coast). A
-//!   coast is mainland on an outer ring, and an island on the ring of a hole. Where the frame is only the
-//!   bounding rectangle of the outline and does not cut it, all is coast.
+//! - A *stretch* is a maximal part of a ring along one side of a rectangle that cuts the domain off from its
+//!   surroundings ([`CutFrame`](super::CutFrame); open), or along none (coast). A coast is mainland on an
+//!   outer ring, and an island on the ring of a hole.
 //! - A *piece* is a stretch, or a part of one between places where it is split ([`BoundaryMarks`]). What it
 //!   is for a solver follows from its kind and its name, unless its [`BoundaryType`] is set.
 //!
 //! [`MeshBoundary`] then finds the piece of each edge of a mesh.
 
 mod choice;
+mod coasts;
+mod idle_marks;
 mod labels;
 mod marks;
 mod mesh_boundary;
+mod opening;
 mod pieces;
 mod stretches;
 mod types;
 
 pub use choice::PieceChoice;
+pub use coasts::{CoastEdge, Coasts, coasts};
 pub use marks::{BoundaryMarks, LONGEST_NAME, NamedPolygon};
 pub use mesh_boundary::{MeshBoundary, PieceFigures, PieceRun};
 pub use pieces::{BoundaryPiece, BoundaryPieces};
-pub use stretches::{BoundaryKind, CoastEdge, Coasts, FrameSide, coasts};
+pub use stretches::BoundaryKind;
 pub use types::BoundaryType;

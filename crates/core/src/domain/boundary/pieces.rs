@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec2;
 
 use super::super::segments::Segments;
-use super::super::{Domain, DomainShape, Ring, corners};
-use super::stretches::{FrameSide, Stretch, is_cut, length, stretches};
+use super::super::{Domain, DomainShape, FrameSide, Ring, corners};
+use super::stretches::{PlaceOnRing, SidedRing, Stretch, length, stretches};
 use super::{BoundaryKind, BoundaryMarks, BoundaryType};
 use crate::geometry::{Rect, nearest_on_segment};
 use crate::mesh::{Extract, NodeId};
@@ -26,6 +26,7 @@ pub struct BoundaryPiece {
     /// A polyline in world units, with the domain on its left. The whole of a ring ends with its first point.
     pub points: Vec<DVec2>,
     pub(super) side: Option<FrameSide>,
+    pub(super) place: PlaceOnRing,
     /// The stretch that it is a part of.
     stretch: usize,
 }
@@ -45,11 +46,9 @@ impl BoundaryPiece {
     /// ([`BoundaryKind::Open`]), and land elsewhere. A name that was given decides against that if it begins
     /// with `open` or with `land`, in upper or lower case.
     pub fn usual_type(&self) -> BoundaryType {
-        let begins = |word: &str| {
-            self.is_named && self.name.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
-        };
-        let is_open = begins("open") || (self.kind == BoundaryKind::Open && !begins("land"));
-        if is_open { BoundaryType::Open } else { BoundaryType::Land }
+        let of_name = if self.is_named { BoundaryType::of_name(&self.name) } else { None };
+        let of_kind = if self.kind == BoundaryKind::Open { BoundaryType::Open } else { BoundaryType::Land };
+        of_name.unwrap_or(of_kind)
     }
 
     /// Returns the length in world units.
@@ -81,15 +80,9 @@ impl BoundaryPieces {
     /// Returns the pieces of a domain, or `None` for a domain that is given by a formula: its boundary is the
     /// boundary of its mesh.
     pub fn of_domain(domain: &Domain, marks: &BoundaryMarks) -> Option<Self> {
-        let frame = &domain.bounds;
-        match &domain.shape {
-            DomainShape::Whole => Some(Self::new(&[&corners(frame)], frame, true, 0.0, marks)),
-            DomainShape::Region(region) => {
-                let rings: Vec<&Ring> = region.rings().collect();
-                Some(Self::new(&rings, frame, is_cut(&rings, frame), 0.0, marks))
-            }
-            DomainShape::Formula(_) => None,
-        }
+        let tolerance = tolerance(&domain.bounds);
+        let corners = corners(&domain.bounds);
+        Some(Self::new(&sided_rings(domain, &corners)?, tolerance, marks))
     }
 
     /// Returns the pieces of the boundary of a mesh alone, for a domain that is given by a formula. A mark
@@ -99,8 +92,8 @@ impl BoundaryPieces {
             |nodes: &Vec<usize>| nodes.iter().map(|&node| extract.world(NodeId::from_index(node))).collect();
         let rings: Vec<Ring> = extract.boundary_loops().iter().map(ring).collect();
         let lattice = extract.lattice();
-        let rings: Vec<&Ring> = rings.iter().collect();
-        Self::new(&rings, &lattice.bounds(), true, 0.5 * lattice.spacing(), marks)
+        let rings: Vec<SidedRing> = rings.iter().map(|ring| along_frame(ring, &lattice.bounds())).collect();
+        Self::new(&rings, tolerance(&lattice.bounds()).max(0.5 * lattice.spacing()), marks)
     }
 
     /// Returns the pieces of a domain, or of its mesh for a domain that is given by a formula.
@@ -108,10 +101,8 @@ impl BoundaryPieces {
         Self::of_domain(domain, marks).unwrap_or_else(|| Self::of_mesh(extract, marks))
     }
 
-    fn new(rings: &[&Ring], frame: &Rect, is_cut: bool, least_tolerance: f64, marks: &BoundaryMarks) -> Self {
-        let tolerance = least_tolerance.max(TOLERANCE * frame.size().max_element());
-        let stretches = stretches(rings.iter().copied(), is_cut.then_some(frame));
-        let mut pieces = split(&stretches, &marks.splits, tolerance);
+    fn new(rings: &[SidedRing], tolerance: f64, marks: &BoundaryMarks) -> Self {
+        let mut pieces = split(&stretches(rings), &marks.splits, tolerance);
         let index = Index::new(pieces.iter().map(|piece| &*piece.points));
         if let Some(index) = &index {
             give_marks(&mut pieces, index, marks, tolerance);
@@ -138,16 +129,16 @@ impl BoundaryPieces {
         Some((index.owner(segment), nearest_on_segment(point, index.segments.segment(segment))))
     }
 
-    /// Returns the distances to the pieces that `counts` accepts: that to the nearest, and those up to
+    /// Returns the distances to the pieces whose numbers `counts` accepts: that to the nearest, and those up to
     /// `margin` more. Sorted by number.
     pub(super) fn distances(
         &self,
         point: DVec2,
         margin: f64,
-        counts: impl Fn(&BoundaryPiece) -> bool,
+        counts: impl Fn(usize) -> bool,
     ) -> Vec<(u32, f64)> {
         let Some(index) = &self.index else { return Vec::new() };
-        let accepted = |segment: u32| counts(&self.pieces[index.owner(segment)]);
+        let accepted = |segment: u32| counts(index.owner(segment));
         let Some((_, least)) = index.segments.nearest(point, accepted) else { return Vec::new() };
         let mut found: Vec<(u32, f64)> = Vec::new();
         index.segments.visit_within(point, least + margin, |segment, distance| {
@@ -246,6 +237,40 @@ impl BoundaryPieces {
     }
 }
 
+/// Returns the pieces of a domain as [`BoundaryPieces::of_domain`] does, without their index. Without marks
+/// that takes time in proportion to the corners.
+pub(super) fn unindexed_pieces(domain: &Domain, marks: &BoundaryMarks) -> Option<Vec<BoundaryPiece>> {
+    if !marks.is_empty() {
+        return BoundaryPieces::of_domain(domain, marks).map(|pieces| pieces.pieces);
+    }
+    let corners = corners(&domain.bounds);
+    Some(split(&stretches(&sided_rings(domain, &corners)?), &[], 0.0))
+}
+
+/// Returns how far a mark may be from the boundary of polygons in a frame.
+fn tolerance(frame: &Rect) -> f64 {
+    TOLERANCE * frame.size().max_element()
+}
+
+/// Returns the rings of a domain with the sides that they run along; `None` for a domain that is given by a
+/// formula. `corners` are those of its bounds.
+fn sided_rings<'a>(domain: &'a Domain, corners: &'a Ring) -> Option<Vec<SidedRing<'a>>> {
+    match &domain.shape {
+        DomainShape::Whole => Some(vec![along_frame(corners, &domain.bounds)]),
+        DomainShape::Region(region) => {
+            let rings = region.rings().zip(region.sides());
+            Some(rings.map(|(corners, sides)| SidedRing { corners, sides }).collect())
+        }
+        DomainShape::Formula(_) => None,
+    }
+}
+
+/// Returns a ring with the sides of a frame that its edges run along.
+fn along_frame<'a>(ring: &'a Ring, frame: &Rect) -> SidedRing<'a> {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    SidedRing { corners: ring, sides: edges.map(|(&a, &b)| FrameSide::of([a, b], frame)).collect() }
+}
+
 /// The segments of all pieces.
 #[derive(Clone, Debug)]
 struct Index {
@@ -294,11 +319,19 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
     let mut pieces = Vec::new();
     for (number, (stretch, mut cuts)) in stretches.iter().zip(cuts).enumerate() {
         let along = |&(segment, point): &PointOnPolyline| (segment, stretch.points[segment].distance(point));
+        let along_stretch = |cut: &PointOnPolyline| length(&stretch.points[..=cut.0]) + along(cut).1;
         cuts.sort_by(|a, b| along(a).partial_cmp(&along(b)).expect("no distance is NaN"));
         cuts.dedup_by(|a, b| a.1.distance(b.1) <= tolerance);
+        let start = cuts.first().filter(|_| stretch.is_closed()).map_or(0.0, along_stretch);
         let parts = parts(&stretch.points, stretch.is_closed(), cuts, tolerance);
+        let mut along = stretch.place.along + start;
+        let parts = parts.into_iter().map(|points| {
+            let place = PlaceOnRing { along, ..stretch.place };
+            along += length(&points);
+            (place, points)
+        });
         let count = parts.len();
-        for (part, points) in (1..).zip(parts) {
+        for (part, (place, points)) in (1..).zip(parts) {
             let name =
                 if count == 1 { stretch.name.clone() } else { format!("{} part {part}", stretch.name) };
             let (kind, side) = (stretch.kind, stretch.side);
@@ -309,6 +342,7 @@ fn split(stretches: &[Stretch], splits: &[DVec2], tolerance: f64) -> Vec<Boundar
                 set_type: None,
                 points,
                 side,
+                place,
                 stretch: number,
             });
         }
@@ -367,7 +401,7 @@ fn give_marks(pieces: &mut [BoundaryPiece], index: &Index, marks: &BoundaryMarks
 }
 
 /// Returns the point halfway along a polyline.
-fn middle(points: &[DVec2]) -> DVec2 {
+pub(super) fn middle(points: &[DVec2]) -> DVec2 {
     let mut left = 0.5 * length(points);
     for ends in points.windows(2) {
         let [a, b] = [ends[0], ends[1]];

@@ -106,7 +106,8 @@ impl CompiledLayer {
             }
             LayerKind::Surface(_) => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
             LayerKind::Depth(depths) => {
-                let reading = Reading::Depth { depths: depths.clone(), lengths: lengths.clone() };
+                let factor = depths.sizes().rule.factor_in(layer.combine);
+                let reading = Reading::Depth { depths: depths.clone(), factor, lengths: lengths.clone() };
                 (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))
             }
         };

@@ -35,7 +35,7 @@ pub enum Reading {
     /// One diameter for all values from the first to the second number.
     Band { between: [f64; 2], diameter: f64, lengths: Arc<[f64]> },
     /// What is asked of depths; infinity is a pixel without a value.
-    Depth { depths: Depths, lengths: Arc<[f64]> },
+    Depth { depths: Depths, factor: f64, lengths: Arc<[f64]> },
 }
 
 /// The answer for the values of a range.
@@ -181,11 +181,11 @@ impl Reading {
                 };
                 Diameters { least, greatest, present }
             }
-            Self::Depth { depths, .. } if least < f32::INFINITY => {
+            Self::Depth { depths, factor, .. } if least < f32::INFINITY => {
                 let asked = depths.asked(f64::from(least), f64::from(greatest.min(f32::MAX)));
                 let present = share(asked.any, asked.all && greatest < f32::INFINITY);
-                let greatest = if present == Share::All { asked.greatest } else { f64::INFINITY };
-                Diameters { least: asked.least, greatest, present }
+                let greatest = if present == Share::All { factor * asked.greatest } else { f64::INFINITY };
+                Diameters { least: factor * asked.least, greatest, present }
             }
             Self::Depth { .. } => Diameters::NOTHING,
         }

@@ -9,6 +9,7 @@ use tiff::tags::Tag;
 use super::super::Flaw;
 use super::super::coordinate_system::{CoordinateKind, CoordinateSystem};
 use super::super::samples::no_rectangle;
+use super::super::vertical::{ValueUnit, VerticalSystem};
 use meshbrush_mesh::geometry::Rect;
 
 /// Turns and shears are refused above this share of a pixel per pixel.
@@ -38,6 +39,8 @@ const PROJECTED_CODE: u16 = 3072;
 const PROJECTED_CITATION: u16 = 3073;
 /// The value of a code for a system that the file defines itself.
 const USER_DEFINED: u16 = 32767;
+const VERTICAL_CODE: u16 = 4096;
+const VERTICAL_UNIT: u16 = 4099;
 /// The value of `GTRasterTypeGeoKey` for samples at points, which lie at the centres of pixels.
 const POINTS: u16 = 2;
 
@@ -70,6 +73,14 @@ impl Keys {
 
     fn text(&self, key: u16) -> Option<String> {
         self.texts.iter().find(|(at, text)| *at == key && !text.is_empty()).map(|(_, text)| text.clone())
+    }
+
+    /// Returns what the keys say about heights and depths.
+    pub(super) fn vertical(&self) -> VerticalSystem {
+        let known = |key| self.short(key).filter(|&code| code != 0 && code < USER_DEFINED);
+        let system = known(VERTICAL_CODE).map_or_else(VerticalSystem::default, VerticalSystem::of_epsg);
+        let unit = known(VERTICAL_UNIT).map_or(ValueUnit::Unstated, ValueUnit::of_epsg);
+        VerticalSystem { unit: unit.or(system.unit), ..system }
     }
 
     /// Returns what the keys say about the coordinate reference system; `None` where they say nothing.

@@ -10,6 +10,7 @@ use tiff::encoder::{Compression as Packing, Predictor, TiffEncoder, colortype};
 
 use super::super::coordinate_system::CoordinateKind;
 use super::*;
+use meshbrush_core::layers::PositiveDepth;
 use written::{COLUMNS, File, ROWS, Value};
 
 fn read_back(file: &File) -> GeoTiff {
@@ -124,6 +125,69 @@ fn pixels_without_a_value_are_nan() {
     assert!(refusal(&file).contains("“none”, which is not a number"));
     let file = File::of((64, 3), vec![1e39; COLUMNS * ROWS]);
     assert!(refusal(&file).contains("the value 1e39 is too large") && refusal(&file).contains("-a_nodata"));
+}
+
+#[test]
+fn samples_become_values_by_scale_offset_and_unit() {
+    const SCALED: &str = r#"<GDALMetadata><Item name="SCALE" sample="0" role="scale">0.5</Item>
+        <Item name="OFFSET" sample="0" role="offset">-8</Item></GDALMetadata>"#;
+    const FEET: &str =
+        r#"<GDALMetadata><Item name="UNITTYPE" sample="0" role="unittype">ft</Item></GDALMetadata>"#;
+    let file = File::of((16, 2), vec![20.0; COLUMNS * ROWS]);
+    let read = |file: &File| decode(Cursor::new(file.bytes())).unwrap();
+    assert_eq!(read(&file.clone().with(42112, Value::Text(SCALED))).raster.get(0, 0), 2.0);
+    let feet = read(&file.clone().with(42112, Value::Text(FEET)));
+    assert_eq!((feet.raster.get(0, 0), feet.facts.notes.len()), (6.096, 1));
+    // Heights in US survey feet, and depths below the mean sea level.
+    let keys = |key, value| Value::Shorts(vec![1, 1, 0, 1, key, 0, 1, value]);
+    assert_eq!(
+        read(&file.clone().with(34735, keys(4099, 9003))).raster.get(0, 0),
+        (24_000.0 / 3937.0) as f32
+    );
+    let depths = read(&file.clone().with(34735, keys(4096, 5715)));
+    assert_eq!((depths.raster.get(0, 0), depths.facts.positive), (20.0, Some(PositiveDepth::Down)));
+    assert_eq!(read(&file.with(42112, Value::Text("<damaged"))).raster.get(0, 0), 20.0);
+}
+
+#[test]
+fn a_band_is_chosen_and_pictures_in_colours_are_refused() {
+    let pixel = [1.0, 2.0, 3.0];
+    for is_planar in [false, true] {
+        let file = File { is_planar, ..File::of((8, 1), pixel.repeat(COLUMNS * ROWS)) }.placed();
+        let band = |file: &File, band| Pixels::decode(Cursor::new(file.bytes()), band, Beside::default());
+        for (place, value) in pixel.into_iter().enumerate() {
+            assert!(band(&file, Some(place)).unwrap().values.iter().all(|&read| f64::from(read) == value));
+        }
+        assert!(band(&file, None).unwrap().facts.notes[0].contains("it has 3 bands"));
+        let sentence = band(&file, Some(3)).map(drop).unwrap_err().to_string();
+        assert!(sentence.contains("it has no band 4"), "{sentence}");
+        let colours = file.clone().with(262, Value::Shorts(vec![2]));
+        assert!(refusal(&colours).contains("a picture in colours"));
+        assert_eq!(band(&colours, Some(1)).unwrap().values[0], 2.0);
+        // The third band is the opacity of pixels.
+        let mut hidden = file.clone().with(338, Value::Shorts(vec![0, 2]));
+        hidden.samples[2] = 0.0;
+        let read = read_back(&hidden).raster;
+        assert_eq!(read.values().iter().filter(|value| value.is_nan()).count(), 1);
+        assert!(read.get(0, ROWS as u32 - 1).is_nan());
+    }
+}
+
+#[test]
+fn fills_that_are_not_declared_are_no_values_and_said() {
+    for (sample, fill) in
+        [((32, 3), 3.4028234663852886e38), ((32, 3), 1e20), ((16, 2), -32768.0), ((64, 3), -1e30)]
+    {
+        let mut samples = vec![5.0; COLUMNS * ROWS];
+        samples[..2].fill(fill);
+        let read = decode(Cursor::new(File::of(sample, samples).bytes())).unwrap();
+        assert_eq!(read.raster.values().iter().filter(|value| value.is_nan()).count(), 2, "{fill}");
+        assert!(read.facts.notes[0].contains("2 pixels"), "{:?}", read.facts.notes);
+    }
+    let mut samples: Vec<f64> = (0..COLUMNS * ROWS).map(|n| n as f64).collect();
+    samples[3] = -9999.0;
+    let read = decode(Cursor::new(File::of((32, 3), samples).bytes())).unwrap();
+    assert!(read.raster.values().contains(&-9999.0) && read.facts.notes[0].contains("far from all others"));
 }
 
 #[test]

@@ -3,16 +3,43 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::SavedLayer;
 use super::check_layer::{CheckedKind, CheckedShapes, Growth, Stored};
-use crate::io::KeyFault;
+use super::{LoadedRaster, SavedLayer};
+use crate::io::{KeyFault, ValueFacts, ValueUnit};
 use meshbrush_core::domain::Polygon;
 use meshbrush_core::layers::{
-    Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, RasterSource, ShapeList, Shapes, Surface,
-    SurfaceSource, Threat, Threats,
+    DepthSizes, Depths, DistanceTo, Layer, LayerId, LayerKind, Mask, PositiveDepth, RasterSource, ShapeList,
+    Shapes, Surface, SurfaceSource, Threat, Threats,
 };
-use meshbrush_core::raster::RasterPyramid;
+use meshbrush_core::raster::{Raster, RasterPyramid};
 use meshbrush_mesh::text::abridged;
+
+/// Returns a layer of depths whose values grow in this direction, and a surface of heights, where the file of
+/// either says the direction; other layers as they are.
+pub fn in_direction(kind: LayerKind, positive: Option<PositiveDepth>) -> LayerKind {
+    match (kind, positive) {
+        (LayerKind::Depth(depths), Some(positive)) => {
+            let sizes = DepthSizes { positive, ..*depths.sizes() };
+            LayerKind::Depth(depths.with_sizes(sizes))
+        }
+        (LayerKind::Surface(surface), Some(PositiveDepth::Down)) => {
+            let source = match surface.source {
+                SurfaceSource::Raster(source) => SurfaceSource::Raster(heights(source)),
+                formula @ SurfaceSource::Formula(_) => formula,
+            };
+            LayerKind::Surface(Surface { source, ..surface })
+        }
+        (kind, _) => kind,
+    }
+}
+
+/// Returns depths as heights.
+fn heights(source: RasterSource) -> RasterSource {
+    let depths = source.raster.raster();
+    let heights = depths.values().iter().map(|&depth| 0.0 - depth).collect();
+    let raster = Raster::from_values(depths.bounds(), depths.size(), heights);
+    RasterSource { raster: Arc::new(RasterPyramid::new(raster)), ..source }
+}
 
 /// A sentence that says why the data of a layer cannot be used, with the name of the layer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,7 +58,12 @@ pub trait LayerData {
     ///
     /// # Errors
     /// Fails when they cannot be read, or a value is not valid.
-    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, Self::Error>;
+    fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, Self::Error>;
+
+    /// Takes a sentence for a person about data that were read.
+    fn note(&mut self, sentence: String) {
+        let _ = sentence;
+    }
 
     /// Returns the threats of a layer whose threats are not in place.
     ///
@@ -62,7 +94,7 @@ impl SavedLayer {
     pub fn load<D: LayerData>(&self, id: LayerId, data: &mut D) -> Result<Layer, D::Error> {
         let kind = match self.checked(D::STORED)? {
             CheckedKind::Complete(kind) => kind,
-            CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?, reading },
+            CheckedKind::Raster(reading) => LayerKind::Raster { source: self.source(data)?.0, reading },
             CheckedKind::Threats(Some(list)) => LayerKind::Threats(self.indexed_threats(list)?),
             CheckedKind::Threats(None) => LayerKind::Threats(data.threats(self)?),
             CheckedKind::Distance(to, Growth { at_zero, slope, range }) => {
@@ -80,13 +112,18 @@ impl SavedLayer {
                 LayerKind::Distance { to, at_zero, slope, range }
             }
             CheckedKind::Band(between, diameter) => {
-                LayerKind::Band { source: self.source(data)?, between, diameter }
+                LayerKind::Band { source: self.source(data)?.0, between, diameter }
             }
             CheckedKind::Surface(goal, norm) => {
-                let source = SurfaceSource::Raster(self.source(data)?);
-                LayerKind::Surface(Surface { source, goal, norm })
+                let (source, facts) = self.source(data)?;
+                let source = SurfaceSource::Raster(source);
+                in_direction(LayerKind::Surface(Surface { source, goal, norm }), facts.positive)
             }
-            CheckedKind::Depth(sizes) => LayerKind::Depth(Depths::new(self.source(data)?, sizes)),
+            CheckedKind::Depth(sizes) => {
+                let (source, facts) = self.source(data)?;
+                let positive = self.direction(&facts, data).unwrap_or(sizes.positive);
+                LayerKind::Depth(Depths::new(source, DepthSizes { positive, ..sizes }))
+            }
         };
         let (visible, locked, combine) = (self.visible, self.locked, self.combine.into());
         let mask = self.loaded_mask(data)?;
@@ -98,8 +135,32 @@ impl SavedLayer {
         self.file.as_deref().unwrap_or(Path::new(""))
     }
 
-    fn source<D: LayerData>(&self, data: &mut D) -> Result<RasterSource, D::Error> {
-        Ok(RasterSource { name: self.file_name(), raster: data.raster(self)? })
+    fn source<D: LayerData>(&self, data: &mut D) -> Result<(RasterSource, ValueFacts), D::Error> {
+        let LoadedRaster { raster, facts } = data.raster(self)?;
+        facts.notes.iter().for_each(|note| data.note(format!("{}: {note}", self.file_name())));
+        Ok((RasterSource { name: self.file_name(), raster }, facts))
+    }
+
+    /// Returns the direction in which depths grow, as the file says it where the layer does not, and tells a
+    /// person what does not suit depths.
+    fn direction<D: LayerData>(&self, facts: &ValueFacts, data: &mut D) -> Option<PositiveDepth> {
+        if let ValueUnit::Other(unit) = &facts.unit {
+            let problem = "its values are taken as metres, and it says that their unit is";
+            data.note(format!("{}: {problem} “{unit}”.", self.file_name()));
+        }
+        let own = facts.positive?;
+        let given = self.positive.map(PositiveDepth::from);
+        if given.is_some_and(|given| given != own) {
+            let [said, other] = match own {
+                PositiveDepth::Down => ["depths, positive downwards", "heights"],
+                PositiveDepth::Up => ["heights, positive upwards", "depths"],
+            };
+            data.note(format!(
+                "{}: its values are taken as {other}, as `positive` says; the file says that they are {said}.",
+                self.file_name()
+            ));
+        }
+        given.or(Some(own))
     }
 
     /// Returns the shapes of a distance, or the boundary of the domain that it is to.

@@ -33,8 +33,8 @@ pub const MOST_IN_PLACE: usize = 20;
 
 pub use check_layer::{CheckedKind, CheckedShapes, FindFile, Growth, Stored, compiled, each};
 pub use checks::{point, points, positive_length, rect_of, rings};
-pub use fill::{LayerData, TextError};
-pub use rasters::{RasterError, RasterFile, RasterFrame, RasterLoader};
+pub use fill::{LayerData, TextError, in_direction};
+pub use rasters::{LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader};
 pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat};
 pub use saved_lists::saved_polygon;
 pub use words::{

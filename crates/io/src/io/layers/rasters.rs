@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::super::png::Behind;
 use super::super::{
     DocumentPlane, FileCoordinates, FileGrid, Given, GivenGrid, GridPlace, GridWindow, Meter, RasterFormat,
-    ReadError, ReadRaster,
+    ReadError, ReadRaster, ValueFacts,
 };
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues, check_values, projected_raster};
@@ -47,6 +47,27 @@ impl RasterFile {
     }
 }
 
+/// The raster of a layer, and what its file says about its values. Clones share the pixels.
+#[derive(Clone, Debug)]
+pub struct LoadedRaster {
+    /// The pixels.
+    pub raster: Arc<RasterPyramid>,
+    /// What the file says.
+    pub facts: ValueFacts,
+}
+
+impl LoadedRaster {
+    fn new(raster: Raster, facts: ValueFacts) -> Self {
+        Self { raster: Arc::new(RasterPyramid::new(raster)), facts }
+    }
+}
+
+impl From<Arc<RasterPyramid>> for LoadedRaster {
+    fn from(raster: Arc<RasterPyramid>) -> Self {
+        Self { raster, facts: ValueFacts::default() }
+    }
+}
+
 /// Where a document wants rasters, and the place and the scale of those that have none of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct RasterFrame {
@@ -71,7 +92,7 @@ impl RasterFrame {
 #[derive(Debug)]
 pub struct RasterLoader {
     /// Files that say no place of their own, and whether transparent pixels are black.
-    known: BTreeMap<(PathBuf, bool), Arc<RasterPyramid>>,
+    known: BTreeMap<(PathBuf, bool), LoadedRaster>,
     given: Given,
     meter: Meter,
 }
@@ -98,8 +119,12 @@ impl RasterLoader {
         }
         match (file.format.read(), file.bounds) {
             (ReadRaster::Grid(read), None) => {
-                let read = |meter: &Meter| Ok(read(&file.path, &GridPlace::default(), meter)?.raster);
-                Ok(Some(self.read_once::<ReadError>((file.path.clone(), false), read)?.raster().bounds()))
+                let read = |meter: &Meter| {
+                    let FileGrid { raster, facts, .. } = read(&file.path, &GridPlace::default(), meter)?;
+                    Ok((raster, facts))
+                };
+                let loaded = self.read_once::<ReadError>((file.path.clone(), false), read)?;
+                Ok(Some(loaded.raster.raster().bounds()))
             }
             (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Array(_) | ReadRaster::Image(_), _) => Ok(None),
         }
@@ -115,14 +140,14 @@ impl RasterLoader {
         file: &RasterFile,
         values: RasterValues,
         frame: &RasterFrame,
-    ) -> Result<Arc<RasterPyramid>, RasterError> {
-        let raster = self.pixels(file, values, frame)?;
+    ) -> Result<LoadedRaster, RasterError> {
+        let LoadedRaster { raster, facts } = self.pixels(file, values, frame)?;
         if values == RasterValues::Diameter && !file.format.is_grid() {
-            return Ok(Arc::new(RasterPyramid::new(diameters(raster.raster(), &frame.transfer))));
+            return Ok(LoadedRaster::new(diameters(raster.raster(), &frame.transfer), facts));
         }
         let named = |problem| RasterError::Value(format!("{}: {problem}", file.path.display()));
         check_values(&raster, values).map_err(named)?;
-        Ok(raster)
+        Ok(LoadedRaster { raster, facts })
     }
 
     /// Returns the values of a file, before the layer interprets them.
@@ -131,35 +156,42 @@ impl RasterLoader {
         RasterFile { path, format, bounds }: &RasterFile,
         values: RasterValues,
         frame: &RasterFrame,
-    ) -> Result<Arc<RasterPyramid>, RasterError> {
+    ) -> Result<LoadedRaster, RasterError> {
         if let Some(grid) = self.given.grid(path) {
-            return placed(grid, *bounds, frame, path);
+            return Ok(LoadedRaster {
+                raster: placed(grid, *bounds, frame, path)?,
+                facts: grid.facts.clone(),
+            });
         }
         match (format.read(), bounds) {
             (ReadRaster::Grid(read), None) => self.read_once((path.clone(), false), |meter| {
                 let place = GridPlace { over: None, window: frame.window() };
-                let grid = read(path, &place, meter)?;
+                let mut grid = read(path, &place, meter)?;
+                let facts = std::mem::take(&mut grid.facts);
                 match &frame.plane {
-                    Some(plane) => grid_in_plane(grid, plane, frame, path),
-                    None => Ok(grid.raster),
+                    Some(plane) => Ok((grid_in_plane(grid, plane, frame, path)?, facts)),
+                    None => Ok((grid.raster, facts)),
                 }
             }),
             (ReadRaster::Grid(read), over @ Some(_)) => {
                 let place = GridPlace { over: *over, window: None };
-                Ok(Arc::new(RasterPyramid::new(read(path, &place, &self.meter)?.raster)))
+                let FileGrid { raster, facts, .. } = read(path, &place, &self.meter)?;
+                Ok(LoadedRaster::new(raster, facts))
             }
             (ReadRaster::Array(read), Some(place)) => {
-                Ok(Arc::new(RasterPyramid::new(read(path, *place, &self.meter)?)))
+                let FileGrid { raster, facts, .. } = read(path, *place, &self.meter)?;
+                Ok(LoadedRaster::new(raster, facts))
             }
-            (ReadRaster::Array(read), None) => {
-                self.read_once((path.clone(), false), |meter| Ok(read(path, frame.domain, meter)?))
-            }
+            (ReadRaster::Array(read), None) => self.read_once((path.clone(), false), |meter| {
+                let FileGrid { raster, facts, .. } = read(path, frame.domain, meter)?;
+                Ok((raster, facts))
+            }),
             (ReadRaster::Image(read), _) => {
                 let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
                 let place = bounds.unwrap_or(frame.domain);
-                let read = |meter: &Meter| Ok(read(path, place, behind, meter)?);
+                let read = |meter: &Meter| Ok((read(path, place, behind, meter)?, ValueFacts::default()));
                 match bounds {
-                    Some(_) => Ok(Arc::new(RasterPyramid::new(read(&self.meter)?))),
+                    Some(_) => read(&self.meter).map(|(raster, facts)| LoadedRaster::new(raster, facts)),
                     None => self.read_once((path.clone(), behind == Behind::Black), read),
                 }
             }
@@ -169,20 +201,21 @@ impl RasterLoader {
     fn read_once<E>(
         &mut self,
         key: (PathBuf, bool),
-        read: impl FnOnce(&Meter) -> Result<Raster, E>,
-    ) -> Result<Arc<RasterPyramid>, E> {
+        read: impl FnOnce(&Meter) -> Result<(Raster, ValueFacts), E>,
+    ) -> Result<LoadedRaster, E> {
         if let Some(raster) = self.known.get(&key) {
             return Ok(raster.clone());
         }
-        let raster = Arc::new(RasterPyramid::new(read(&self.meter)?));
-        self.known.insert(key, raster.clone());
-        Ok(raster)
+        let (raster, facts) = read(&self.meter)?;
+        let loaded = LoadedRaster::new(raster, facts);
+        self.known.insert(key, loaded.clone());
+        Ok(loaded)
     }
 }
 
 /// Returns a grid in memory where a document wants it.
 fn placed(
-    GivenGrid { raster, coordinates }: &GivenGrid,
+    GivenGrid { raster, coordinates, .. }: &GivenGrid,
     bounds: Option<Rect>,
     frame: &RasterFrame,
     path: &Path,

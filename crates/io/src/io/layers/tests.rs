@@ -1,10 +1,8 @@
 use std::path::Path;
-use std::sync::Arc;
 
 use super::*;
 use crate::io::KeyFault;
 use meshbrush_core::layers::{LayerId, Mask, Shapes, Threats};
-use meshbrush_core::raster::RasterPyramid;
 
 fn saved(json: &str) -> SavedLayer {
     serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"))
@@ -235,7 +233,7 @@ impl LayerData for InMemory {
 
     const STORED: Stored = Stored::InFiles;
 
-    fn raster(&mut self, _: &SavedLayer) -> Result<Arc<RasterPyramid>, Fault> {
+    fn raster(&mut self, _: &SavedLayer) -> Result<LoadedRaster, Fault> {
         unreachable!("no layer has a raster")
     }
 

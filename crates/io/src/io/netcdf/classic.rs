@@ -234,7 +234,7 @@ impl<R: Read + Seek> Header<R> {
             Some(sample) => {
                 let mut numbers = Vec::new();
                 sample.decode(&bytes, &mut numbers);
-                Value::Numbers(numbers)
+                Value::Numbers(sample, numbers)
             }
         }))
     }

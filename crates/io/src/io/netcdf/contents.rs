@@ -14,7 +14,8 @@ pub(super) struct Dimension {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     Text(String),
-    Numbers(Vec<f64>),
+    /// Numbers of a type.
+    Numbers(Sample, Vec<f64>),
 }
 
 /// A variable.
@@ -33,15 +34,23 @@ impl Variable {
     pub(super) fn text(&self, name: &str) -> Option<&str> {
         match self.attribute(name)? {
             Value::Text(text) => Some(text.trim_matches(|c: char| c.is_whitespace() || c == '\0')),
-            Value::Numbers(_) => None,
+            Value::Numbers(..) => None,
         }
     }
 
     /// Returns the numbers of an attribute; none where it is absent, or text.
     pub(super) fn numbers(&self, name: &str) -> &[f64] {
         match self.attribute(name) {
-            Some(Value::Numbers(numbers)) => numbers,
+            Some(Value::Numbers(_, numbers)) => numbers,
             Some(Value::Text(_)) | None => &[],
+        }
+    }
+
+    /// Returns the type of the numbers of an attribute.
+    pub(super) fn type_of_numbers(&self, name: &str) -> Option<Sample> {
+        match self.attribute(name)? {
+            Value::Numbers(sample, _) => Some(*sample),
+            Value::Text(_) => None,
         }
     }
 
@@ -73,6 +82,11 @@ impl Sample {
             Self::I32 | Self::U32 | Self::F32 => 4,
             Self::I64 | Self::U64 | Self::F64 => 8,
         }
+    }
+
+    /// Returns whether it has whole numbers.
+    pub(super) fn is_whole(self) -> bool {
+        self.sample_type() == SampleType::Integer
     }
 
     /// Returns what the number for "no value" is rounded to.

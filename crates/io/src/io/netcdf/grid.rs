@@ -102,7 +102,14 @@ impl Grid {
         let known = |kind, unit| {
             let on_earth =
                 Some(earth::Coordinates::Geographic).filter(|_| kind == CoordinateKind::Geographic);
-            Some(CoordinateSystem { kind, epsg: None, name: None, on_earth, unit })
+            Some(CoordinateSystem {
+                kind,
+                epsg: None,
+                name: None,
+                on_earth,
+                unit,
+                vertical: Default::default(),
+            })
         };
         let is_geographic =
             described.as_ref().is_some_and(|system| system.kind == CoordinateKind::Geographic);
@@ -115,7 +122,14 @@ impl Grid {
                 let (epsg, name) =
                     (epsg.and_then(|system| system.epsg), described.and_then(|system| system.name));
                 let (kind, unit) = (CoordinateKind::Projected, LengthUnit::Kilometre);
-                Some(CoordinateSystem { kind, epsg, name, on_earth: None, unit })
+                Some(CoordinateSystem {
+                    kind,
+                    epsg,
+                    name,
+                    on_earth: None,
+                    unit,
+                    vertical: Default::default(),
+                })
             }
             (AxisUnit::Metre, AxisUnit::Metre) => {
                 let plane = described.or_else(|| known(CoordinateKind::Projected, LengthUnit::Metre))?;

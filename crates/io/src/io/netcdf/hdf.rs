@@ -99,21 +99,21 @@ fn value(value: &NcAttrValue) -> Option<Value> {
         NcAttrValue::Chars(text) => Value::Text(text.clone()),
         NcAttrValue::Strings(texts) => Value::Text(texts.first()?.clone()),
         NcAttrValue::UserDefined { .. } => return None,
-        NcAttrValue::Bytes(list) => numbers(list),
-        NcAttrValue::UBytes(list) => numbers(list),
-        NcAttrValue::Shorts(list) => numbers(list),
-        NcAttrValue::UShorts(list) => numbers(list),
-        NcAttrValue::Ints(list) => numbers(list),
-        NcAttrValue::UInts(list) => numbers(list),
-        NcAttrValue::Int64s(list) => Value::Numbers(list.iter().map(|&number| number as f64).collect()),
-        NcAttrValue::UInt64s(list) => Value::Numbers(list.iter().map(|&number| number as f64).collect()),
-        NcAttrValue::Floats(list) => numbers(list),
-        NcAttrValue::Doubles(list) => numbers(list),
+        NcAttrValue::Bytes(list) => numbers(Sample::I8, list),
+        NcAttrValue::UBytes(list) => numbers(Sample::U8, list),
+        NcAttrValue::Shorts(list) => numbers(Sample::I16, list),
+        NcAttrValue::UShorts(list) => numbers(Sample::U16, list),
+        NcAttrValue::Ints(list) => numbers(Sample::I32, list),
+        NcAttrValue::UInts(list) => numbers(Sample::U32, list),
+        NcAttrValue::Int64s(list) => Value::Numbers(Sample::I64, list.iter().map(|&n| n as f64).collect()),
+        NcAttrValue::UInt64s(list) => Value::Numbers(Sample::U64, list.iter().map(|&n| n as f64).collect()),
+        NcAttrValue::Floats(list) => numbers(Sample::F32, list),
+        NcAttrValue::Doubles(list) => numbers(Sample::F64, list),
     })
 }
 
-fn numbers<T: Copy + Into<f64>>(list: &[T]) -> Value {
-    Value::Numbers(list.iter().map(|&number| number.into()).collect())
+fn numbers<T: Copy + Into<f64>>(sample: Sample, list: &[T]) -> Value {
+    Value::Numbers(sample, list.iter().map(|&number| number.into()).collect())
 }
 
 /// The bytes of a file, for the crate.

@@ -1,23 +1,25 @@
-//! What samples mean: numbers that are no value, and packed values.
+//! What samples mean: numbers that are no value, packed values, their unit and direction.
 
 use super::super::Flaw;
-use super::super::samples::{NoData, single};
+use super::super::samples::{NoData, Unpacking};
+use super::super::vertical::{ValueFacts, ValueUnit, direction};
 use super::axis::packing;
 use super::contents::{Sample, Variable};
+use meshbrush_core::layers::PositiveDepth;
 
 /// Most numbers for "no value" of a variable.
 const MOST_MARKS: usize = 16;
+/// What helps where a value is too large.
+const REMEDY: &str = "If it marks pixels without a value, say so in the file with the attribute _FillValue.";
+const EVERYTHING: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// How samples become values.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(super) struct Packing {
-    marks: Vec<NoData>,
-    /// The least and the greatest sample that is a value.
-    valid: [f64; 2],
-    scale: f64,
-    offset: f64,
+    unpacking: Unpacking,
     /// What is added to negative samples that are meant without a sign; 0 where they have one.
     wrap: f64,
+    positive: Option<PositiveDepth>,
 }
 
 impl Packing {
@@ -34,33 +36,51 @@ impl Packing {
         let default = if fill.is_empty() { sample.default_fill() } else { None };
         let marks = fill.iter().chain(missing).copied().chain(default).take(MOST_MARKS);
         let marks = marks.map(|mark| NoData::rounded(number(mark), sample.sample_type())).collect();
-        let mut valid = [f64::NEG_INFINITY, f64::INFINITY];
-        // Files disagree whether the valid range of packed values is packed too.
-        if (scale, offset) == (1.0, 0.0) {
-            if let [least, greatest] = variable.numbers("valid_range")[..] {
-                valid = [number(least), number(greatest)];
-            }
-            let end = |name: &str| variable.numbers(name).first().map(|&end| number(end));
-            valid = [end("valid_min").unwrap_or(valid[0]), end("valid_max").unwrap_or(valid[1])];
-        }
-        // Files that state no range write one that holds nothing.
-        if valid[0] >= valid[1] || valid.iter().any(|end| end.is_nan()) {
-            valid = [f64::NEG_INFINITY, f64::INFINITY];
-        }
-        Self { marks, valid, scale, offset, wrap }
+        let valid = valid_samples(variable, number);
+        let unit = ValueUnit::named(variable.text("units").unwrap_or_default());
+        let has_declared = !fill.is_empty() || !missing.is_empty();
+        let unpacking =
+            Unpacking { marks, has_declared, valid, scale, offset, unit, ..Unpacking::plain(REMEDY) };
+        let positive = direction(variable.text("positive"), variable.text("standard_name"));
+        Self { unpacking, wrap, positive }
     }
 
     /// Returns the value of a sample; NaN where it is none.
     ///
     /// # Errors
     /// Fails with a sentence when the value is infinite, or too large.
-    pub(super) fn value(&self, sample: f64) -> Result<f32, Flaw> {
-        let sample = if sample < 0.0 { sample + self.wrap } else { sample };
-        let [least, greatest] = self.valid;
-        if self.marks.iter().any(|mark| mark.is(sample)) || sample < least || sample > greatest {
-            return Ok(f32::NAN);
-        }
-        let remedy = "If it marks pixels without a value, say so in the file with the attribute _FillValue.";
-        single(sample * self.scale + self.offset, remedy)
+    pub(super) fn value(&mut self, sample: f64) -> Result<f32, Flaw> {
+        self.unpacking.value(if sample < 0.0 { sample + self.wrap } else { sample })
     }
+
+    /// Returns what a person should know about the values that were read.
+    pub(super) fn facts(self) -> ValueFacts {
+        ValueFacts { positive: self.positive, ..self.unpacking.facts() }
+    }
+}
+
+/// Returns the least and the greatest sample that is a value. `number` is what a sample in the file stands for.
+///
+/// Ends of the type of the samples are packed, as the samples are. Floating-point ends of packed whole
+/// numbers are values, as the NetCDF User Guide has it.
+fn valid_samples(variable: &Variable, number: impl Fn(f64) -> f64) -> [f64; 2] {
+    let (scale, offset) = packing(variable);
+    let end = |name: &str| variable.numbers(name).first().copied();
+    let range = match variable.numbers("valid_range")[..] {
+        [least, greatest] => [least, greatest],
+        _ => EVERYTHING,
+    };
+    let ends = [end("valid_min").unwrap_or(range[0]), end("valid_max").unwrap_or(range[1])];
+    let types = ["valid_range", "valid_min", "valid_max"].map(|name| variable.type_of_numbers(name));
+    let are_values = variable.sample.is_some_and(Sample::is_whole)
+        && (scale, offset) != (1.0, 0.0)
+        && !types.into_iter().flatten().any(Sample::is_whole);
+    let [least, greatest] = match are_values {
+        true => ends.map(|end| (end - offset) / scale),
+        false => ends.map(number),
+    };
+    let is_turned = are_values && scale < 0.0;
+    let valid = if is_turned { [greatest, least] } else { [least, greatest] };
+    // Files that state no range write one that holds nothing.
+    if valid[0] < valid[1] { valid } else { EVERYTHING }
 }

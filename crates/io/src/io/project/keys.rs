@@ -6,11 +6,12 @@ use super::VERSION;
 use super::settings::Saved;
 
 /// Texts in which one key or word, `qqqq`, is unknown, beside the place that it stands in.
-const PLACES: [(&str, &str); 32] = [
+const PLACES: [(&str, &str); 33] = [
     ("", r#"{"qqqq":1}"#),
     ("unit", r#"{"unit":"qqqq"}"#),
     ("background", r#"{"background":{"qqqq":1}}"#),
     ("domain", r#"{"domain":{"qqqq":1}}"#),
+    ("domain.cuts", r#"{"domain":{"cuts":[{"qqqq":1}]}}"#),
     ("domain.shape", r#"{"domain":{"shape":"qqqq"}}"#),
     ("boundary", r#"{"boundary":"qqqq"}"#),
     ("cleaning", r#"{"cleaning":{"qqqq":1}}"#),
@@ -50,7 +51,8 @@ const KEYS: &str = "\
     paths spacing transfer layers gradation rule max_triangles max_memory
 unit: none m km degrees
 background: name part bounds opacity
-domain: bounds shape polygons projection
+domain: bounds shape polygons projection cuts
+domain.cuts: rect coordinates eastward
 domain.shape: whole formula polygons
 boundary: report fitted_with_diameter on_outline_with_diameter
 cleaning: parts keep_pinches

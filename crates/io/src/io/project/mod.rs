@@ -41,6 +41,7 @@ mod part_reader;
 mod paths;
 mod pixels;
 mod saved_background;
+mod saved_cut;
 mod settings;
 mod stored_layers;
 mod tiled;

@@ -11,7 +11,7 @@ use super::archive::{Archive, ArchivePart, Unpacking};
 use super::part_names::{PartData, PartNames};
 use super::{BACKGROUND, SETTINGS, lists, pixels};
 use meshbrush_core::document::Picture;
-use meshbrush_core::domain::{Domain, DomainShape, Polygon, Region, RegionError};
+use meshbrush_core::domain::{CutFrame, Domain, DomainShape, OutlineOnEarth, Polygon, Region, RegionError};
 use meshbrush_core::layers::{Mask, ShapeList, Shapes, Threats};
 use meshbrush_core::raster::RasterPyramid;
 use meshbrush_mesh::geometry::Rect;
@@ -37,11 +37,19 @@ pub(super) struct PartReader<'b, 'a> {
 }
 
 impl PartReader<'_, '_> {
-    /// Returns the shape of a domain from the polygons of its part.
-    pub fn domain(&mut self, name: Option<&str>, bounds: Rect) -> Result<DomainShape, PlacedFlaw> {
+    /// Returns the shape of a domain from the polygons of its part. Without `cuts`, the rectangles that cut
+    /// it are found, as projects up to version 11 have none.
+    pub fn domain(
+        &mut self,
+        name: Option<&str>,
+        bounds: Rect,
+        on_earth: &OutlineOnEarth,
+        cuts: Option<Vec<CutFrame>>,
+    ) -> Result<DomainShape, PlacedFlaw> {
         if let Some(PartData::Region(region)) = name.and_then(|name| self.names.get(name))
             && self.polygons.is_none()
             && *region.frame() == bounds
+            && cuts.as_ref().is_none_or(|cuts| region.cuts() == cuts)
         {
             return Ok(DomainShape::Region(region.clone()));
         }
@@ -50,7 +58,8 @@ impl PartReader<'_, '_> {
             (None, Some(name)) => self.list(name, DOMAIN)?.polygons,
             (None, None) => self.old_polygons()?,
         };
-        let region = stored_region(polygons, bounds).map_err(|error| Flaw::Syntax(error.to_string()))?;
+        let region = stored_region(polygons, bounds, on_earth, cuts);
+        let region = region.map_err(|error| Flaw::Syntax(error.to_string()))?;
         if let Some(name) = name {
             self.names.insert(name, PartData::Region(region.clone()));
         }
@@ -159,8 +168,17 @@ impl PartReader<'_, '_> {
     }
 }
 
-fn stored_region(polygons: Vec<Polygon>, bounds: Rect) -> Result<Arc<Region>, RegionError> {
-    let domain = Domain::of_stored_polygons(polygons, bounds)?;
+fn stored_region(
+    polygons: Vec<Polygon>,
+    bounds: Rect,
+    on_earth: &OutlineOnEarth,
+    cuts: Option<Vec<CutFrame>>,
+) -> Result<Arc<Region>, RegionError> {
+    let domain = Domain::of_stored_polygons(polygons, bounds, on_earth)?;
+    let domain = match cuts {
+        Some(cuts) => domain.cut_by(cuts),
+        None => domain,
+    };
     domain.region().cloned().ok_or(RegionError::NoArea)
 }
 

@@ -14,10 +14,11 @@ use super::part_names::{PartData, PartNames};
 use super::part_reader::PartReader;
 use super::paths::SavedPaths;
 use super::saved_background::SavedBackground;
+use super::saved_cut::SavedCut;
 use super::stored_layers::{StoredLayer, check_raster_sizes};
 use super::{FORMAT, VERSION};
 use meshbrush_core::document::Settings;
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, Domain, DomainShape, OutlineOnEarth};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::field::{Formula, Transfer};
 use meshbrush_core::raster::is_raster_size;
@@ -90,6 +91,9 @@ pub(super) struct SavedDomain {
     /// As PROJ writes it; since version 6.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     projection: Option<String>,
+    /// What cuts polygons off from their surroundings; since version 12.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    cuts: Option<Vec<SavedCut>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -239,6 +243,7 @@ impl Saved {
                 },
                 polygons: settings.domain.region().cloned().map(PartData::Region).and_then(name_of),
                 projection: settings.domain.projection.map(|projection| projection.to_string()),
+                cuts: settings.domain.region().map(|region| region.cuts().iter().map(SavedCut::of).collect()),
             },
             boundary: match settings.boundary {
                 BoundaryTreatment::Report => SavedBoundary::Report,
@@ -316,7 +321,13 @@ impl Saved {
         let shape = match self.domain.shape {
             SavedShape::Whole => DomainShape::Whole,
             SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
-            SavedShape::Polygons => parts.domain(self.domain.polygons.as_deref(), bounds)?,
+            SavedShape::Polygons => {
+                let on_earth = OutlineOnEarth { file: None, projection };
+                let load =
+                    |cuts: Vec<SavedCut>| cuts.iter().map(SavedCut::load).collect::<Result<Vec<_>, _>>();
+                let cuts = self.domain.cuts.map(load);
+                parts.domain(self.domain.polygons.as_deref(), bounds, &on_earth, cuts.transpose()?)?
+            }
         };
         check_raster_sizes(&self.layers)?;
         let layers =
@@ -373,7 +384,7 @@ pub(super) fn formula(of: &str, text: &str) -> Result<Formula, PlacedFlaw> {
         .map_err(|mistake| Flaw::Syntax(format!("the formula of \"{of}\" is not valid. {mistake}")).into())
 }
 
-fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
+pub(super) fn sentence(error: impl std::fmt::Display) -> PlacedFlaw {
     Flaw::Syntax(error.to_string()).into()
 }
 

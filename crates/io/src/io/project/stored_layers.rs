@@ -2,19 +2,18 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::super::error::PlacedFlaw;
-use super::super::layers::{LayerData, SavedLayer, Stored, TextError};
+use super::super::layers::{LayerData, LoadedRaster, SavedLayer, Stored, TextError};
 use super::super::{Flaw, KeyFault};
 use super::part_names::{PartData, PartNames};
 use super::part_reader::PartReader;
 use super::settings::{checked_size, corners, rect};
 use meshbrush_core::document::MOST_RASTER_PIXELS;
 use meshbrush_core::layers::{Layer, LayerId, Mask, Shapes, Threats};
-use meshbrush_core::raster::{RasterPyramid, check_values};
+use meshbrush_core::raster::check_values;
 use meshbrush_mesh::text::Grouped;
 
 /// A layer with its identifier, and the parts with its data.
@@ -119,7 +118,7 @@ impl LayerData for InProject<'_, '_, '_> {
 
     const STORED: Stored = Stored::InProject;
 
-    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, PlacedFlaw> {
+    fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, PlacedFlaw> {
         let stored = self.raster.as_ref();
         let stored = stored.ok_or_else(|| layer.error("its pixels are not part of the project."))?;
         let (bounds, size) = (rect("raster", stored.bounds)?, checked_size([stored.columns, stored.rows])?);
@@ -128,7 +127,7 @@ impl LayerData for InProject<'_, '_, '_> {
         if let Some(values) = layer.raster_values() {
             check_values(&raster, values).map_err(|problem| layer.error(problem))?;
         }
-        Ok(raster)
+        Ok(raster.into())
     }
 
     fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, PlacedFlaw> {

@@ -3,25 +3,27 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use super::super::geojson::{self, Outline};
 use super::super::layers::{
-    LayerData, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
+    LayerData, LoadedRaster, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
 };
-use super::super::settings::{ReadRegion, RegionCoordinates, SavedSettings, Storage, Usual};
+use super::super::settings::{ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage, Usual};
 use super::super::{
     DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
 };
 use super::LoadedLayer;
 use super::grid_region::contour_of_grid;
-use super::notes::{cut_at_antimeridian, in_the_plane, notes};
+use super::notes::{
+    cut_at_antimeridian, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
+};
+use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
-use meshbrush_core::domain::{BoundaryMarks, Domain, NamedPolygon, Polygon, RegionError};
+use meshbrush_core::domain::{BoundaryMarks, Domain, OutlineOnEarth, Polygon};
 use meshbrush_core::earth::Coordinates;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerId, Mask, PaintLayers, Shapes, Threats};
-use meshbrush_core::raster::{RasterPyramid, RasterValues};
+use meshbrush_core::raster::RasterValues;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::CoarseError;
 use meshbrush_mesh::text::{LengthUnit, abridged};
@@ -75,8 +77,8 @@ impl<'a> Loading<'a> {
     /// Returns the polygons of a file, or of data in memory of this name.
     fn outline(&self, file: &Path) -> Result<Outline, ReadError> {
         match self.given.shapes(file) {
-            Some(text) => geojson::read_outline_from(text, file),
-            None => (self.read_outline)(file, self.meter),
+            Some(text) => geojson::read_outline_from(text, file).map(Outline::in_degrees),
+            None => (self.read_outline)(file, self.meter).map(Outline::in_degrees),
         }
     }
 }
@@ -91,6 +93,8 @@ pub struct Loaded {
     pub coordinates: Option<Coordinates>,
     /// Notes for a person, a sentence each.
     pub notes: Vec<String>,
+    /// Those of them on what has no effect.
+    pub without_effect: Vec<String>,
 }
 
 impl SavedSettings {
@@ -103,14 +107,46 @@ impl SavedSettings {
         let unsuited = |error: SettingsError| LoadError::Unsuited(error.to_string());
         check_layer_count(self.layer.len()).map_err(unsuited)?;
         let mut files = Files::new(loading);
-        let settings = self.load(name, &loading.usual, &mut files)?;
+        let mut settings = self.load(name, &loading.usual, &mut files)?;
+        let idle = mark_notes(&self.domain, &settings);
+        let opened = self.open_boundary(&mut settings, &mut files)?;
         check_outline(&settings)?;
         settings.check_depth_unit().map_err(unsuited)?;
         // Without a domain of its own, the mesh covers all rasters.
         let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
-        let notes = files.note.into_iter().chain(notes(&settings, has_frame));
-        let notes = notes.map(|note| abridged(&note)).collect();
-        Ok(Loaded { settings, paint: files.paint, coordinates: files.coordinates, notes })
+        let without_effect = notes(&settings, has_frame).chain(idle.without_effect).chain(opened);
+        let without_effect: Vec<String> = without_effect.map(|note| abridged(&note)).collect();
+        let in_degrees = places_in_degrees(self, &settings);
+        let facts = [files.note, idle.assumed, in_degrees, no_open_boundary(&settings)];
+        let facts = facts.into_iter().flatten().chain(files.notes).map(|note| abridged(&note));
+        let notes = facts.chain(without_effect.iter().cloned()).collect();
+        let Files { paint, coordinates, .. } = files;
+        Ok(Loaded { settings, paint, coordinates, notes, without_effect })
+    }
+
+    /// Opens the boundary of a document where `open` says. Returns notes for a person.
+    ///
+    /// # Errors
+    /// Fails when a file cannot be read, or the document has no depths and they are needed.
+    pub fn open_boundary_of(
+        &self,
+        settings: &mut Settings,
+        loading: &Loading,
+    ) -> Result<Vec<String>, LoadError> {
+        let mut files = Files::for_document(settings, None, loading);
+        files.file_coordinates = settings.coordinates_of_outlines();
+        self.open_boundary(settings, &mut files)
+    }
+
+    /// Opens the boundary where `open` says. Returns notes for a person.
+    fn open_boundary(&self, settings: &mut Settings, files: &mut Files) -> Result<Vec<String>, LoadError> {
+        let entries = &self.domain.open.0;
+        let named = entries.iter().filter_map(|entry| match entry {
+            SavedOpen::Polygons(file) => Some(Storage::polygons(files, file)),
+            _ => None,
+        });
+        let polygons = named.collect::<Result<_, _>>()?;
+        opening::open(settings, entries, OpenData { file: files.file_coordinates, polygons })
     }
 }
 
@@ -125,8 +161,12 @@ pub(super) struct Files<'a> {
     plane: Option<DocumentPlane>,
     /// See [`Loaded::coordinates`].
     coordinates: Option<Coordinates>,
+    /// What the coordinates of the domain's file are, if that is known.
+    file_coordinates: Option<Coordinates>,
     /// A sentence for a person about the polygons.
     note: Option<String>,
+    /// Sentences for a person about the data of files.
+    notes: Vec<String>,
 }
 
 impl<'a> Files<'a> {
@@ -140,7 +180,9 @@ impl<'a> Files<'a> {
             paint: PaintLayers::default(),
             plane: None,
             coordinates: None,
+            file_coordinates: None,
             note: None,
+            notes: Vec::new(),
         }
     }
 
@@ -161,7 +203,7 @@ impl<'a> Files<'a> {
     pub(super) fn one_layer(mut self, layer: &SavedLayer, id: LayerId) -> Result<LoadedLayer, LoadError> {
         let loaded = layer.load(id, &mut self)?;
         self.add_paint(layer, id)?;
-        Ok(LoadedLayer { layer: loaded, paint: self.paint.get(id).cloned(), notes: Vec::new() })
+        Ok(LoadedLayer { layer: loaded, paint: self.paint.get(id).cloned(), notes: self.notes })
     }
 
     /// Adds what a project has painted on a layer, if that is a paint layer.
@@ -205,23 +247,34 @@ impl Storage for Files<'_> {
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
         let outline = match RasterFormat::of(file) {
-            Ok(format) => contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?,
+            Ok(format) => {
+                let (outline, notes) =
+                    contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?;
+                notes.into_iter().for_each(|note| LayerData::note(self, note));
+                outline
+            }
             Err(_) => self.loading.outline(file)?,
         };
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
+        let uncertain = outline.coordinates.note().map(|note| format!("{}: {note}", file.display()));
+        uncertain.into_iter().for_each(|note| LayerData::note(self, note));
         let RegionCoordinates { assumed, projection, contour: _, positive: _, outside_nodata: _ } =
             *coordinates;
+        self.file_coordinates = outline.coordinates.on_earth(assumed);
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
-            let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
+            let on_earth = OutlineOnEarth { file: self.file_coordinates, projection: None };
+            let domain = BoundaryMarks::domain_of(&outline.polygons, bounds, &on_earth);
+            let (domain, marks) = domain.map_err(|error| unsuited(&error))?;
             return Ok(ReadRegion { domain, marks, unit: outline.coordinates.assuming(assumed).unit() });
         };
-        self.coordinates = outline.coordinates.on_earth(assumed);
+        self.coordinates = self.file_coordinates;
         let (outline, projection) = outline.projected(choice, assumed).map_err(|error| unsuited(&error))?;
         self.note = Some(in_the_plane(&outline, &projection));
         self.plane = Some(DocumentPlane { projection, assumed });
-        let (domain, marks) = domain_of(&outline.polygons, bounds).map_err(|error| unsuited(&error))?;
-        let domain = Domain { projection: Some(projection), ..domain };
+        let on_earth = OutlineOnEarth { file: self.coordinates, projection: Some(projection) };
+        let domain = BoundaryMarks::domain_of(&outline.polygons, bounds, &on_earth);
+        let (domain, marks) = domain.map_err(|error| unsuited(&error))?;
         Ok(ReadRegion { domain, marks, unit: LengthUnit::Metre })
     }
 
@@ -266,7 +319,7 @@ impl LayerData for Files<'_> {
 
     const STORED: Stored = Stored::InFiles;
 
-    fn raster(&mut self, layer: &SavedLayer) -> Result<Arc<RasterPyramid>, LoadError> {
+    fn raster(&mut self, layer: &SavedLayer) -> Result<LoadedRaster, LoadError> {
         let values = layer.raster_values().unwrap_or(RasterValues::Any);
         self.rasters.load(&layer.raster_file()?, values, &self.frame).map_err(|error| match error {
             RasterError::Read(error) => error.into(),
@@ -274,14 +327,25 @@ impl LayerData for Files<'_> {
         })
     }
 
+    fn note(&mut self, sentence: String) {
+        // Several layers may read one file.
+        if !self.notes.contains(&sentence) {
+            self.notes.push(sentence);
+        }
+    }
+
     fn threats(&mut self, layer: &SavedLayer) -> Result<Threats, LoadError> {
-        Ok(layer.indexed_threats(threats::read(layer.path(), self.loading.meter)?)?)
+        let projection = self.plane.map(|plane| plane.projection);
+        Ok(layer.indexed_threats(threats::read(layer.path(), projection, self.loading.meter)?)?)
     }
 
     fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, LoadError> {
         let (Self { loading, plane, .. }, file) = (self, layer.path());
         let read = match loading.given.shapes(file) {
-            Some(text) => shape_format::placed_shapes(shapes::read_from(text, file)?, plane.as_ref(), file)?,
+            Some(text) => {
+                let shapes = shapes::read_from(text, file)?.in_degrees();
+                shape_format::placed_shapes(shapes, plane.as_ref(), file)?
+            }
             None => shape_format::read_shapes(file, plane.as_ref(), loading.meter)?,
         };
         Ok(layer.indexed_shapes(read.shapes)?)
@@ -290,18 +354,6 @@ impl LayerData for Files<'_> {
     fn mask(&mut self, layer: &SavedLayer, file: &Path) -> Result<Mask, LoadError> {
         Ok(layer.mask_of_polygons(&self.polygons(file)?)?)
     }
-}
-
-/// Returns the domain that polygons cover, in `bounds` where these are given, and the names that they bring.
-fn domain_of(
-    polygons: &[NamedPolygon],
-    bounds: Option<Rect>,
-) -> Result<(Domain, BoundaryMarks), RegionError> {
-    let Some(bounds) = bounds else { return BoundaryMarks::domain_of(polygons) };
-    let plain = polygons.iter().map(|named| named.polygon.clone()).collect();
-    let domain = Domain::of_stored_polygons(plain, bounds)?;
-    let marks = BoundaryMarks::of_polygons(polygons, &domain);
-    Ok((domain, marks))
 }
 
 /// Refuses a distance to the outline or to the coasts of a domain that has none.

@@ -11,8 +11,8 @@ use meshbrush_core::layers::{DepthRule, DepthSizes, PositiveDepth};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
-/// Returns the polygons of the water of a grid, or of its values, in its own coordinates. Without a
-/// projection, only the part in `bounds` is read where these are given.
+/// Returns the polygons of the water of a grid, or of its values, in its own coordinates, and sentences for a
+/// person about it. Without a projection, only the part in `bounds` is read where these are given.
 ///
 /// # Errors
 /// Fails when the file cannot be read, does not say where it lies, or has no water.
@@ -22,7 +22,7 @@ pub fn contour_of_grid(
     bounds: Option<Rect>,
     region: &RegionCoordinates,
     meter: &Meter,
-) -> Result<Outline, LoadError> {
+) -> Result<(Outline, Vec<String>), LoadError> {
     let unsuited = |problem: &str| LoadError::Unsuited(format!("{}: {problem}", file.display()));
     let ReadRaster::Grid(read) = format.read() else {
         return Err(unsuited(
@@ -32,6 +32,7 @@ pub fn contour_of_grid(
     let area = bounds.filter(|_| region.projection.is_none());
     let window = area.map(|area| GridWindow { area, plane: None });
     let grid = read(file, &GridPlace { over: None, window }, meter)?;
+    let positive = region.positive.or(grid.facts.positive).unwrap_or(PositiveDepth::Up);
     let coordinates = grid.coordinates().assuming(region.assumed);
     let lengths = match coordinates.unit() {
         LengthUnit::Degree => PixelLengths::Degrees,
@@ -39,11 +40,12 @@ pub fn contour_of_grid(
     };
     let polygons = match region.outside_nodata {
         true => region.contour.polygons_of_values(&grid.raster, lengths),
-        false => region.contour.polygons(&grid.raster, lengths, depth_of(region.positive)),
+        false => region.contour.polygons(&grid.raster, lengths, depth_of(positive)),
     };
     let polygons = polygons.map_err(|error| unsuited(&error.to_string()))?;
     let unnamed = |polygon: Polygon| NamedPolygon { polygon, name: String::new() };
-    Ok(Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates })
+    let notes = grid.facts.notes.iter().map(|note| format!("{}: {note}", file.display())).collect();
+    Ok((Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates }, notes))
 }
 
 /// Returns the depth for a value.

@@ -7,6 +7,7 @@ mod files;
 mod grid_region;
 mod notes;
 mod open;
+mod opening;
 #[cfg(test)]
 mod tests;
 mod text;
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::PlacedFlaw;
 use super::layers::FindFile;
-use super::netcdf::file_and_variable;
+use super::raster_file::file_and_part;
 use super::settings::SavedSettings;
 use super::{Flaw, KeyFault, ReadError};
 use crate::io::disk::{self, File};
@@ -100,7 +101,7 @@ impl Recipe {
 /// Returns the path of an input file, which must be there.
 fn found_in(folder: &Path, name: &str) -> Result<PathBuf, String> {
     let path = folder.join(name);
-    let (file, _) = file_and_variable(&path);
+    let (file, _) = file_and_part(&path);
     match disk::find(&file) {
         Ok(true) => Ok(path),
         Ok(false) => Err(format!("{} is not a file.", path.display())),

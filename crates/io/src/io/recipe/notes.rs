@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::geojson::Outline;
+use super::super::settings::{SavedDomain, SavedSettings, marks_of};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
 use meshbrush_core::earth::Projection;
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterSource};
 use meshbrush_mesh::geometry::Rect;
-use meshbrush_mesh::text::short_name;
+use meshbrush_mesh::text::{LengthUnit, short_name};
 
 /// The share of a rectangle that a raster covers which covers all of it, but for rounding.
 const WHOLE: f64 = 1.0 - 1e-6;
@@ -57,6 +59,52 @@ pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = Strin
     };
     let visible = || settings.layers.iter().filter(|layer| layer.visible);
     visible().filter_map(note).chain(missing_pieces(settings))
+}
+
+/// Returns a note where places of pins and paths are taken for longitudes and latitudes.
+pub fn places_in_degrees(saved: &SavedSettings, settings: &Settings) -> Option<String> {
+    let is_same = |typed: &[f64; 2], place: &DVec2| DVec2::from(*typed) == *place;
+    let are_same =
+        |typed: &[[f64; 2]], places: &[DVec2]| typed.iter().zip(places).all(|(a, b)| is_same(a, b));
+    let routes = saved.paths.routes.iter().zip(&settings.paths.routes);
+    let is_moved = !are_same(&saved.pins.at, &settings.pins) || !{ routes }.all(|(a, b)| are_same(a, b));
+    is_moved.then(|| {
+        "Places of pins and paths that are not in the rectangle of the domain are taken for longitudes and latitudes, in \
+         degrees."
+            .to_owned()
+    })
+}
+
+/// Returns a note where a region on the Earth has no open boundary.
+pub fn no_open_boundary(settings: &Settings) -> Option<String> {
+    let is_on_earth = settings.domain.projection.is_some() || settings.unit == LengthUnit::Degree;
+    let is_region = is_on_earth && settings.domain.region().is_some();
+    let pieces = || BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks);
+    is_region.then(pieces).flatten()?.closed_note()
+}
+
+/// Notes on names, types and splits of a text.
+#[derive(Debug, Default)]
+pub struct MarkNotes {
+    /// That places are longitudes and latitudes.
+    pub assumed: Option<String>,
+    /// Those that have no effect.
+    pub without_effect: Vec<String>,
+}
+
+/// Returns notes on names, types and splits of a text. The boundary of a formula is that of its mesh, which
+/// is not there yet.
+pub fn mark_notes(domain: &SavedDomain, settings: &Settings) -> MarkNotes {
+    let given = marks_of(&domain.splits, &domain.names, &domain.types);
+    let pieces = || BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks);
+    let Some(pieces) = (!given.is_empty()).then(pieces).flatten() else { return MarkNotes::default() };
+    let marks = domain.marks_on(&settings.domain);
+    let assumed = (marks != given).then(|| {
+        "Places of names, types and splits of the boundary are taken for longitudes and latitudes, in degrees, where \
+         these are on the boundary."
+            .to_owned()
+    });
+    MarkNotes { assumed, without_effect: pieces.idle_marks(&marks) }
 }
 
 /// Returns the names of pieces of the boundary that visible layers measure to, and that no piece has.

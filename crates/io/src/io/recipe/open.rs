@@ -23,7 +23,7 @@ pub struct OpenedRecipe {
 pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
     let recipe = read(path)?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let Loaded { settings, paint, mut notes, coordinates: _ } =
+    let Loaded { settings, paint, mut notes, without_effect: _, coordinates: _ } =
         recipe.settings.load_files(&name, &Loading::for_document(meter))?;
     notes.extend(not_held(&recipe, settings.boundary));
     let document = Document::new(settings.with_limits_of_the_grid()?, Some(paint));

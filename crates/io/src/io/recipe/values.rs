@@ -26,6 +26,8 @@ pub struct LoadedDocument {
     pub coordinates: Option<Coordinates>,
     /// Notes for a person, a sentence each.
     pub notes: Vec<String>,
+    /// Those of them on what has no effect.
+    pub without_effect: Vec<String>,
 }
 
 /// A layer for a document that is there.
@@ -87,10 +89,11 @@ impl SavedSettings {
     /// # Errors
     /// Fails as [`Self::load_files`] does, and when no document can have these settings.
     pub fn into_document(&self, name: &str, loading: &Loading) -> Result<LoadedDocument, LoadError> {
-        let Loaded { settings, paint, notes, coordinates } = self.load_files(name, loading)?;
+        let Loaded { settings, paint, notes, without_effect, coordinates } =
+            self.load_files(name, loading)?;
         let document = Document::new(settings.with_limits_of_the_grid()?, Some(paint));
         let document = document.map_err(|error| LoadError::Unsuited(error.to_string()))?;
-        Ok(LoadedDocument { document, coordinates, notes })
+        Ok(LoadedDocument { document, coordinates, notes, without_effect })
     }
 }
 
@@ -141,7 +144,7 @@ impl SavedLayer {
     ) -> Result<LoadedLayer, LoadError> {
         let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
         let alone = Settings { layers: vec![loaded.layer.clone()], ..settings.clone() };
-        let notes = notes(&alone, true).map(|note| abridged(&note)).collect();
+        let notes = loaded.notes.into_iter().chain(notes(&alone, true)).map(|note| abridged(&note)).collect();
         Ok(LoadedLayer { notes, ..loaded })
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPins,
+    RegionCoordinates, SavedDomain, SavedLimits, SavedMesh, SavedOpen, SavedOutput, SavedParts, SavedPins,
     SavedSettings, SavedTreatment,
 };
 use crate::io::layers::{
@@ -17,7 +17,6 @@ use meshbrush_core::earth::{
     Coordinates, CoordinatesTextError, Projection, ProjectionChoice, ProjectionTextError,
 };
 use meshbrush_core::field::{Formula, Transfer};
-use meshbrush_core::layers::PositiveDepth;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::MOST_TRIANGLES;
 use meshbrush_mesh::text::{Bytes, Grouped, Number, excerpt};
@@ -94,7 +93,12 @@ impl SavedSettings {
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let of_layers = self.layer.iter().flat_map(|layer| [layer.file.as_ref(), layer.mask_file.as_ref()]);
         let of_paths = self.keep_out.iter().map(|region| region.file.as_ref());
-        of_layers.chain([self.domain.region.as_ref()]).chain(of_paths).flatten().map(PathBuf::as_path)
+        let of_openings = self.domain.open.0.iter().map(|entry| match entry {
+            SavedOpen::Polygons(file) => Some(file),
+            _ => None,
+        });
+        let of_domain = [self.domain.region.as_ref()].into_iter().chain(of_openings);
+        of_layers.chain(of_domain).chain(of_paths).flatten().map(PathBuf::as_path)
     }
 
     /// Puts the path of each file in place of its name.
@@ -108,6 +112,13 @@ impl SavedSettings {
             Ok(())
         };
         place("region", &mut self.domain.region).map_err(|fault| fault.within("domain"))?;
+        for entry in &mut self.domain.open.0 {
+            if let SavedOpen::Polygons(file) = entry {
+                let mut name = Some(file.clone());
+                place("open", &mut name).map_err(|fault| fault.within("domain"))?;
+                *entry = SavedOpen::Polygons(name.unwrap_or_default());
+            }
+        }
         for (index, layer) in self.layer.iter_mut().enumerate() {
             let placed =
                 place("file", &mut layer.file).and_then(|()| place("mask_file", &mut layer.mask_file));
@@ -210,7 +221,7 @@ impl SavedDomain {
         Ok(RegionCoordinates {
             contour: self.contour(),
             outside_nodata: self.outside_nodata,
-            positive: self.positive.map_or(PositiveDepth::Up, Into::into),
+            positive: self.positive.map(Into::into),
             assumed: self.assumed()?,
             projection: self.projection()?,
         })

@@ -6,8 +6,11 @@ use std::sync::Arc;
 use super::{SavedDomain, SavedSettings, SavedTreatment, marks_of};
 use crate::io::KeyFault;
 use crate::io::layers::{SavedLayer, TextError};
+use glam::DVec2;
 use meshbrush_core::document::{PathPlan, Settings};
-use meshbrush_core::domain::{BoundaryMarks, BoundaryTreatment, DepthContour, Domain, DomainShape, Polygon};
+use meshbrush_core::domain::{
+    BoundaryMarks, BoundaryPieces, BoundaryTreatment, DepthContour, Domain, DomainShape, Polygon,
+};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::field::{RefinementRule, Transfer};
 use meshbrush_core::layers::{Layer, LayerId, LayerKind, PositiveDepth};
@@ -56,8 +59,8 @@ pub struct ReadRegion {
 pub struct RegionCoordinates {
     /// The contour of a grid that is the region.
     pub contour: DepthContour,
-    /// Whether its values are heights or depths.
-    pub positive: PositiveDepth,
+    /// Whether its values are heights or depths; `None` for what its file says, or else heights.
+    pub positive: Option<PositiveDepth>,
     /// Whether the domain is where the grid has values, in place of a contour.
     pub outside_nodata: bool,
     /// What coordinates of files are that do not name a known system.
@@ -132,6 +135,7 @@ impl<L> SavedSettings<L> {
         let unit = self.domain.unit.map_or(unit, Into::into);
         self.lengths.check(unit)?;
         let bounds = domain.bounds;
+        let marks = self.domain.marks_on(&domain).before(marks);
         let spacing = self.mesh.spacing.unwrap_or(bounds.size().max_element() / USUAL_CELLS);
         let lattice = Lattice::covering(bounds, spacing, usual.most_coarse).map_err(CoarseError::from)?;
         let coarse_diameter = domain.longest_on_earth(bisection_edge_length(lattice.spacing(), 0));
@@ -144,9 +148,11 @@ impl<L> SavedSettings<L> {
             None => (domain, spacing),
         };
         let keep_out = self.keep_out.iter().map(|region| region.load(|file| storage.polygons(file)));
+        let places = |typed: Vec<DVec2>| typed.into_iter().map(|at| domain.place_of(at)).collect::<Vec<_>>();
+        let pins = places(self.pins.points()?);
         let paths = PathPlan {
             keep_out: keep_out.collect::<Result<_, _>>()?,
-            routes: self.paths.routes()?,
+            routes: self.paths.routes()?.into_iter().map(places).collect(),
             names: Vec::new(),
             cost: self.paths.checked_cost()?,
             clearance: self.paths.checked_clearance()?,
@@ -158,8 +164,8 @@ impl<L> SavedSettings<L> {
             unit,
             boundary: BoundaryTreatment::usual(domain.longest_on_earth(spacing)),
             domain,
-            boundary_marks: Arc::new(self.domain.marks(marks)),
-            pins: Arc::new(self.pins.points()?),
+            boundary_marks: Arc::new(marks),
+            pins: Arc::new(pins),
             paths: Arc::new(paths),
             spacing,
             transfer,
@@ -224,14 +230,17 @@ impl super::SavedDomain {
         !(self.splits.is_empty() && self.names.is_empty() && self.types.is_empty())
     }
 
-    /// Returns the marks of the text. Without names and splits there, those of the file of the region count.
-    fn marks(&self, of_file: BoundaryMarks) -> BoundaryMarks {
-        let of_text = marks_of(&self.splits, &self.names, &self.types);
-        if self.splits.is_empty() && self.names.is_empty() {
-            BoundaryMarks { types: of_text.types, ..of_file }
-        } else {
-            of_text
-        }
+    /// Returns the marks of the text, in world units. In the plane of a projection, a place that is not on
+    /// the boundary is a longitude and a latitude if that is on it.
+    pub fn marks_on(&self, domain: &Domain) -> BoundaryMarks {
+        let marks = marks_of(&self.splits, &self.names, &self.types);
+        let Some(projection) = domain.projection.filter(|_| !marks.is_empty()) else { return marks };
+        let Some(pieces) = BoundaryPieces::of_domain(domain, &BoundaryMarks::default()) else { return marks };
+        let is_on = |at: DVec2| at.is_finite() && pieces.nearest(at, pieces.tolerance()).is_some();
+        marks.moved(|at| match (is_on(at), at.y.abs() <= 90.0 && at.x.abs() <= 360.0) {
+            (false, true) => Some(projection.plane_from_geographic(at)).filter(|&at| is_on(at)).unwrap_or(at),
+            _ => at,
+        })
     }
 }
 

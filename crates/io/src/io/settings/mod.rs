@@ -9,6 +9,7 @@ mod check;
 mod lengths;
 mod load;
 mod of_settings;
+mod opening;
 mod overrides;
 mod paths;
 mod tables;
@@ -16,6 +17,7 @@ mod words;
 
 pub use lengths::{METRES, WrittenLengths};
 pub use load::{ReadRegion, RegionCoordinates, Storage, Usual};
+pub use opening::{SavedOpen, SavedOpenings};
 pub use tables::{
     SavedDomain, SavedKeepOut, SavedLimits, SavedMesh, SavedOutput, SavedParts, SavedPaths, SavedPins,
     SavedSettings, SavedTreatment,

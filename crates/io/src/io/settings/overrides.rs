@@ -10,11 +10,12 @@ impl<L> SavedSettings<L> {
     /// Returns the settings with the values of `options` in place of their own. Domain, layers, paths and
     /// pins are their own: no option goes with them.
     pub fn overridden_by<O>(self, options: &SavedSettings<O>) -> Self {
-        let SavedDomain { boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
+        let SavedDomain { open, boundary, boundary_diameter, parts, keep_pinches, .. } = &options.domain;
         let SavedMesh { spacing, rule, max_triangles, max_level, max_memory } = &options.mesh;
         let SavedLimits { h_min, h_risk, h_max, shape, gradation } = options.limits;
         Self {
             domain: SavedDomain {
+                open: if open.is_empty() { self.domain.open } else { open.clone() },
                 boundary: boundary.or(self.domain.boundary),
                 boundary_diameter: boundary_diameter.or(self.domain.boundary_diameter),
                 parts: parts.or(self.domain.parts),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::{SavedName, SavedPieceType, SavedRule, SavedUnit, WrittenLengths};
+use super::{SavedName, SavedOpenings, SavedPieceType, SavedRule, SavedUnit, WrittenLengths};
 use crate::io::layers::{SavedLayer, SavedPolygon, SavedPositive};
 use meshbrush_mesh::mesh::KeptParts;
 
@@ -109,6 +109,9 @@ pub struct SavedDomain {
     /// Whether pinches stay.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_pinches: Option<bool>,
+    /// Where the boundary is open.
+    #[serde(skip_serializing_if = "SavedOpenings::is_empty")]
+    pub open: SavedOpenings,
     /// Where the boundary is split.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub splits: Vec<[f64; 2]>,

@@ -97,7 +97,29 @@ fn holes_belong_to_the_smallest_ring_around_them() {
     let polygons = parsed(&[parts(5, &rings)]).polygons;
     let starts: Vec<Vec<f64>> =
         polygons.iter().map(|rings| rings.iter().map(|ring| bounds(ring).min.x).collect()).collect();
-    assert_eq!(starts, [vec![0.0, 10.0], vec![20.0, 30.0], vec![200.0], vec![80.0], vec![300.0]]);
+    assert_eq!(starts, [vec![0.0, 10.0], vec![20.0, 30.0], vec![200.0], vec![300.0], vec![80.0]]);
+}
+
+/// As other programs write them: turned, all in one direction, a hole before its ring, parts that touch.
+#[test]
+fn rings_are_what_they_are_around_whichever_way_they_run() {
+    let area = |rings: &[(f64, f64, bool)]| -> f64 {
+        let rings: Vec<Vec<[f64; 2]>> =
+            rings.iter().map(|&(low, high, is_clockwise)| square(low, high, is_clockwise)).collect();
+        let rings: Vec<&[[f64; 2]]> = rings.iter().map(Vec::as_slice).collect();
+        let polygons = parsed(&[parts(5, &rings)]).polygons;
+        let size = |ring: &Ring| signed_area(ring).abs();
+        polygons.iter().map(|rings| size(&rings[0]) - rings[1..].iter().map(size).sum::<f64>()).sum()
+    };
+    for ways in 0..16 {
+        let way = |n: u32| ways >> n & 1 == 1;
+        let (sea, isle, other, pond) =
+            ((0.0, 100.0, way(0)), (10.0, 20.0, way(1)), (40.0, 80.0, way(2)), (50.0, 60.0, way(3)));
+        for rings in [[sea, isle, other, pond], [pond, other, isle, sea], [isle, sea, pond, other]] {
+            assert_eq!(area(&rings), 1e4 - 100.0 - 1600.0 + 100.0, "{rings:?}");
+        }
+        assert_eq!(area(&[sea, (100.0, 130.0, way(1)), (0.0, 20.0, way(2))]), 1e4 + 900.0 - 400.0, "{ways}");
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ use super::water::{ChangedWater, WaterRows};
 use crate::app::command::Command;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use crate::app::widgets::Icon;
+use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{FeatureSize, Layer, LayerKind, WaterMiddle};
 
 /// Triangles across the water.
@@ -31,12 +32,12 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         to_help: "Wider water has no middle: there the diameter only grows with the way from narrower places.",
     };
     let changed = rows.show(ui, state);
-    let domain = &state.session.document().settings().domain;
+    let Settings { domain, boundary_marks: marks, .. } = state.session.document().settings();
     if domain.region().is_some() && found.discs().is_empty() {
         remark(ui, "Nowhere is the water so wide between two coasts: the layer asks for nothing.");
     }
     if let Some(ChangedWater { across, between }) = changed {
-        let found = between.map_or_else(|| found.clone(), |between| WaterMiddle::of(domain, between));
+        let found = between.map_or_else(|| found.clone(), |between| WaterMiddle::of(domain, marks, between));
         set_kind_once(layer, LayerKind::FeatureSize(FeatureSize { across, found }), commands);
     }
 }

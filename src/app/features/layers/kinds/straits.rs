@@ -6,6 +6,7 @@ use super::water::{ChangedWater, WaterRows};
 use crate::app::command::Command;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
 use crate::app::widgets::{Icon, ValueRow, format};
+use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{Layer, LayerKind, StraitDiscs, Straits};
 
 /// Triangles across straits.
@@ -31,7 +32,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         to_help: "Wider water is no strait.",
     };
     let changed = rows.show(ui, state);
-    let domain = &state.session.document().settings().domain;
+    let Settings { domain, boundary_marks: marks, .. } = state.session.document().settings();
     let narrowest = found.discs().first().map(|disc| domain.on_earth(disc.width, disc.center));
     let narrowest =
         narrowest.map_or("none".to_owned(), |width| state.unit().after(&format::digits(width, 4)));
@@ -39,7 +40,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         .help("Width of the narrowest strait of the domain.")
         .show(ui);
     if let Some(ChangedWater { across, between }) = changed {
-        let found = between.map_or_else(|| found.clone(), |between| StraitDiscs::of(domain, between));
+        let found = between.map_or_else(|| found.clone(), |between| StraitDiscs::of(domain, marks, between));
         set_kind_once(layer, LayerKind::Straits(Straits { across, found }), commands);
     }
 }
