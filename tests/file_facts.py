@@ -223,14 +223,18 @@ def check_pictures(program, folder, rows):
 SYSTEMS = [4258, 4283, 7844, 4490, 6668, 6318, 4230, 4277, 4301, 4806, 4807, 4312]
 #: A place in each that differs from WGS 84, in degrees from Greenwich.
 PLACES = {4230: (4, 50), 4277: (-4, 54), 4301: (138, 35), 4806: (12, 42), 4807: (2, 47), 4312: (15, 47)}
+#: Systems that PROJ knows exactly only from Greenwich: its code from there, and the longitude of the own meridian.
+FROM_GREENWICH = {4806: (4265, 12.4523333333)}
 
 
 def square(code):
     """A square of a degree in a system, and its corners in longitudes and latitudes on WGS 84 by PROJ."""
     x, y = PLACES.get(code, (140, 36) if code == 6668 else (-100, 40) if code == 6318 else (145, -38) if code in (4283, 7844) else (10, 50))
-    from_wgs = pyproj.Transformer.from_crs(4326, code, always_xy=True)
+    base, meridian = FROM_GREENWICH.get(code, (code, 0))
+    from_wgs = pyproj.Transformer.from_crs(4326, base, always_xy=True)
     corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
-    own = [tuple(float(n) for n in from_wgs.transform(*corner)) for corner in corners]
+    longitudes, latitudes = from_wgs.transform(*zip(*corners))
+    own = [(float(x - meridian), float(y)) for x, y in zip(longitudes, latitudes)]
     return own, corners
 
 
@@ -258,8 +262,7 @@ def check_systems(program, folder, rows):
         for ending, form in ((".geojson", "GeoJSON"), (".shp", "shapefile"), (".gpkg", "GeoPackage")):
             path, out = folder / f"s{code}{ending}", folder / "s.14"
             write_polygon(path, code, own)
-            run = Run(program, "mesh", "--region", path, "--projection", "auto", "--spacing", "100 km", "--boundary", "outline", "--boundary-diameter", "200 km",
-                      "--out-crs", "lonlat", "-o", out)
+            run = Run(program, "mesh", "--region", path, "--projection", "merc", "--spacing", "20 km", "--out-crs", "lonlat", "-o", out)
             assert not run.failed, f"{path}: {run.sentences}"
             lines = out.read_text().splitlines()
             nodes = np.array([list(map(float, line.split()[1:3])) for line in lines[2 : 2 + int(lines[1].split()[1])]])

@@ -206,33 +206,40 @@ impl<'a> Candidates<'a> {
         Choice { labels, change }
     }
 
-    /// Beside an open piece, leaves of the pieces near an edge the one that both its ends are on: where water
-    /// flows across does not depend on the lengths of edges.
+    /// Beside an open piece, leaves of the pieces near an edge the open one that both its ends are on, or none
+    /// that is open: where water flows across does not depend on the lengths of edges.
     fn keep_those_along(
         &self,
         edge: [DVec2; 2],
         counts: impl Fn(usize) -> bool,
         labels: &mut Vec<(u32, f64)>,
     ) {
-        let is_open = |piece: u32| self.pieces.list()[piece as usize].kind == BoundaryKind::Open;
-        if labels.len() < 2 || !labels.iter().any(|&(piece, _)| is_open(piece)) {
+        if labels.len() < 2 || !labels.iter().any(|&(piece, _)| self.is_open(piece)) {
             return;
         }
-        let reach = self.pieces.tolerance();
-        let [a, b] = edge.map(|end| {
-            let near = self.pieces.distances(end, reach, &counts);
-            near.into_iter()
-                .filter(|(_, distance)| *distance <= reach)
-                .map(|(piece, _)| piece)
-                .collect::<Vec<_>>()
-        });
-        let along: Vec<u32> = a.into_iter().filter(|piece| b.contains(piece)).collect();
-        let open = along.iter().copied().find(|&piece| is_open(piece));
-        if let Some(open) = open {
+        let [a, b] = edge.map(|end| self.at(end, &counts));
+        let along: Vec<u32> = a.iter().copied().filter(|piece| b.contains(piece)).collect();
+        if let Some(open) = along.iter().copied().find(|&piece| self.is_open(piece)) {
             labels.retain(|&(piece, _)| piece == open);
-        } else if !along.is_empty() {
-            labels.retain(|&(piece, _)| !is_open(piece));
+            return;
         }
+        let is_on_outline = !a.is_empty() && !b.is_empty();
+        // An edge across the corner between two sides is on none of them, and still open.
+        let joins_open = [&a, &b].into_iter().all(|end| end.iter().any(|&piece| self.is_open(piece)));
+        if !along.is_empty() || (is_on_outline && !joins_open) {
+            labels.retain(|&(piece, _)| !self.is_open(piece));
+        }
+    }
+
+    fn is_open(&self, piece: u32) -> bool {
+        self.pieces.list()[piece as usize].kind == BoundaryKind::Open
+    }
+
+    /// Returns the pieces that a point is on.
+    fn at(&self, point: DVec2, counts: impl Fn(usize) -> bool) -> Vec<u32> {
+        let reach = self.pieces.tolerance();
+        let near = self.pieces.distances(point, reach, counts);
+        near.into_iter().filter(|(_, distance)| *distance <= reach).map(|(piece, _)| piece).collect()
     }
 
     /// Returns the open piece on a side of the frame that has a point.
