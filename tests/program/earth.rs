@@ -180,7 +180,7 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
     folder.file("sea.geojson", frame([0.0, 50.0, 5.0, 54.0]));
     for (arguments, sentence) in [
         ("--region globe.geojson --projection auto", "goes all around the Earth"),
-        ("--region plane.geojson --projection auto", "not longitudes and latitudes"),
+        ("--region plane.geojson --projection auto", "not longitudes from −180° to 180° and latitudes"),
         ("--region far.geojson --projection merc", "times is the limit"),
         ("--region sea.geojson --projection mercator", "one of auto, metres, merc, tmerc, stere and lcc"),
         ("--region sea.geojson --projection +proj=merc+lat_ts=89", "is not a projection of this program"),
@@ -190,7 +190,7 @@ fn what_cannot_be_projected_is_refused_with_the_reason() {
         ("--region sea.geojson --projection EPSG:3857", "it does not keep angles on the ellipsoid"),
         ("--region sea.geojson --projection EPSG:27700", "its code is not known here"),
         ("--region sea.geojson --projection EPSG:4326", "it does not keep angles on the ellipsoid"),
-        ("--region web.geojson --projection auto", "Say what they are (--crs EPSG:32633"),
+        ("--region web.geojson --projection auto", "or a code such as --crs EPSG:32633"),
         ("--region sea.geojson --out-crs EPSG:32631 -o a.msh", "not in the plane of a projection"),
         ("--region sea.geojson --projection auto --target-raster depth.asc", "covers nothing of the domain"),
         (
@@ -369,7 +369,7 @@ fn a_length_with_a_unit_puts_a_region_into_metres() {
     let own = "--region utm.geojson --crs EPSG:32633 --projection EPSG:32633 --spacing 20000";
     assert_eq!(hash("--region utm.geojson --crs EPSG:32633 --spacing 20km"), hash(own));
     for (options, sentence) in [
-        ("--region local.geojson --spacing 1km", "so they cannot be projected. Say what they are (--crs"),
+        ("--region local.geojson --spacing 1km", "so they cannot be projected. Say what they are: --crs"),
         (
             "--spacing 0.1km",
             "--spacing 0.1km: lengths of this domain are plain numbers. Name a region on the Earth",

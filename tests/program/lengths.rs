@@ -82,6 +82,8 @@ fn the_tolerance_of_a_simplified_path_is_a_length_on_the_earth() {
             "lonlat",
             "--projection",
             "+proj=merc +lon_0=15",
+            "--out-crs",
+            "+proj=merc +lon_0=15",
             "--cost",
             "1 + 2*exp(-((x^2 + (y - 10560e3)^2)/30e3^2))",
         ];

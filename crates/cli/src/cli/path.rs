@@ -8,7 +8,7 @@ use std::time::Instant;
 use glam::DVec2;
 use serde::Serialize;
 
-use super::build::build_from;
+use super::build::{FinishedMesh, build_from};
 use super::details::provenance;
 use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
@@ -84,21 +84,13 @@ pub fn run(
     let simplify = typed.simplify.as_ref().map(|length| length.value);
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
     let export = export.at_speed(speed, unit);
-    if projection.is_none() && matches!(typed.out_crs, Some(OutputCoordinates::Other(_))) {
-        return Err(Failure::Usage(NOT_ON_EARTH.into()));
-    }
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
-    let coordinates = |format| match typed.out_crs {
-        Some(OutputCoordinates::Lonlat) => Some(Coordinates::Geographic),
-        Some(OutputCoordinates::Other(other)) => Some(other),
-        Some(OutputCoordinates::Plane) => projection.map(Coordinates::Plane),
-        None => (format == PathFormat::Csv).then(|| finished.coordinates()),
-    };
     let mut export = export;
     for output in &outputs {
-        export = export.in_coordinates(finished.domain(), coordinates(output.format));
+        let coordinates = output.coordinates(typed, &finished);
+        export = export.in_coordinates(finished.domain(), coordinates);
         output.write(&export, &over, &provenance, terminal)?;
     }
     let about = asked.about(finished.domain());
@@ -114,6 +106,11 @@ pub fn run(
 
 /// Checks that lengths with a unit, and times, have a meaning in the document.
 fn check_units(typed: &PathArguments, plane: Option<EarthPlane>, unit: LengthUnit) -> Result<(), Failure> {
+    if !matches!(plane, Some(EarthPlane::Projected(_)))
+        && matches!(typed.out_crs, Some(OutputCoordinates::Other(_)))
+    {
+        return Err(Failure::Usage(NOT_ON_EARTH.into()));
+    }
     [("--clearance", &typed.clearance), ("--simplify", &typed.simplify)]
         .into_iter()
         .filter_map(|(option, length)| Some((option, length.as_ref()?)))
@@ -308,6 +305,17 @@ impl PathOutput {
     fn new(path: &Path) -> Result<Self, Failure> {
         let format = PathFormat::of(path).map_err(|error| Failure::Usage(format!("-o {error}.")))?;
         Ok(Self { path: path.to_owned(), format })
+    }
+
+    /// Returns the coordinates of the file; without them they are longitudes and latitudes, where a path has
+    /// any.
+    fn coordinates(&self, typed: &PathArguments, finished: &FinishedMesh) -> Option<Coordinates> {
+        match typed.out_crs {
+            Some(OutputCoordinates::Lonlat) => Some(Coordinates::Geographic),
+            Some(OutputCoordinates::Other(other)) => Some(other),
+            Some(OutputCoordinates::Plane) => finished.domain().projection.map(Coordinates::Plane),
+            None => (self.format == PathFormat::Csv).then(|| finished.coordinates()),
+        }
     }
 
     fn write(

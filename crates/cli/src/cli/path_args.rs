@@ -109,8 +109,8 @@ pub struct PathArguments {
     pub output: Vec<PathBuf>,
 
     /// Coordinates in .geojson and .csv of a region on the Earth: longitude and latitude (lonlat), those of
-    /// the plane of --projection (plane), or those of a code or of a projection as PROJ writes it [default: of
-    /// .geojson lonlat, of .csv those of the region's file]
+    /// the plane of --projection (plane), or those of a code or of a projection as PROJ writes it [default:
+    /// of .geojson lonlat, of .csv those of the region's file]
     #[arg(long, value_name = "lonlat|plane|EPSG:N|PROJ", help_heading = "Output")]
     pub out_crs: Option<OutputCoordinates>,
 

@@ -25,6 +25,9 @@ const DIRECTIONS: usize = 6;
 /// nothing says that the outline was cut in its coordinates.
 const LEAST_SIDE: f64 = 1e-2;
 
+/// How many times as long as all other straight parts a side of a turned rectangle is, at least.
+const LEAST_RATIO: f64 = 2.0;
+
 /// What the coordinates of an outline mean on the Earth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OutlineOnEarth {
@@ -76,6 +79,8 @@ enum Evidence {
     OfFile,
     /// They are others.
     Guessed,
+    /// The rectangle is turned in them. Any two edges at a right angle are sides of one.
+    Turned,
 }
 
 impl CutFrame {
@@ -102,7 +107,7 @@ impl CutFrame {
             systems.iter().filter(|system| is_plane(system)).find_map(|&system| {
                 let local = Local::new(&rings, system)?;
                 let frames = local.directions().into_iter().filter_map(|eastward| local.frame(eastward));
-                frames.into_iter().find(|frame| cuts(frame, &rings, size, &local, Evidence::Guessed))
+                frames.into_iter().find(|frame| cuts(frame, &rings, size, &local, Evidence::Turned))
             })
         };
         upright.or_else(turned)
@@ -197,8 +202,16 @@ fn join_longitudes(rings: &mut [Ring]) {
 fn cuts(frame: &CutFrame, rings: &[&Ring], size: f64, local: &Local, evidence: Evidence) -> bool {
     let sides = frame.sides(rings, size);
     let least = if evidence == Evidence::OfFile { 0.0 } else { LEAST_SIDE * size };
-    let has_corner = rings.iter().zip(&sides).any(|(ring, sides)| has_corner(ring, sides, least));
-    has_corner || (evidence == Evidence::OfFile && has_longest(local, &sides))
+    let has_corner = || rings.iter().zip(&sides).any(|(ring, sides)| has_corner(ring, sides, least));
+    let is_longest = |ratio: f64| {
+        let [along, elsewhere] = longest_parts(local, &sides);
+        along > ratio * elsewhere
+    };
+    match evidence {
+        Evidence::OfFile => has_corner() || is_longest(1.0),
+        Evidence::Guessed => has_corner(),
+        Evidence::Turned => has_corner() && is_longest(LEAST_RATIO),
+    }
 }
 
 /// Returns whether two different sides meet on a ring, each along an edge that is part of a run at least this
@@ -218,9 +231,9 @@ fn has_corner(ring: &Ring, sides: &[Option<FrameSide>], least: f64) -> bool {
     })
 }
 
-/// Returns whether the longest straight part of an outline is along the rectangle.
-fn has_longest(local: &Local, sides: &[Vec<Option<FrameSide>>]) -> bool {
-    let (mut along, mut elsewhere) = (0.0_f64, 0.0_f64);
+/// Returns the length of the longest straight part along the rectangle, and elsewhere.
+fn longest_parts(local: &Local, sides: &[Vec<Option<FrameSide>>]) -> [f64; 2] {
+    let [mut along, mut elsewhere] = [0.0_f64; 2];
     for (ring, sides) in local.rings.iter().zip(sides) {
         for (start, end) in straight_parts(ring) {
             let length = at(ring, start).distance(at(ring, end));
@@ -228,7 +241,7 @@ fn has_longest(local: &Local, sides: &[Vec<Option<FrameSide>>]) -> bool {
             *longest = longest.max(length);
         }
     }
-    along > elsewhere
+    [along, elsewhere]
 }
 
 /// Returns the straight parts of a ring: the numbers of the first corner and of the last one.

@@ -60,7 +60,8 @@ impl Coordinates {
     }
 
     /// Returns coordinates whose longitude is less than half a turn from another one, so that those of
-    /// neighbours are next to each other across the antimeridian too. Coordinates in a plane stay as they are.
+    /// neighbours are next to each other across the antimeridian too. Coordinates in a plane stay as they
+    /// are.
     pub fn beside(&self, at: DVec2, longitude: f64) -> DVec2 {
         let around = match self {
             Self::Geographic => 360.0,

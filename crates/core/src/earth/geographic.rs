@@ -34,9 +34,9 @@ pub struct GeographicSystem {
     pub prime_meridian: f64,
     /// The unit of longitudes and latitudes, in degrees.
     pub unit: f64,
-    /// The shift to WGS 84 of geocentric coordinates: three translations in metres, three rotations in seconds
-    /// of arc as for position vectors, and parts per million. Without one, longitudes and latitudes count as
-    /// those of WGS 84.
+    /// The shift to WGS 84 of geocentric coordinates: three translations in metres, three rotations in
+    /// seconds of arc as for position vectors, and parts per million. Without one, longitudes and latitudes
+    /// count as those of WGS 84.
     pub shift: Option<[f64; 7]>,
     /// How far places may be off on WGS 84, in metres.
     pub accuracy: f64,
@@ -128,8 +128,8 @@ impl GeographicSystem {
         Self { code: None, ellipsoid, prime_meridian: 0.0, unit: 1.0, shift: None, accuracy }
     }
 
-    /// Returns the coordinates that these are: plain longitudes and latitudes where the system is close to WGS
-    /// 84.
+    /// Returns the coordinates that these are: plain longitudes and latitudes where the system is close to
+    /// WGS 84.
     pub fn coordinates(self) -> Coordinates {
         let is_plain = self.prime_meridian == 0.0 && self.is_in_degrees();
         let is_close = self.shift.is_none_or(|shift| shift == [0.0; 7])

@@ -302,8 +302,8 @@ impl Depths {
         self.lengths.as_ref()
     }
 
-    /// Returns the target diameters for finite values of [`Self::deciding`], from `least` to `greatest`, without
-    /// the factor of a combination ([`DepthRule::factor_in`]).
+    /// Returns the target diameters for finite values of [`Self::deciding`], from `least` to `greatest`,
+    /// without the factor of a combination ([`DepthRule::factor_in`]).
     pub(super) fn asked(&self, least: f64, greatest: f64) -> AskedOfRange {
         if let DepthRule::Slope { triangles, .. } = self.sizes.rule {
             let [least, greatest] = [least, greatest].map(|length| TAU * length / triangles);

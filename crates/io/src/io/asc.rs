@@ -132,11 +132,13 @@ fn upper_corner(min: DVec2, cell: DVec2, [columns, rows]: [u32; 2]) -> DVec2 {
     min + cell * DVec2::new(f64::from(columns), f64::from(rows))
 }
 
-/// Returns a number that no pixel has, if some pixels have no value.
+/// Returns a number that no pixel has, if some pixels have no value, or would have none in a file that names
+/// no such number.
 fn no_data(raster: &Raster) -> Option<f32> {
     let values = raster.values();
-    values.iter().any(|value| value.is_nan()).then(|| {
-        let mut candidate = -9999.0;
+    let usual = USUAL_NO_DATA as f32;
+    values.iter().any(|&value| value.is_nan() || value == usual).then(|| {
+        let mut candidate = usual;
         while values.contains(&candidate) {
             candidate *= 10.0;
         }

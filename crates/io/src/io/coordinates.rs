@@ -51,8 +51,8 @@ impl FileCoordinates {
         self.on_earth(assumed).map_or(self, Self::Known)
     }
 
-    /// Returns the same in degrees from Greenwich, where they are other longitudes and latitudes, and the factor
-    /// and the summand that lead there.
+    /// Returns the same in degrees from Greenwich, where they are other longitudes and latitudes, and the
+    /// factor and the summand that lead there.
     pub(super) fn in_degrees(self) -> Option<(Self, f64, DVec2)> {
         let Self::Known(Coordinates::OnDatum(system)) = self else { return None };
         let (plain, factor, summand) = system.in_degrees();
@@ -121,8 +121,8 @@ impl DocumentPlane {
 }
 
 /// Returns what coordinates are in a system `crs`, which is named as in `urn:ogc:def:crs:EPSG::4326`,
-/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`, or by its text. A system that is not listed here may be in feet: there is
-/// no unit then.
+/// `EPSG:4326` or `urn:ogc:def:crs:OGC:1.3:CRS84`, or by its text. A system that is not listed here may be in
+/// feet: there is no unit then.
 pub fn named(crs: Option<&str>, corners: impl IntoIterator<Item = DVec2>) -> FileCoordinates {
     let Some(crs) = crs else {
         return FileCoordinates::unstated(corners);

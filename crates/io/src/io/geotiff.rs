@@ -1,11 +1,12 @@
 //! `.tif`: GeoTIFF, a raster with its own placement.
 //!
 //! Strips and tiles of whole numbers and floating-point numbers are read, in BigTIFF too: uncompressed, or
-//! with the compressions Deflate, LZW and PackBits. Of several bands the first is read, or the one whose number
-//! follows the name, as in `FILE.tif#2`; of several pictures (overviews) the first. Samples become values by the
-//! scale, the offset and the unit that GDAL writes. Pixels with the value of the tag `GDAL_NODATA`, and those
-//! where a mask or a band of opacity is 0, have no value.
+//! with the compressions Deflate, LZW and PackBits. Of several bands the first is read, or the one whose
+//! number follows the name, as in `FILE.tif#2`; of several pictures (overviews) the first. Samples become
+//! values by the scale, the offset and the unit that GDAL writes. Pixels with the value of the tag
+//! `GDAL_NODATA`, and those where a mask or a band of opacity is 0, have no value.
 
+mod checks;
 mod header;
 mod mask;
 mod place;
@@ -17,9 +18,7 @@ use std::path::Path;
 
 use tiff::TiffError;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
-use tiff::tags::{
-    CompressionMethod, ExtraSamples, PhotometricInterpretation, PlanarConfiguration, SampleFormat, Tag,
-};
+use tiff::tags::{ExtraSamples, PlanarConfiguration, Tag};
 
 use super::coordinate_system::CoordinateSystem;
 use super::disk::File;
@@ -32,6 +31,7 @@ use super::vertical::ValueUnit;
 use super::{
     FileGrid, Flaw, GridPlace, Meter, RasterFormatSpec, ReadError, ReadRaster, ValueFacts, world_file,
 };
+use checks::{check_colors, check_packing, check_samples};
 use header::{Colorless, Directories};
 use mask::Mask;
 use meshbrush_core::raster::{Raster, is_raster_size};
@@ -301,8 +301,8 @@ impl Layout {
         Ok(())
     }
 
-    /// Returns the values of the band in the order of the file. Memory grows with the strips or tiles that were
-    /// decoded.
+    /// Returns the values of the band in the order of the file. Memory grows with the strips or tiles that
+    /// were decoded.
     fn values(
         &self,
         decoder: &mut Decoder<impl Read + Seek>,
@@ -388,72 +388,6 @@ fn band_metadata(decoder: &mut Decoder<impl Read + Seek>, layout: &Layout) -> Re
     Ok(text.map_or_else(BandMetadata::default, |text| {
         BandMetadata::of_tag(text.trim_end_matches('\0'), layout.band)
     }))
-}
-
-/// Refuses a picture whose first band is a part of colours, or a number of one.
-fn check_colors(colors: Option<u64>) -> Result<(), Flaw> {
-    let colors = colors.and_then(|colors| u16::try_from(colors).ok());
-    match colors.and_then(PhotometricInterpretation::from_u16) {
-        Some(PhotometricInterpretation::RGBPalette) => Err(Flaw::Syntax(
-            "its pixels are colours of a palette, not values. If their numbers are values, name the band after the \
-             file, as in FILE.tif#1."
-                .into(),
-        )),
-        Some(
-            PhotometricInterpretation::RGB
-            | PhotometricInterpretation::CMYK
-            | PhotometricInterpretation::YCbCr
-            | PhotometricInterpretation::CIELab
-            | PhotometricInterpretation::IccLab
-            | PhotometricInterpretation::ItuLab,
-        ) => Err(Flaw::Syntax(
-            "it is a picture in colours, and its bands are not heights or other values. If one of them has values, name \
-             it after the file, as in FILE.tif#1."
-                .into(),
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// Refuses compressions that are not read. Which ones the decoder knows depends on how it was
-/// built.
-fn check_packing(decoder: &mut Decoder<impl Read + Seek>) -> Result<(), Flaw> {
-    let compression = decoder.find_tag_unsigned(Tag::Compression)?;
-    let compression: u16 = compression.unwrap_or(CompressionMethod::None.to_u16());
-    let known = [
-        CompressionMethod::None,
-        CompressionMethod::LZW,
-        CompressionMethod::Deflate,
-        CompressionMethod::OldDeflate,
-        CompressionMethod::PackBits,
-    ];
-    if !known.iter().any(|method| method.to_u16() == compression) {
-        let problem = format!("its compression has the number {compression}");
-        return Err(Flaw::Tiff(format!("{problem}; only Deflate, LZW and PackBits are read")));
-    }
-    Ok(())
-}
-
-/// Returns the type of samples of some bits, if they are numbers that can be read.
-fn check_samples(decoder: &mut Decoder<impl Read + Seek>, bits: u8) -> Result<SampleType, Flaw> {
-    let predictor = decoder.find_tag_unsigned::<u16>(Tag::Predictor)?.unwrap_or(1);
-    let formats = decoder.find_tag_unsigned_vec::<u16>(Tag::SampleFormat)?;
-    let format = formats.and_then(|formats| formats.first().copied()).unwrap_or(SampleFormat::Uint.to_u16());
-    let (is_whole, is_float) = match SampleFormat::from_u16(format) {
-        Some(SampleFormat::Uint | SampleFormat::Int) => (true, false),
-        Some(SampleFormat::IEEEFP) => (false, true),
-        _ => (false, false),
-    };
-    let sample = match bits {
-        8 | 16 | 32 | 64 if is_whole => SampleType::Integer,
-        32 if is_float => SampleType::Single,
-        64 if is_float => SampleType::Double,
-        bits => return Err(Flaw::Tiff(format!("its samples have {bits} bits in the format {format}"))),
-    };
-    if predictor == 3 && is_whole {
-        return Err(Flaw::Tiff("its predictor is for floating-point numbers, and it has whole ones".into()));
-    }
-    Ok(sample)
 }
 
 fn too_large() -> String {

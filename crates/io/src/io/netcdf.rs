@@ -156,8 +156,8 @@ fn too_large([x, y]: &[Span; 2], is_window: bool) -> Flaw {
     ))
 }
 
-/// Reads the values of the pixels, the lowest row first, and what is to be known about them. Memory grows with
-/// what was read.
+/// Reads the values of the pixels, the lowest row first, and what is to be known about them. Memory grows
+/// with what was read.
 fn values(
     source: &mut dyn Source,
     grid: &Grid,

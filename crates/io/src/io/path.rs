@@ -19,8 +19,8 @@ pub struct PathLengths {
     pub seconds: Option<f64>,
 }
 
-/// Writes a path as a GeoJSON feature with its figures. `points` are those to write, and `system` is the name of
-/// their coordinate system, if they are no longitudes and latitudes on WGS 84.
+/// Writes a path as a GeoJSON feature with its figures. `points` are those to write, and `system` is the name
+/// of their coordinate system, if they are no longitudes and latitudes on WGS 84.
 ///
 /// # Errors
 /// Fails with the errors of `out`.
@@ -63,8 +63,8 @@ pub fn write_geojson(
     writeln!(out, "]}}}}")
 }
 
-/// Writes a table with a row for each sample: where it is, `points`, its distance from the start along the path, what
-/// the path costs up to there, the risk, and the cost per unit of length.
+/// Writes a table with a row for each sample: where it is, `points`, its distance from the start along the
+/// path, what the path costs up to there, the risk, and the cost per unit of length.
 ///
 /// # Errors
 /// Fails with the errors of `out`.

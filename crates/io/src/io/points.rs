@@ -59,10 +59,11 @@ pub fn read_from(input: impl BufRead, name: &Path) -> Result<Vec<DVec2>, ReadErr
 /// Reads the points of a table.
 ///
 /// The header names the columns, in any order and case; `lon` and `lat` stand for `x` and `y`, and other
-/// columns are ignored. Without a header, a table of numbers has x and y first. Fields are separated by commas, semicolons or tabs, and follow RFC 4180: one that
-/// begins with a quotation mark may contain separators, but it must end on its line. Without commas between
-/// fields, a comma may be the decimal point. White space around fields and blank lines are ignored. `NaN` and
-/// `inf` are read as numbers: the location of such a point answers that it is invalid.
+/// columns are ignored. Without a header, a table of numbers has x and y first. Fields are separated by
+/// commas, semicolons or tabs, and follow RFC 4180: one that begins with a quotation mark may contain
+/// separators, but it must end on its line. Without commas between fields, a comma may be the decimal point.
+/// White space around fields and blank lines are ignored. `NaN` and `inf` are read as numbers: the location
+/// of such a point answers that it is invalid.
 ///
 /// # Errors
 /// Fails when the file cannot be read, has no header with `x` and `y`, or a field is not a number; the error

@@ -202,9 +202,9 @@ impl Numbers<'_> {
     }
 }
 
-/// Returns the polygons of a record: a ring within an even number of others is an outer one, and one within an
-/// odd number a hole of the smallest ring around it. The format has outer rings clockwise, and many files do
-/// not.
+/// Returns the polygons of a record: a ring within an even number of others is an outer one, and one within
+/// an odd number a hole of the smallest ring around it. The format has outer rings clockwise, and many files
+/// do not.
 fn polygons(mut rings: Vec<Ring>) -> Vec<Polygon> {
     rings.iter_mut().for_each(open_ring);
     rings.retain(|ring| !ring.is_empty());

@@ -22,8 +22,9 @@ const NAMES: [&[&str]; 5] =
 ///
 /// The header names the columns, in any order and case. `lon` and `lat` stand for `x` and `y`; in the plane
 /// of a `projection` they are longitudes and latitudes in degrees. Other columns are ignored. Without a
-/// header, a table of numbers has x, y, range and peak in this order. The law is `radar`, `gaussian` or `disc`; without one it is `radar`. Numbers and
-/// separators are as in [`points::read`](super::points::read). The meter counts the bytes of the file.
+/// header, a table of numbers has x, y, range and peak in this order. The law is `radar`, `gaussian` or
+/// `disc`; without one it is `radar`. Numbers and separators are as in [`points::read`](super::points::read).
+/// The meter counts the bytes of the file.
 ///
 /// # Errors
 /// Fails when the file cannot be read, its header lacks a column, or a field is not valid, with the line and

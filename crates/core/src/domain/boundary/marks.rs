@@ -79,8 +79,8 @@ impl BoundaryMarks {
         name.trim().to_owned()
     }
 
-    /// Returns the domain that named polygons cover, in `bounds` where these are given, and the names that they
-    /// bring.
+    /// Returns the domain that named polygons cover, in `bounds` where these are given, and the names that
+    /// they bring.
     ///
     /// # Errors
     /// Fails as [`Domain::of_polygons_on_earth`] does.

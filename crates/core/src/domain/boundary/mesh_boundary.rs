@@ -13,10 +13,11 @@ use crate::mesh::{Extract, NodeId};
 /// The boundary of a mesh in the pieces of its domain's boundary.
 ///
 /// An edge along the frame belongs to the open piece there that contains its middle. Any other edge usually
-/// belongs to the piece nearest to its middle, without those along the frame. Where the mesh is a staircase, the nearest piece can
-/// change from edge to edge and back. So an edge may take a piece that is a little farther away, if that
-/// saves changes along the loop. The labels of a loop have the least sum of costs: for each edge, its length
-/// times the additional distance, and for each change, the square of the lengths of its edges.
+/// belongs to the piece nearest to its middle, without those along the frame. Where the mesh is a staircase,
+/// the nearest piece can change from edge to edge and back. So an edge may take a piece that is a little
+/// farther away, if that saves changes along the loop. The labels of a loop have the least sum of costs: for
+/// each edge, its length times the additional distance, and for each change, the square of the lengths of its
+/// edges.
 #[derive(Clone, Debug)]
 pub struct MeshBoundary {
     pieces: BoundaryPieces,
@@ -206,8 +207,8 @@ impl<'a> Candidates<'a> {
         Choice { labels, change }
     }
 
-    /// Beside an open piece, leaves of the pieces near an edge the open one that both its ends are on, or none
-    /// that is open: where water flows across does not depend on the lengths of edges.
+    /// Beside an open piece, leaves of the pieces near an edge the open one that both its ends are on, or
+    /// none that is open: where water flows across does not depend on the lengths of edges.
     fn keep_those_along(
         &self,
         edge: [DVec2; 2],

@@ -129,8 +129,8 @@ impl BoundaryPieces {
         Some((index.owner(segment), nearest_on_segment(point, index.segments.segment(segment))))
     }
 
-    /// Returns the distances to the pieces whose numbers `counts` accepts: that to the nearest, and those up to
-    /// `margin` more. Sorted by number.
+    /// Returns the distances to the pieces whose numbers `counts` accepts: that to the nearest, and those up
+    /// to `margin` more. Sorted by number.
     pub(super) fn distances(
         &self,
         point: DVec2,

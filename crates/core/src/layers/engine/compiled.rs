@@ -106,9 +106,8 @@ impl CompiledLayer {
             }
             LayerKind::Surface(_) => (reading(Quantity::Diameter, NO_RISK), Values::Nothing),
             LayerKind::Depth(depths) => {
-                let factor = depths.sizes().rule.factor_in(layer.combine);
-                let reading = Reading::Depth { depths: depths.clone(), factor, lengths: lengths.clone() };
-                (reading, Values::of_raster(depths.deciding(), f32::INFINITY, lattice))
+                let values = Values::of_raster(depths.deciding(), f32::INFINITY, lattice);
+                (Reading::of_depths(depths, layer.combine, lengths), values)
             }
         };
         let (id, combine, mask) = (layer.id, layer.combine, layer.mask.clone());

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::field::{Bounds, RiskToDiameter, Transfer, TransferTable};
-use crate::layers::{Depths, ValueCurve};
+use crate::layers::{Combine, Depths, ValueCurve};
 use crate::raster::ValueRange;
 
 use super::asked::Share;
@@ -92,6 +92,12 @@ impl Reading {
     /// Returns target diameters.
     pub fn diameter(lengths: &[f64]) -> Self {
         Self::Diameter { most: lengths.iter().map(|&length| largest_below(length)).collect() }
+    }
+
+    /// Returns what a layer of depths asks for that is combined in this way.
+    pub fn of_depths(depths: &Depths, combine: Combine, lengths: &Arc<[f64]>) -> Self {
+        let factor = depths.sizes().rule.factor_in(combine);
+        Self::Depth { depths: depths.clone(), factor, lengths: lengths.clone() }
     }
 
     /// Returns the answer for the values of a range: whether they are below a limit, and whether they have a

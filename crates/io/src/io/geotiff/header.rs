@@ -37,8 +37,8 @@ pub(super) struct Directories {
     is_big_endian: bool,
 }
 
-/// Reads the directories, checks the number of columns and rows of the first picture, and leaves the source at
-/// its start.
+/// Reads the directories, checks the number of columns and rows of the first picture, and leaves the source
+/// at its start.
 ///
 /// # Errors
 /// Fails when the source is not a TIFF file, is cut off, or has a picture that is too large for a raster.

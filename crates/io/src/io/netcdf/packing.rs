@@ -59,7 +59,8 @@ impl Packing {
     }
 }
 
-/// Returns the least and the greatest sample that is a value. `number` is what a sample in the file stands for.
+/// Returns the least and the greatest sample that is a value. `number` is what a sample in the file stands
+/// for.
 ///
 /// Ends of the type of the samples are packed, as the samples are. Floating-point ends of packed whole
 /// numbers are values, as the NetCDF User Guide has it.
