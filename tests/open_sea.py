@@ -1,8 +1,8 @@
 """Checks which part of the boundary is open in the files of solvers, against a search of its own in degrees.
 
 Seas are cut by boxes of longitudes and latitudes, meshed in degrees or in the plane of a projection, and written in seven
-formats: the open nodes are those of the boundary edges along the sides of the box. Seas that no box cuts have none, and
-the program says so.
+formats: the open nodes are those of the boundary edges along the sides of the box, but beside nodes that the mesh could not
+put onto the outline. Seas that no box cuts have none, and the program says so.
 
 Usage: open_sea.py PROGRAM
 """
@@ -124,20 +124,40 @@ READERS = {
 BY_NODES = {"a.cli", "a.mesh", "a_obc.dat"}
 
 
-def search(places, triangles, box):
-    """Returns the nodes of boundary edges along the sides of a box in degrees, and those of land of one edge."""
-    west, south, width, height = box
+def boundary_edges(triangles):
     sides = Counter()
     for a, b, c in triangles:
         for edge in ((a, b), (b, c), (c, a)):
             sides[edge if edge[::-1] not in sides else edge[::-1]] += 1
-    boundary = [edge for edge, count in sides.items() if count == 1]
+    return [edge for edge, count in sides.items() if count == 1]
+
+
+def search(places, triangles, box):
+    """Returns the nodes of boundary edges along the sides of a box in degrees, and those of land of one edge."""
+    west, south, width, height = box
+    boundary = boundary_edges(triangles)
     x, y = ((places[:, 0] - west + 180) % 360 - 180) / width, (places[:, 1] - south) / height
     on = np.array([abs(y) < ON_SIDE, abs(x - 1) < ON_SIDE, abs(y - 1) < ON_SIDE, abs(x) < ON_SIDE])
     is_open = lambda edge: bool((on[:, edge[0] - 1] & on[:, edge[1] - 1]).any())
     found = {node for edge in boundary if is_open(edge) for node in edge}
     single = {node for edge in boundary if not is_open(edge) and set(edge) <= found for node in edge}
     return found, single
+
+
+def near_gaps(places, triangles, rings, box):
+    """Returns the boundary nodes that the mesh could not put onto the outline, and their neighbours along the boundary."""
+    boundary = boundary_edges(triangles)
+    nodes = np.array(sorted({node for edge in boundary for node in edge}))
+    west, south, width, height = box
+    scaled = lambda at: np.stack([((at[:, 0] - west + 180) % 360 - 180) / width, (at[:, 1] - south) / height], 1)
+    at, least = scaled(places[nodes - 1]), np.full(len(nodes), np.inf)
+    for ring in map(scaled, map(np.array, rings)):
+        for start, along in zip(ring[:-1], np.diff(ring, axis=0)):
+            share = np.clip((at - start) @ along / (along @ along), 0, 1)
+            least = np.minimum(least, np.hypot(*(at - start - share[:, None] * along).T))
+    off = set(nodes[least > ON_SIDE].tolist())
+    assert len(off) < 0.04 * len(nodes), f"{len(off)} of {len(nodes)} nodes are not on the outline"
+    return off | {node for edge in boundary if off & set(edge) for node in edge}
 
 
 def check(folder, rng, number):
@@ -148,6 +168,8 @@ def check(folder, rng, number):
     west = rng.choice([rng.uniform(-175, 175 - width), rng.uniform(-width, 0) + 180 if name != "none" else 3.0])
     if name == "UTM":
         west = 6 * math.floor(west / 6) + 0.5 * (6 - width)
+    if name == "lcc" and south < 0 < south + height:
+        name = "merc"  # a conformal conic shows one side of the equator
     rings = sea(rng, kind, west, south, width, height)
     rings = [[[x - 360 if x > 180 else x, y] for x, y in [*ring, ring[0]]] for ring in rings]
     (folder / "sea.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": rings}))
@@ -167,8 +189,9 @@ def check(folder, rng, number):
         assert "open boundary" in ran.stderr, told
     else:
         assert expected, told
+    gaps = near_gaps(places, triangles, rings, (west, south, width, height))
     for file, reader in READERS.items():
-        difference = reader(folder / file) ^ expected
+        difference = (reader(folder / file) ^ expected) - gaps
         where = [(node, node in expected, (places[node - 1] - (west, south)) / (width, height)) for node in sorted(difference)[:5]]
         assert not difference or (file in BY_NODES and difference <= single), f"{told}\n{file}: {where}"
     return len(expected)

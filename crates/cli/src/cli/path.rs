@@ -83,11 +83,10 @@ pub fn run(
     let seconds = start.elapsed().as_secs_f64();
     let simplify = typed.simplify.as_ref().map(|length| length.value);
     let export = PathExport::new(&solution, &*density, simplify)?.named(asked.name.clone(), plane);
-    let export = export.at_speed(speed, unit);
+    let mut export = export.at_speed(speed, unit);
     let provenance = provenance(&finished, line, &input, OutputCoordinates::Plane);
     let look = look.for_mesh(&finished);
     let over = MeshOfPath { mesh: finished.mesh(), extract: &extract, look: &look };
-    let mut export = export;
     for output in &outputs {
         let coordinates = output.coordinates(typed, &finished);
         export = export.in_coordinates(finished.domain(), coordinates);
@@ -97,11 +96,7 @@ pub fn run(
     let write = |file| write_certificate(file, certificate.as_ref(), &about, &provenance, terminal);
     typed.certificate.as_deref().map_or(Ok(()), write)?;
     let answer = Answer::new(&export, extract.triangles().len(), seconds);
-    let text = match typed.json {
-        true => serde_json::to_string(&answer).map_err(|error| Failure::Print(error.into()))?,
-        false => answer.for_people(export.solution().gap()),
-    };
-    writeln!(out, "{text}").and_then(|()| out.flush()).map_err(Failure::Print)
+    answer.print(typed.json, export.solution().gap(), out)
 }
 
 /// Checks that lengths with a unit, and times, have a meaning in the document.
@@ -384,6 +379,14 @@ impl Answer {
             triangles,
             seconds,
         }
+    }
+
+    fn print(&self, as_json: bool, gap: f64, out: &mut dyn Write) -> Result<(), Failure> {
+        let text = match as_json {
+            true => serde_json::to_string(self).map_err(|error| Failure::Print(error.into()))?,
+            false => self.for_people(gap),
+        };
+        writeln!(out, "{text}").and_then(|()| out.flush()).map_err(Failure::Print)
     }
 
     fn for_people(&self, gap: f64) -> String {

@@ -138,10 +138,13 @@ fn sides_of_a_box_of_degrees_are_open_in_every_plane() {
             for (edge, &piece) in extract.boundary_edges().zip(boundary.piece_of_edge()) {
                 let [a, b] = edge.ends.map(on_sides);
                 let along = (0..3).find(|&side| a[side] && b[side]);
-                // An edge across the corner between two sides is on none of them.
+                // An edge across the corner between two sides is on none of them; a few nodes are not on the
+                // outline.
                 let joins_sides = along.is_none() && a.contains(&true) && b.contains(&true);
+                let places = edge.ends.map(|node| extract.world(NodeId::from_index(node)));
+                let is_off = places.iter().any(|&at| pieces.nearest(at, pieces.tolerance()).is_none());
                 let found = Some(piece as usize).filter(|piece| *piece < 3);
-                assert!(found == along || joins_sides, "{choice} {west}: {a:?} {b:?} {piece}");
+                assert!(found == along || joins_sides || is_off, "{choice} {west}: {places:?} {piece}");
                 count += usize::from(along.is_some());
             }
             assert!(count > 20, "{choice} {west}: {count}");
