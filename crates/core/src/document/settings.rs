@@ -30,8 +30,7 @@ pub struct Settings {
     pub boundary: BoundaryTreatment,
     /// Which triangles of a domain of polygons stay in the derived mesh.
     pub cleaning: Cleaning,
-    /// Names and types of pieces of the boundary, and where it is split. They change the mesh only through
-    /// layers that follow pieces.
+    /// Names, types and splits of the boundary. The mesh depends on them through layers that follow pieces.
     pub boundary_marks: Arc<BoundaryMarks>,
     /// Points whose triangles and values are followed, in world units. They do not change the mesh.
     pub pins: Arc<Vec<DVec2>>,
