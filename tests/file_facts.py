@@ -173,7 +173,7 @@ def facts_of_values():
     yield "packed valid_range", whole, {"scale": 0.1, "offset": 0.0, "attributes": {"valid_range": np.array([-45, -5], "i2")}}, netcdf, same
     yield "valid_min", whole, {"attributes": {"valid_min": np.int16(-45)}}, netcdf, same
     yield "missing_value", filled("float32", -77), {"attributes": {"missing_value": np.float32(-77)}}, netcdf, same
-    last = {"no_data": -3.4028235e38, "no_data_text": "-3.40282346638528898e+38"}
+    last = {"no_data": float(np.float32(-3.4028235e38)), "no_data_text": "-3.40282346638528898e+38"}
     yield "fill in other digits", filled("float32", np.float32(-3.4028235e38)), last, ["ASC", "GeoTIFF"], same
     yield "mask inside", grids, {"mask": HOLES}, ["GeoTIFF"], same
     yield "mask inside, tiles", whole, {"mask": HOLES, "layout": tiles}, ["GeoTIFF"], same

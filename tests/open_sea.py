@@ -168,8 +168,8 @@ def check(folder, rng, number):
     west = rng.choice([rng.uniform(-175, 175 - width), rng.uniform(-width, 0) + 180 if name != "none" else 3.0])
     if name == "UTM":
         west = 6 * math.floor(west / 6) + 0.5 * (6 - width)
-    if name == "lcc" and south < 0 < south + height:
-        name = "merc"  # a conformal conic shows one side of the equator
+    if name == "lcc" and abs(south + height / 2) < 1:
+        name = "merc"  # a conformal conic shows one side of the equator only
     rings = sea(rng, kind, west, south, width, height)
     rings = [[[x - 360 if x > 180 else x, y] for x, y in [*ring, ring[0]]] for ring in rings]
     (folder / "sea.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": rings}))
