@@ -503,7 +503,12 @@ def test_data_of_other_libraries(tmp_path: Path) -> None:
         assert document.mesh().fingerprint == plain.mesh().fingerprint
     # rasterio, by its names; a masked array; and whole numbers.
     masked = np.ma.masked_equal(np.where(values > 0.1, -9999, values)[::-1], -9999)
-    dataset = types.SimpleNamespace(read=lambda band, masked: data, bounds=place, nodata=-9999, crs=None)
+    (height, width), (x0, y0, x1, y1) = masked.shape, place
+    transform = types.SimpleNamespace(a=(x1 - x0) / width, b=0, c=x0, d=0, e=(y0 - y1) / height, f=y1)
+    dataset = types.SimpleNamespace(
+        read=lambda band, masked: data, transform=transform, width=width, height=height, nodata=-9999, crs=None,
+        colorinterp=["gray"], scales=(1.0,), offsets=(0.0,), units=(None,),
+    )
     data = masked
     one, two = (mb.Document(mb.Domain.rectangle(0, 0, 1.5, 1)) for _ in range(2))
     one.layers.raster(dataset, reads="diameter")
