@@ -16,9 +16,12 @@ class Domain:
     `shape` is a file of polygons (GeoJSON, shapefile or GeoPackage), GeoJSON as a dictionary, an object with
     `__geo_interface__` such as a geometry of shapely or a table of geopandas, one ring of points with shape (n, 2), or a
     list of rings, the outer one first. Names of polygons come from the property `name` of their features.
+
+    Of the polygons, only the part in `bounds` counts, where these are given: west, south, east and north in the coordinates
+    of the shape, as in (-6, 47, -2, 49). In degrees the east may be less than the west, across 180°.
     """
 
-    def __init__(self, shape: ShapesLike) -> None:
+    def __init__(self, shape: ShapesLike, bounds: Sequence[float] | None = None) -> None:
         path = as_path(shape)
         if isinstance(shape, Domain):
             self._tables, self._given = dict(shape._tables), list(shape._given)
@@ -30,6 +33,8 @@ class Domain:
             if not (isinstance(shape, dict) or hasattr(shape, "__geo_interface__")):
                 # Nobody says that the numbers of an array are degrees, though they can be.
                 self._tables["unit"] = "none"
+        if bounds is not None:
+            self._tables["bounds"] = [float(side) for side in bounds]
 
     _tables: dict[str, Any]
     _given: list[tuple[str, Any]]
@@ -44,6 +49,29 @@ class Domain:
     def rectangle(cls, x0: float, y0: float, x1: float, y1: float) -> Domain:
         """Returns the rectangle with these sides, in world units."""
         return cls._of(bounds=[float(x0), float(y0), float(x1), float(y1)])
+
+    @classmethod
+    def sea(
+        cls, land: ShapesLike, bounds: Sequence[float] | None = None, place: Sequence[float] | None = None
+    ) -> Domain:
+        """Returns the rectangle `bounds` less the land in it, which polygons or lines of coast give.
+
+        `land` is a file, or shapes as for a domain; an array, or a list of arrays, is lines. Bounds are west, south, east
+        and north in the coordinates of the land; without them the rectangle is one around the land. Lines are closed along
+        the rectangle, and closed lines are islands. `place` is a place in the sea, where lines do not tell on which side it
+        is. The sides of the rectangle are the open boundary.
+        """
+        path = as_path(land)
+        domain = cls._of(land=path if path is not None else _MEMORY)
+        if path is None:
+            domain._given = [(_MEMORY, geojson(land, "LineString"))]
+            if not (isinstance(land, dict) or hasattr(land, "__geo_interface__")):
+                domain._tables["unit"] = "none"
+        if bounds is not None:
+            domain._tables["bounds"] = [float(side) for side in bounds]
+        if place is not None:
+            domain._tables["sea"] = [float(number) for number in place]
+        return domain
 
     @classmethod
     def read(cls, path: Any) -> Domain:

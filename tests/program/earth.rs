@@ -391,8 +391,8 @@ fn a_length_with_a_unit_puts_a_region_into_metres() {
     assert_eq!(folder.run("mesh --region sea.geojson --spacing 0.1°").status, 0);
 }
 
-/// A ship goes around a cape in the north of a chart in Mercator, where lengths are drawn much longer than in the
-/// south.
+/// A ship goes around a cape in the north of a chart in Mercator, where lengths are drawn much longer than in
+/// the south.
 #[test]
 fn a_ship_keeps_its_clearance_on_the_earth() {
     let folder = Folder::new("earth-ship");
@@ -434,4 +434,50 @@ fn a_ship_keeps_its_clearance_on_the_earth() {
     assert!(plain.err.contains("24°,37°: the coordinates of this domain are no longitudes"), "{}", plain.err);
     let mixed = folder.run("path --target 0.1 --from 24°,37 --to 25°,37°");
     assert!(mixed.err.contains("“24°,37” is no point"), "{}", mixed.err);
+}
+
+/// Bounds beside a region or land are in the coordinates of the file: of a box of 10° × 8° with an island of
+/// 1° × 1°, one of 4° × 2° around the island is left.
+#[test]
+fn bounds_are_in_the_coordinates_of_the_file() {
+    let folder = Folder::new("earth-bounds");
+    let rectangle = |[w, s, e, n]: [f64; 4]| vec![[w, s], [e, s], [e, n], [w, n], [w, s]];
+    let island = rectangle([-5.5, 47.5, -4.5, 48.5]);
+    folder.file("sea.geojson", polygon(&[rectangle([-10.0, 44.0, -0.5, 52.0]), island.clone()]));
+    folder.file("land.geojson", polygon(&[island]));
+    let recipe =
+        |rest: &str| format!("[domain]\nbounds = [-6, 47, -2, 49]\n{rest}\n[mesh]\nspacing = 0.25\n");
+    let area = |text: &str| -> f64 {
+        folder.file("r.toml", text);
+        let found = folder.json("mesh", "r.toml");
+        let kinds: Vec<&str> = found["boundary"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|piece| piece["type"].as_str().unwrap())
+            .collect();
+        assert_eq!(kinds, ["open", "open", "open", "open", "land"], "{text}");
+        found["region_area"].as_f64().unwrap()
+    };
+    for domain in [r#"region = "sea.geojson""#, r#"land = "land.geojson""#] {
+        assert!((area(&recipe(domain)) - 7.0).abs() < 1e-6, "{domain}");
+        let projected = recipe(&format!("{domain}\nprojection = \"auto\"")).replace("0.25", "\"20 km\"");
+        let in_metres = area(&projected);
+        assert!((in_metres / 5.808e10 - 1.0).abs() < 2e-3, "{domain}: {in_metres}");
+    }
+    let refused = |text: &str, part: &str| {
+        folder.file("r.toml", text);
+        let ran = folder.run("mesh r.toml");
+        assert!(ran.status != 0 && ran.err.contains(part), "{part}: {}", ran.err);
+    };
+    refused(
+        "[domain]\nregion = \"sea.geojson\"\nbounds = [20, 47, 22, 49]\nprojection = \"auto\"\n",
+        "none of its polygons lies in the bounds 20, 47 to 22, 49",
+    );
+    refused(
+        "[domain]\nland = \"land.geojson\"\nbounds = [5e5, 5e6, 6e5, 6e6]\n",
+        "are no longitudes and latitudes",
+    );
+    refused("[domain]\nland = \"land.geojson\"\ninside = \"x\"\n", "by `land` or by `inside`, not by both");
+    refused("[domain]\nsea = [1, 2]\n", "this is a place in the sea beside land");
 }

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, CommandFactory as _, Parser, Subcommand, ValueEnum};
 
@@ -298,6 +298,13 @@ pub struct InputArguments {
     /// Deepest level allowed; triangles there count as satisfied
     #[arg(long, value_name = "LEVEL")]
     pub max_level: Option<u32>,
+}
+
+impl InputArguments {
+    /// Returns the file of polygons, lines or a grid that gives the outline of the domain.
+    pub fn outline_file(&self) -> Option<&Path> {
+        self.region.as_deref().or(self.earth.land.as_deref())
+    }
 }
 
 /// The boundary treatment, as typed.

@@ -103,7 +103,7 @@ pub fn provenance(
     input: &Input,
     coordinates: OutputCoordinates,
 ) -> Provenance {
-    let file = input.settings.domain.region.as_ref().or(input.project.as_ref());
+    let file = input.settings.domain.outline_file().or(input.project.as_deref());
     let file = file.map(|file| file.display().to_string());
     provenance_from(finished, MeshSource::Command(line), file.as_deref(), coordinates)
 }

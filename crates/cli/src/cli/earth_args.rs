@@ -1,5 +1,6 @@
 //! Arguments on a region: what its coordinates are, in which plane it is meshed, and where it is open.
 
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
@@ -9,6 +10,27 @@ use meshbrush_core::earth::{Coordinates, CoordinatesTextError};
 /// What the coordinates of files are, the plane of the mesh, and its open boundary.
 #[derive(Debug, Args)]
 pub struct EarthArguments {
+    /// Land or coasts: the domain is the rectangle of --bounds less the land. A GeoJSON file, shapefile or
+    /// GeoPackage with polygons or lines; - is GeoJSON from standard input
+    ///
+    /// Only what lies in the rectangle counts, so that a file of the whole Earth serves for a bay. Lines are
+    /// closed along the rectangle; closed lines are islands. Without --bounds the rectangle is one around the
+    /// land. Its sides are the open boundary.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["domain", "inside", "region"])]
+    pub land: Option<PathBuf>,
+
+    /// West, south, east and north: the part of the file of --region or --land that counts, in its
+    /// coordinates
+    ///
+    /// In degrees the east may be less than the west: then the rectangle goes across 180°.
+    #[arg(long, value_name = "W,S,E,N", allow_hyphen_values = true)]
+    pub bounds: Option<String>,
+
+    /// A place in the sea, where the lines of --land do not tell on which side it is; in the coordinates of
+    /// the file
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, requires = "land")]
+    pub sea: Option<String>,
+
     /// Mesh the region in metres on the Earth, in the plane of a conformal projection
     ///
     /// All lengths are then in metres, and no edge of the mesh is longer on the Earth than its target

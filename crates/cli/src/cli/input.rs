@@ -22,8 +22,9 @@ use meshbrush_io::io::layers::SavedLayer;
 use meshbrush_io::io::recipe::{self, Loaded, Loading, Recipe};
 use meshbrush_io::io::settings::{SavedSettings, SavedTreatment, Usual};
 use meshbrush_io::io::shape_format;
+use meshbrush_io::io::shapes::{self, ShapeFile};
 use meshbrush_io::io::{Meter, ReadError, project};
-use meshbrush_mesh::geometry::Lattice;
+use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{CoarseError, Limits, MemoryLimit, bisection_edge_length};
 use meshbrush_mesh::text::LengthUnit;
 
@@ -82,7 +83,7 @@ impl Input {
         match &typed.boundary_diameter {
             // Of a project the domain is not known yet.
             Some(diameter) if typed.project.is_none() => {
-                let has_outline = settings.domain.region.is_some();
+                let has_outline = settings.domain.outline_file().is_some();
                 check_boundary_diameter(diameter, has_outline, settings.domain.boundary)?;
             }
             _ => {}
@@ -106,8 +107,8 @@ impl Input {
                 .resolution
                 .is_some()
                 .then_some("--resolution changes nothing: every layer is asked at its own resolution."),
-            (is_known && typed.boundary.is_some() && self.settings.domain.region.is_none())
-                .then_some("--boundary changes nothing without --region."),
+            (is_known && typed.boundary.is_some() && self.settings.domain.outline_file().is_none())
+                .then_some("--boundary changes nothing without --region or --land."),
         ];
         unused.into_iter().flatten().map(str::to_owned).collect()
     }
@@ -180,7 +181,8 @@ impl Input {
         let most_coarse = self.settings.mesh.max_triangles.unwrap_or(USUAL_BUDGET);
         // Without a memory budget, the mesh may take what its triangles take.
         let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
-        let loading = Loading { usual, with_hidden: false, read_outline, ..Loading::for_document(meter) };
+        let loading =
+            Loading { usual, with_hidden: false, read_outline, read_shapes, ..Loading::for_document(meter) };
         Ok(terminal.while_metered("reading", meter, || self.settings.load_files("", &loading))?)
     }
 }
@@ -218,6 +220,8 @@ fn refuse_options_beside_a_file(typed: &InputArguments) -> Result<(), Failure> {
         ("--domain", typed.domain.is_some()),
         ("--inside", typed.inside.is_some()),
         ("--region", typed.region.is_some()),
+        ("--land", typed.earth.land.is_some()),
+        ("--bounds", typed.earth.bounds.is_some()),
         ("--projection", typed.earth.projection.is_some()),
         ("--crs", typed.earth.crs.is_some()),
         ("--target", !typed.target.is_empty()),
@@ -255,6 +259,14 @@ fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
     match is_standard_stream(path) {
         true => geojson::read_outline_from(stdin().lock(), Path::new("standard input")),
         false => shape_format::read_outline(path, meter),
+    }
+}
+
+/// Reads land, from standard input where the file is `-`.
+fn read_shapes(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    match is_standard_stream(path) {
+        true => shapes::read_from(stdin().lock(), Path::new("standard input")),
+        false => shape_format::read_own_shapes(path, wanted, meter),
     }
 }
 

@@ -55,8 +55,9 @@ fn read_points(path: &Path, input: &Input) -> Result<PointTable, Failure> {
     if !is_standard_stream(path) {
         return Ok(points::read_table(path)?);
     }
-    if input.settings.domain.region.as_deref().is_some_and(is_standard_stream) {
-        let problem = "--region - and --points - both read standard input";
+    if input.settings.domain.outline_file().is_some_and(is_standard_stream) {
+        let option = if input.settings.domain.land.is_some() { "--land" } else { "--region" };
+        let problem = format!("{option} - and --points - both read standard input");
         return Err(Failure::Usage(format!("{problem}. Name a file for one of them.")));
     }
     Ok(points::read_table_from(io::stdin().lock(), Path::new("standard input"))?)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec2;
 
 use super::args::{BoundaryArgument, InputArguments};
+use super::earth_args::EarthArguments;
 use super::failure::Failure;
 use super::lengths::LengthWithUnit;
 use meshbrush_core::field::Formula;
@@ -22,12 +23,13 @@ use meshbrush_mesh::text::{Length, LengthUnit};
 /// # Errors
 /// Fails with a sentence that names the option, the value and the rule.
 pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
-    let of_region = [("--projection", &typed.earth.projection), ("--crs", &typed.earth.crs)];
+    let EarthArguments { projection: plane, crs, bounds, land, sea, .. } = &typed.earth;
+    let of_region = [("--projection", plane), ("--crs", crs), ("--bounds", bounds)];
     if let (Some((option, Some(value))), None) =
-        (of_region.iter().find(|(_, value)| value.is_some()), &typed.region)
+        (of_region.iter().find(|(_, value)| value.is_some()), typed.outline_file())
     {
         return Err(Failure::Usage(format!(
-            "{option} {value}: it is for the coordinates of a region. Name the file with --region, or leave it out."
+            "{option} {value}: it is for the coordinates of a region. Name the file with --region or --land, or leave it out."
         )));
     }
     let layers = layers(typed)?;
@@ -35,7 +37,12 @@ pub fn settings(typed: &InputArguments) -> Result<SavedSettings, Failure> {
     let projection = projection(typed)?;
     let settings = SavedSettings {
         domain: SavedDomain {
-            bounds: typed.domain.as_deref().map(parse_domain).transpose()?,
+            bounds: match bounds {
+                Some(text) => Some(parse_bounds(text)?),
+                None => typed.domain.as_deref().map(parse_domain).transpose()?,
+            },
+            land: land.clone(),
+            sea: sea.as_deref().map(parse_sea).transpose()?,
             inside: typed.inside.clone(),
             region,
             outside_nodata: typed.water.outside_nodata,
@@ -83,7 +90,7 @@ fn openings(typed: &[String]) -> Result<SavedOpenings, Failure> {
 /// Returns the projection: lengths in metres need a plane in metres.
 fn projection(typed: &InputArguments) -> Result<Option<String>, Failure> {
     let lengths = LengthWithUnit::all(typed);
-    let is_metric = lengths.iter().any(LengthWithUnit::is_metric) && typed.region.is_some();
+    let is_metric = lengths.iter().any(LengthWithUnit::is_metric) && typed.outline_file().is_some();
     let projection = typed.earth.projection.clone().or(is_metric.then(|| METRES.to_owned()));
     if projection.as_ref().is_some_and(|word| word != "none") {
         lengths.iter().try_for_each(|length| length.check(LengthUnit::Metre))?;
@@ -216,6 +223,9 @@ fn refused(fault: &KeyFault, typed: &InputArguments, layers: &[(String, SavedLay
         },
         [_, Step::Key(key), ..] => match &**key {
             "inside" => "--inside".to_owned(),
+            "bounds" if typed.earth.bounds.is_some() => "--bounds".to_owned(),
+            "land" => "--land".to_owned(),
+            "sea" => "--sea".to_owned(),
             "projection" => "--projection".to_owned(),
             "crs" => "--crs".to_owned(),
             "contour" => "--contour".to_owned(),
@@ -264,17 +274,34 @@ pub fn parse_formula(option: &str, text: &str) -> Result<Formula, Failure> {
     })
 }
 
-fn parse_domain(text: &str) -> Result<[f64; 4], Failure> {
+/// Returns numbers that are written with commas between.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let Ok([x0, y0, x1, y1]) = numbers.as_deref() else {
+    numbers.ok()?.try_into().ok()
+}
+
+fn parse_domain(text: &str) -> Result<[f64; 4], Failure> {
+    let Some([x0, y0, x1, y1]) = numbers(text) else {
         let problem = format!("--domain {text}: write four numbers with commas between, X0,Y0,X1,Y1");
         return Err(Failure::Usage(format!("{problem}, as in 0,0,1,1.")));
     };
-    let domain = Rect::new(DVec2::new(*x0, *y0), DVec2::new(*x1, *y1));
+    let domain = Rect::new(DVec2::new(x0, y0), DVec2::new(x1, y1));
     if !domain.is_proper() {
         return Err(Failure::Usage(format!("--domain {text}: write x0,y0,x1,y1 with {}.", Rect::PROPER)));
     }
-    Ok([*x0, *y0, *x1, *y1])
+    Ok([x0, y0, x1, y1])
+}
+
+/// Returns west, south, east and north.
+fn parse_bounds(text: &str) -> Result<[f64; 4], Failure> {
+    let problem = format!("--bounds {text}: write west, south, east and north with commas between");
+    numbers(text).ok_or_else(|| Failure::Usage(format!("{problem}, as in -6,47,-2,49.")))
+}
+
+/// Returns a place in the sea.
+fn parse_sea(text: &str) -> Result<[f64; 2], Failure> {
+    let problem = format!("--sea {text}: write the two coordinates of a place with a comma between");
+    numbers(text).ok_or_else(|| Failure::Usage(format!("{problem}, as in -5,48.")))
 }
 
 impl From<BoundaryArgument> for SavedTreatment {

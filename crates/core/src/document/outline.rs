@@ -131,7 +131,7 @@ impl Settings {
     fn outline_on_earth(&self) -> OutlineOnEarth {
         let projection = self.domain.projection;
         let is_geographic = projection.is_none() && self.unit == LengthUnit::Degree;
-        OutlineOnEarth { file: is_geographic.then_some(Coordinates::Geographic), projection }
+        OutlineOnEarth { file: is_geographic.then_some(Coordinates::Geographic), projection, frame: None }
     }
 
     fn with_polygons_on(&self, raster: &Raster, polygons: Vec<Polygon>) -> Result<Setting, OutlineError> {

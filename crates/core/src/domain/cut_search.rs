@@ -35,12 +35,14 @@ pub struct OutlineOnEarth {
     pub file: Option<Coordinates>,
     /// The plane of the world units, if the outline is projected.
     pub projection: Option<Projection>,
+    /// The rectangle by which it was cut, in the coordinates of its file, if that is known.
+    pub frame: Option<Rect>,
 }
 
 impl OutlineOnEarth {
     /// Returns that of an outline that was projected.
     pub fn of(reprojection: &Reprojection) -> Self {
-        Self { file: Some(reprojection.from), projection: Some(reprojection.to) }
+        Self { file: Some(reprojection.from), projection: Some(reprojection.to), frame: None }
     }
 
     /// Returns what world coordinates are, if that is known.
@@ -92,6 +94,9 @@ impl CutFrame {
 
     /// Returns the rectangle by which a region was cut off: its own bounding rectangle in some coordinates.
     pub(super) fn of_region(region: &Region, on_earth: &OutlineOnEarth) -> Option<Self> {
+        if let Some(rect) = on_earth.frame {
+            return Some(Self { coordinates: on_earth.systems(region)[0], eastward: DVec2::X, rect });
+        }
         let rings: Vec<&Ring> = region.rings().filter(|ring| ring.len() > 2).collect();
         let size = region.frame().size().max_element();
         let systems = on_earth.systems(region);

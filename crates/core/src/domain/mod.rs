@@ -16,6 +16,9 @@ mod cut_search;
 mod cut_shape;
 mod depth_contour;
 mod complexity;
+mod file_frame;
+mod coast_lines;
+mod sea;
 mod segments;
 mod farthest;
 mod holes;
@@ -43,6 +46,7 @@ pub use cut_frame::{CutFrame, FrameSide};
 pub use cut_search::OutlineOnEarth;
 pub use cut_shape::CutShape;
 pub use depth_contour::{DepthContour, DepthContourError, PixelLengths};
+pub use file_frame::FileFrame;
 pub use fit::{BoundaryTreatment, DomainOnLattice, DomainOnLatticeBuilder};
 pub use fit_quality::{FitComparison, FitQuality};
 pub use holes::HoleFigures;
@@ -50,6 +54,7 @@ pub use on_lattice::RegionOnLattice;
 pub(crate) use outline::Outline;
 pub(crate) use outline_query::OutlineNearby;
 pub use region::{Polygon, Region, Ring, corners};
+pub use sea::{Land, Sea, SeaError, WaterSide};
 
 /// Scales that differ from 1 by less than this are 1.
 const TRUE_TO_SCALE: f64 = 1e-9;

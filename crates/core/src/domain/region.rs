@@ -43,6 +43,11 @@ impl Region {
     ///
     /// `frame` must be proper and all points finite.
     pub fn new(polygons: &[Polygon], frame: Rect) -> Self {
+        Self::of_simple(frame, Self::covered(polygons, frame)).on_earth(&OutlineOnEarth::default())
+    }
+
+    /// Returns the polygons of the region that others cover, as [`Self::new`] does.
+    pub(super) fn covered(polygons: &[Polygon], frame: Rect) -> Vec<Polygon> {
         let grid = Grid::over(&frame);
         let simple: Vec<Shape> = polygons
             .iter()
@@ -54,7 +59,15 @@ impl Region {
             .flatten()
             .collect();
         let contours: Vec<Contour> = simple.into_iter().flatten().collect();
-        Self::cut_to_frame(&grid, &contours).on_earth(&OutlineOnEarth::default())
+        Self::cut_to_frame(&grid, &contours).polygons
+    }
+
+    /// Returns points on the grid of the regions in a frame, without repetitions.
+    pub(super) fn snapped(points: &[DVec2], frame: &Rect) -> Ring {
+        let grid = Grid::over(frame);
+        let mut snapped: Ring = grid.contour(points).iter().map(|at| grid.world(at)).collect();
+        snapped.dedup();
+        snapped
     }
 
     /// Returns the region with exactly these polygons, if they are valid polygons of a region; otherwise the
@@ -91,6 +104,10 @@ impl Region {
         let points = self.rings().flatten();
         let bounds = points.map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
         let chosen = (bounds != Some(self.frame)).then(|| CutFrame::of_world(self.frame));
+        if on_earth.frame.is_some() {
+            let known = CutFrame::of_region(&self, on_earth);
+            return Self { cuts: known.into_iter().collect(), ..self };
+        }
         let is_alone = chosen.is_none() || *on_earth != OutlineOnEarth::default();
         let found = is_alone.then(|| CutFrame::of_region(&self, on_earth)).flatten();
         // The bounding rectangle of what a chosen frame leaves was chosen by nobody.

@@ -17,8 +17,12 @@ use meshbrush_core::earth::{
 use meshbrush_mesh::text::LengthUnit;
 
 /// The format, for the list of all formats of shapes.
-pub static FORMAT: ShapeFormatSpec =
-    ShapeFormatSpec { endings: &["geojson", "json"], read_outline, read_shapes: shapes::read };
+pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec {
+    endings: &["geojson", "json"],
+    read_outline,
+    read_shapes: shapes::read,
+    read_shapes_near: None,
+};
 
 /// Largest file read.
 const MOST_BYTES: u64 = 256 << 20;
@@ -60,19 +64,24 @@ impl Outline {
         assumed: Option<Coordinates>,
     ) -> Result<(Self, Projection), ProjectOutlineError> {
         let from = self.coordinates.on_earth(assumed).ok_or(ProjectOutlineError::NotOnEarth)?;
-        let choice = match (choice, from) {
-            (ProjectionChoice::OwnOrAutomatic, Coordinates::Plane(own)) => ProjectionChoice::Given(own),
-            _ => choice,
-        };
-        if let ProjectionChoice::Given(projection) = choice
-            && from == Coordinates::Plane(projection)
-        {
-            return Ok((Self { coordinates: FileCoordinates::Known(from), ..self }, projection));
+        if let Some(own) = self.own_plane(choice, assumed) {
+            return Ok((Self { coordinates: FileCoordinates::Known(from), ..self }, own));
         }
         let rings = self.polygons.iter().flat_map(|named| named.polygon.iter().map(Vec::as_slice));
         let extent = GeographicExtent::of_coordinates(&from, rings).ok_or(ProjectOutlineError::NotOnEarth)?;
         let projection = choice.projection(&extent)?;
         Ok((self.reprojected(&Reprojection { from, to: projection }), projection))
+    }
+
+    /// Returns the projection whose plane the coordinates are in, if the polygons stay there.
+    pub(super) fn own_plane(
+        &self,
+        choice: ProjectionChoice,
+        assumed: Option<Coordinates>,
+    ) -> Option<Projection> {
+        let Some(Coordinates::Plane(own)) = self.coordinates.on_earth(assumed) else { return None };
+        let stays = choice == ProjectionChoice::OwnOrAutomatic || choice == ProjectionChoice::Given(own);
+        stays.then_some(own)
     }
 
     /// Returns the polygons in the plane of a document.
@@ -156,7 +165,7 @@ pub(super) type Metered = BufReader<Counted<Take<File>>>;
 pub(super) fn read_metered<T>(
     path: &Path,
     meter: &Meter,
-    parse: fn(Metered) -> Result<T, PlacedFlaw>,
+    parse: impl FnOnce(Metered) -> Result<T, PlacedFlaw>,
 ) -> Result<T, ReadError> {
     let read = || -> Result<T, PlacedFlaw> {
         let file = File::open(path)?;

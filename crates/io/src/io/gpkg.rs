@@ -13,7 +13,8 @@ use super::shape_format::ShapeFormatSpec;
 use super::shapes::ShapeFile;
 
 /// The format, for the list of all formats of shapes.
-pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec { endings: &["gpkg"], read_outline, read_shapes: read };
+pub static FORMAT: ShapeFormatSpec =
+    ShapeFormatSpec { endings: &["gpkg"], read_outline, read_shapes: read, read_shapes_near: None };
 
 /// Reads the polygons of a file with their names, from a column *name* if there is one.
 ///

@@ -11,6 +11,10 @@ use super::shapes::ShapeFile;
 use super::{DocumentPlane, FileCoordinates, Meter, ReadError, SHAPE_FORMATS};
 use meshbrush_core::domain::NamedPolygon;
 use meshbrush_core::earth::Coordinates;
+use meshbrush_mesh::geometry::Rect;
+
+/// Reads the shapes of a file that can meet a rectangle, and counts its bytes.
+pub type ReadShapesNear = fn(&Path, Rect, &Meter) -> Result<ShapeFile, ReadError>;
 
 /// A file format of shapes, as its module describes it.
 pub struct ShapeFormatSpec {
@@ -20,6 +24,9 @@ pub struct ShapeFormatSpec {
     pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
     /// Reads the points, lines and polygons of a file, and counts its bytes.
     pub read_shapes: fn(&Path, &Meter) -> Result<ShapeFile, ReadError>,
+    /// Reads the shapes that can meet a rectangle in the coordinates of the file, after whole turns of
+    /// longitudes; `None` where the format does not tell the extent of a shape before its points.
+    pub read_shapes_near: Option<ReadShapesNear>,
 }
 
 /// Returns the endings of all formats, in lower case and without the dot.
@@ -75,8 +82,22 @@ pub fn read_shapes(
     plane: Option<&DocumentPlane>,
     meter: &Meter,
 ) -> Result<ShapeFile, ReadError> {
-    let read = (format_of(path).read_shapes)(path, meter).map_err(|error| with_endings(error, path))?;
-    placed_shapes(read.in_degrees(), plane, path)
+    placed_shapes(read_own_shapes(path, None, meter)?, plane, path)
+}
+
+/// Reads points, lines and polygons in the coordinates of their file; other longitudes and latitudes are in
+/// degrees from Greenwich. Where a rectangle is `wanted`, shapes far from it can be left out.
+///
+/// # Errors
+/// Fails when the file cannot be read, breaks a rule of its format, or has no shape, and when the work was
+/// cancelled.
+pub fn read_own_shapes(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    let format = format_of(path);
+    let read = match (format.read_shapes_near, wanted) {
+        (Some(read_near), Some(wanted)) => read_near(path, wanted, meter),
+        _ => (format.read_shapes)(path, meter),
+    };
+    read.map(ShapeFile::in_degrees).map_err(|error| with_endings(error, path))
 }
 
 /// Returns shapes for a document with this plane, if it has one. Errors call their file `name`.

@@ -21,7 +21,8 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::Grouped;
 
 /// The format, for the list of all formats of shapes.
-pub static FORMAT: ShapeFormatSpec = ShapeFormatSpec { endings: &["shp"], read_outline, read_shapes: read };
+pub static FORMAT: ShapeFormatSpec =
+    ShapeFormatSpec { endings: &["shp"], read_outline, read_shapes: read, read_shapes_near: Some(read_near) };
 
 /// The number that begins every file.
 const FILE_CODE: i32 = 9994;
@@ -35,7 +36,7 @@ const HEADER: u64 = 100;
 /// Fails when the file cannot be read, is not a shapefile, is cut off, or has no polygon or too many points,
 /// and when the work was cancelled.
 pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
-    let shapes = geojson::read_metered(path, meter, parse)?;
+    let shapes = geojson::read_metered(path, meter, |input| parse(input, None))?;
     if shapes.polygons.is_empty() {
         let others = [(!shapes.lines.is_empty(), "PolyLine"), (!shapes.points.is_empty(), "Point")];
         let others: Vec<String> = others.iter().filter(|kind| kind.0).map(|kind| kind.1.to_owned()).collect();
@@ -52,9 +53,26 @@ pub fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
 /// # Errors
 /// Fails as [`read_outline`] does, but where there is no shape at all.
 pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
-    let shapes = geojson::read_metered(path, meter, parse)?;
-    checked(shapes, CoordinateSystem::beside(path).as_ref())
-        .map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
+    read_records(path, None, meter)
+}
+
+/// Reads the shapes of a file that can meet a rectangle in its coordinates, after whole turns of longitudes:
+/// a file of the whole Earth has more points than are read.
+///
+/// # Errors
+/// Fails as [`read`] does; it is no error if no shape is near.
+pub fn read_near(path: &Path, wanted: Rect, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    read_records(path, Some(wanted), meter)
+}
+
+fn read_records(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+    let shapes = geojson::read_metered(path, meter, |input| parse(input, wanted))?;
+    let system = CoordinateSystem::beside(path);
+    if wanted.is_some() {
+        let coordinates = CoordinateSystem::of_corners(system.as_ref(), shapes::places(&shapes));
+        return Ok(ShapeFile { shapes, coordinates });
+    }
+    checked(shapes, system.as_ref()).map_err(|flaw| PlacedFlaw::from(flaw).in_file(path))
 }
 
 /// Reads the shapes of a file without the text beside it, from any input, such as bytes. Errors call the
@@ -63,7 +81,7 @@ pub fn read(path: &Path, meter: &Meter) -> Result<ShapeFile, ReadError> {
 /// # Errors
 /// Fails as [`read`] does.
 pub fn read_from(input: impl Read, name: &Path) -> Result<ShapeFile, ReadError> {
-    geojson::read_limited(input, name, |input| Ok(checked(parse(input)?, None)?))
+    geojson::read_limited(input, name, |input| Ok(checked(parse(input, None)?, None)?))
 }
 
 fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<ShapeFile, Flaw> {
@@ -72,8 +90,9 @@ fn checked(shapes: ShapeList, system: Option<&CoordinateSystem>) -> Result<Shape
     Ok(ShapeFile { shapes, coordinates })
 }
 
-/// Reads all records. Memory grows with the bytes of the file.
-fn parse(mut input: impl Read) -> Result<ShapeList, PlacedFlaw> {
+/// Reads the records, where a rectangle is `wanted` only those that can meet it. Memory grows with the bytes
+/// of these records.
+fn parse(mut input: impl Read, wanted: Option<Rect>) -> Result<ShapeList, PlacedFlaw> {
     let header: [u8; HEADER as usize] = bytes(&mut input)?;
     let numbers = Numbers(&header);
     if numbers.big(0) != FILE_CODE {
@@ -87,18 +106,49 @@ fn parse(mut input: impl Read) -> Result<ShapeList, PlacedFlaw> {
     while at < length {
         let start: [u8; 8] = bytes(&mut input)?;
         let size = 2 * u64::from(Numbers(&start).big(4).unsigned_abs());
-        let mut record = Vec::new();
-        input.by_ref().take(size).read_to_end(&mut record).map_err(Flaw::Io)?;
-        if (record.len() as u64) < size {
-            return Err(Flaw::CutOff.into());
-        }
         number += 1;
         at += 8 + size;
+        let Some(record) = near_record(&mut input, size, wanted)? else { continue };
         let problem = |rule: String| Flaw::Syntax(format!("record {number} {rule}. Export the layer again."));
         count += take(Numbers(&record), &mut shapes).map_err(problem)?;
-        shapes::check_count(count)?;
+        // What is cut to a rectangle can have more: a continent is one polygon.
+        if wanted.is_none() {
+            shapes::check_count(count)?;
+        }
     }
     Ok(shapes)
+}
+
+/// Bytes of the type of a record and of its extent.
+const EXTENT_BYTES: u64 = 36;
+
+/// Reads a record; `None` for a line or polygon whose extent, which precedes its points, cannot meet a
+/// rectangle.
+fn near_record(input: &mut impl Read, size: u64, wanted: Option<Rect>) -> Result<Option<Vec<u8>>, Flaw> {
+    let mut record = Vec::new();
+    let mut rest = input.take(size);
+    let read = |part: &mut dyn Read, record: &mut Vec<u8>| part.read_to_end(record).map_err(Flaw::Io);
+    read(&mut rest.by_ref().take(EXTENT_BYTES), &mut record)?;
+    let is_near = wanted.is_none_or(|wanted| {
+        let extent = Numbers(&record).extent();
+        extent.is_none_or(|extent| can_meet(extent, wanted))
+    });
+    let skipped = match is_near {
+        true => read(&mut rest, &mut record).map(|_| 0)?,
+        false => std::io::copy(&mut rest, &mut std::io::sink()).map_err(Flaw::Io)?,
+    };
+    if record.len() as u64 + skipped < size {
+        return Err(Flaw::CutOff);
+    }
+    Ok(is_near.then_some(record))
+}
+
+/// Returns whether extents can meet after whole turns of longitudes.
+fn can_meet(extent: Rect, wanted: Rect) -> bool {
+    [-720.0, -360.0, 0.0, 360.0, 720.0].iter().any(|&turn| {
+        let offset = dvec2(turn, 0.0);
+        Rect::new(extent.min + offset, extent.max + offset).intersection(&wanted).is_some()
+    })
 }
 
 fn bytes<const N: usize>(input: &mut impl Read) -> Result<[u8; N], Flaw> {
@@ -175,6 +225,14 @@ impl Numbers<'_> {
         let number = |at: usize| self.array(at).map(f64::from_le_bytes).ok_or("is too short");
         let point = dvec2(number(at)?, number(at + 8)?);
         if point.is_finite() { Ok(point) } else { Err("has a coordinate that is not finite".into()) }
+    }
+
+    /// Returns the extent of a line or polygon; `None` for other shapes, and where it is not one.
+    fn extent(self) -> Option<Rect> {
+        matches!(self.little(0)?, 3 | 13 | 23 | 5 | 15 | 25).then_some(())?;
+        let number = |at: usize| self.array(at).map(f64::from_le_bytes);
+        let (min, max) = (dvec2(number(4)?, number(12)?), dvec2(number(20)?, number(28)?));
+        (min.cmple(max).all()).then(|| Rect::new(min, max))
     }
 
     fn points(self, at: usize, count: usize) -> Result<Vec<DVec2>, String> {

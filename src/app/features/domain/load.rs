@@ -85,7 +85,8 @@ fn find_outline(
 /// Returns a new document on the polygons of a file.
 fn domain_of(path: &Path, choice: Option<ProjectionChoice>, meter: &Meter) -> Result<Document, String> {
     let mut outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
-    let mut on_earth = OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None };
+    let mut on_earth =
+        OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None, frame: None };
     if let Some(choice) = choice {
         let projected =
             outline.projected(choice, None).map_err(|error| format!("{}: {error}", path.display()))?;

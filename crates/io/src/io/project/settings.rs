@@ -322,7 +322,7 @@ impl Saved {
             SavedShape::Whole => DomainShape::Whole,
             SavedShape::Formula(text) => DomainShape::Formula(formula("domain", &text)?),
             SavedShape::Polygons => {
-                let on_earth = OutlineOnEarth { file: None, projection };
+                let on_earth = OutlineOnEarth { file: None, projection, frame: None };
                 let load =
                     |cuts: Vec<SavedCut>| cuts.iter().map(SavedCut::load).collect::<Result<Vec<_>, _>>();
                 let cuts = self.domain.cuts.map(load);

@@ -9,10 +9,12 @@ use super::super::layers::{
     LayerData, LoadedRaster, RasterError, RasterFrame, RasterLoader, SavedLayer, Stored, TextError,
 };
 use super::super::settings::{ReadRegion, RegionCoordinates, SavedOpen, SavedSettings, Storage, Usual};
+use super::super::shapes::ShapeFile;
 use super::super::{
     DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
 };
 use super::LoadedLayer;
+use super::file_frame::{OutlineSource, part_in_bounds, sea_of_land};
 use super::grid_region::contour_of_grid;
 use super::notes::{
     cut_at_antimeridian, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
@@ -56,6 +58,8 @@ pub struct Loading<'a> {
     pub with_hidden: bool,
     /// Reads the polygons of the domain.
     pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
+    /// Reads shapes, in their own coordinates, or only those that can meet a rectangle.
+    pub read_shapes: fn(&Path, Option<Rect>, &Meter) -> Result<ShapeFile, ReadError>,
     /// Data in memory, in place of files of their names.
     pub given: Given,
     /// Counts the bytes of each file.
@@ -69,6 +73,7 @@ impl<'a> Loading<'a> {
             usual: Usual::DOCUMENT,
             with_hidden: true,
             read_outline: shape_format::read_outline,
+            read_shapes: shape_format::read_own_shapes,
             given: Given::default(),
             meter,
         }
@@ -79,6 +84,15 @@ impl<'a> Loading<'a> {
         match self.given.shapes(file) {
             Some(text) => geojson::read_outline_from(text, file).map(Outline::in_degrees),
             None => (self.read_outline)(file, self.meter).map(Outline::in_degrees),
+        }
+    }
+
+    /// Returns the shapes of a file, or of data in memory of this name: those that can meet a rectangle,
+    /// where one is `wanted`.
+    fn shapes(&self, file: &Path, wanted: Option<Rect>) -> Result<ShapeFile, ReadError> {
+        match self.given.shapes(file) {
+            Some(text) => shapes::read_from(text, file).map(ShapeFile::in_degrees),
+            None => (self.read_shapes)(file, wanted, self.meter),
         }
     }
 }
@@ -113,7 +127,7 @@ impl SavedSettings {
         check_outline(&settings)?;
         settings.check_depth_unit().map_err(unsuited)?;
         // Without a domain of its own, the mesh covers all rasters.
-        let has_frame = self.domain.bounds.is_some() || self.domain.region.is_some();
+        let has_frame = self.domain.bounds.is_some() || self.domain.outline_file().is_some();
         let without_effect = notes(&settings, has_frame).chain(idle.without_effect).chain(opened);
         let without_effect: Vec<String> = without_effect.map(|note| abridged(&note)).collect();
         let in_degrees = places_in_degrees(self, &settings);
@@ -232,6 +246,33 @@ impl<'a> Files<'a> {
     }
 }
 
+impl Files<'_> {
+    /// Reads the polygons of the domain, in the coordinates of their file.
+    fn outline_source(
+        &mut self,
+        file: &Path,
+        bounds: Option<Rect>,
+        coordinates: &RegionCoordinates,
+    ) -> Result<OutlineSource, LoadError> {
+        if coordinates.is_land {
+            let shapes = self.loading.shapes(file, bounds)?;
+            let (source, notes) = sea_of_land(file, &shapes, bounds, coordinates)?;
+            notes.into_iter().for_each(|note| LayerData::note(self, note));
+            return Ok(source);
+        }
+        let outline = match RasterFormat::of(file) {
+            Ok(format) => {
+                let (outline, notes) =
+                    contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?;
+                notes.into_iter().for_each(|note| LayerData::note(self, note));
+                outline
+            }
+            Err(_) => self.loading.outline(file)?,
+        };
+        part_in_bounds(file, outline, bounds, coordinates)
+    }
+}
+
 impl Storage for Files<'_> {
     type Layer = SavedLayer;
     type Error = LoadError;
@@ -246,24 +287,19 @@ impl Storage for Files<'_> {
         bounds: Option<Rect>,
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
-        let outline = match RasterFormat::of(file) {
-            Ok(format) => {
-                let (outline, notes) =
-                    contour_of_grid(file, format, bounds, coordinates, self.loading.meter)?;
-                notes.into_iter().for_each(|note| LayerData::note(self, note));
-                outline
-            }
-            Err(_) => self.loading.outline(file)?,
-        };
+        let source = self.outline_source(file, bounds, coordinates)?;
+        let OutlineSource { outline, frame } = source;
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
         let uncertain = outline.coordinates.note().map(|note| format!("{}: {note}", file.display()));
         uncertain.into_iter().for_each(|note| LayerData::note(self, note));
-        let RegionCoordinates { assumed, projection, contour: _, positive: _, outside_nodata: _ } =
-            *coordinates;
+        let RegionCoordinates { assumed, projection, is_land, .. } = *coordinates;
         self.file_coordinates = outline.coordinates.on_earth(assumed);
+        let frame = frame.map(|frame| frame.rect);
+        let bounds = frame.or(bounds);
         let Some(choice) = projection else {
             self.note = cut_at_antimeridian(file, &outline);
-            let on_earth = OutlineOnEarth { file: self.file_coordinates, projection: None };
+            let frame = frame.filter(|_| is_land);
+            let on_earth = OutlineOnEarth { file: self.file_coordinates, projection: None, frame };
             let domain = BoundaryMarks::domain_of(&outline.polygons, bounds, &on_earth);
             let (domain, marks) = domain.map_err(|error| unsuited(&error))?;
             return Ok(ReadRegion { domain, marks, unit: outline.coordinates.assuming(assumed).unit() });
@@ -272,7 +308,8 @@ impl Storage for Files<'_> {
         let (outline, projection) = outline.projected(choice, assumed).map_err(|error| unsuited(&error))?;
         self.note = Some(in_the_plane(&outline, &projection));
         self.plane = Some(DocumentPlane { projection, assumed });
-        let on_earth = OutlineOnEarth { file: self.coordinates, projection: Some(projection) };
+        let on_earth = OutlineOnEarth { file: self.coordinates, projection: Some(projection), frame };
+        let bounds = bounds.filter(|_| frame.is_none());
         let domain = BoundaryMarks::domain_of(&outline.polygons, bounds, &on_earth);
         let (domain, marks) = domain.map_err(|error| unsuited(&error))?;
         Ok(ReadRegion { domain, marks, unit: LengthUnit::Metre })
@@ -341,13 +378,7 @@ impl LayerData for Files<'_> {
 
     fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, LoadError> {
         let (Self { loading, plane, .. }, file) = (self, layer.path());
-        let read = match loading.given.shapes(file) {
-            Some(text) => {
-                let shapes = shapes::read_from(text, file)?.in_degrees();
-                shape_format::placed_shapes(shapes, plane.as_ref(), file)?
-            }
-            None => shape_format::read_shapes(file, plane.as_ref(), loading.meter)?,
-        };
+        let read = shape_format::placed_shapes(loading.shapes(file, None)?, plane.as_ref(), file)?;
         Ok(layer.indexed_shapes(read.shapes)?)
     }
 

@@ -12,7 +12,7 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// Returns the polygons of the water of a grid, or of its values, in its own coordinates, and sentences for a
-/// person about it. Without a projection, only the part in `bounds` is read where these are given.
+/// person about it. Where `bounds` are given, in the coordinates of the file, only the part there is read.
 ///
 /// # Errors
 /// Fails when the file cannot be read, does not say where it lies, or has no water.
@@ -29,7 +29,10 @@ pub fn contour_of_grid(
             "a region from a contour needs a grid that says where it lies, such as .asc, .tif or .nc.",
         ));
     };
-    let area = bounds.filter(|_| region.projection.is_none());
+    // Across the antimeridian, both ends of a grid may be wanted.
+    let is_one = |area: &Rect| region.projection.is_none() || (area.min.x >= -180.0 && area.max.x <= 180.0);
+    let is_far = |area: &Rect| area.min.abs().max(area.max.abs()).max_element() > 720.0;
+    let area = bounds.filter(|area| is_one(area) || is_far(area));
     let window = area.map(|area| GridWindow { area, plane: None });
     let grid = read(file, &GridPlace { over: None, window }, meter)?;
     let positive = region.positive.or(grid.facts.positive).unwrap_or(PositiveDepth::Up);

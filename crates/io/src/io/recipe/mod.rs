@@ -3,6 +3,7 @@
 //! `docs/recipe.md` lists the keys. Files are named relative to the folder of the recipe.
 
 mod export;
+mod file_frame;
 mod files;
 mod grid_region;
 mod notes;

@@ -33,7 +33,7 @@ pub fn open(path: &Path, meter: &Meter) -> Result<OpenedRecipe, LoadError> {
 
 /// Returns sentences about the settings of a recipe that a document does not have.
 fn not_held(recipe: &Recipe, boundary: BoundaryTreatment) -> impl Iterator<Item = String> {
-    let is_fitted = recipe.settings.domain.region.is_some() && boundary != BoundaryTreatment::Report;
+    let is_fitted = recipe.settings.domain.outline_file().is_some() && boundary != BoundaryTreatment::Report;
     let removes_parts = recipe.settings.domain.parts.is_some_and(|parts| parts != SavedParts::All);
     let level = recipe.settings.mesh.max_level.map(|level| {
         format!(

@@ -61,7 +61,7 @@ pub fn open(
 }
 
 fn open_frame(settings: &mut Settings, file: Option<Coordinates>) -> bool {
-    let on_earth = OutlineOnEarth { file, projection: settings.domain.projection };
+    let on_earth = OutlineOnEarth { file, projection: settings.domain.projection, frame: None };
     settings.domain = settings.domain.cut_by_own_frame(&on_earth);
     !settings.domain.cuts().is_empty() || settings.domain.region().is_none()
 }

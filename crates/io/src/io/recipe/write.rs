@@ -14,8 +14,10 @@ const HEADER: &str =
 const BEFORE_LAYERS: &str = "\n# The size field, from the bottom layer to the top one.\n";
 
 /// The order of keys. Others follow in the order of their letters.
-const ORDER: [&str; 39] = [
+const ORDER: [&str; 41] = [
     "region",
+    "land",
+    "sea",
     "bounds",
     "inside",
     "unit",

@@ -97,7 +97,8 @@ impl SavedSettings {
             SavedOpen::Polygons(file) => Some(file),
             _ => None,
         });
-        let of_domain = [self.domain.region.as_ref()].into_iter().chain(of_openings);
+        let of_domain =
+            [self.domain.region.as_ref(), self.domain.land.as_ref()].into_iter().chain(of_openings);
         of_layers.chain(of_domain).chain(of_paths).flatten().map(PathBuf::as_path)
     }
 
@@ -112,6 +113,7 @@ impl SavedSettings {
             Ok(())
         };
         place("region", &mut self.domain.region).map_err(|fault| fault.within("domain"))?;
+        place("land", &mut self.domain.land).map_err(|fault| fault.within("domain"))?;
         for entry in &mut self.domain.open.0 {
             if let SavedOpen::Polygons(file) = entry {
                 let mut name = Some(file.clone());
@@ -157,6 +159,7 @@ impl SavedDomain {
             let sentence = format!("{} is not a share of the area, which lies from 0 to 1.", Number(share));
             return Err(KeyFault::value("parts", sentence));
         }
+        self.sea.map_or(Ok(()), |at| point(at).map(|_| ()).map_err(|fault| fault.within("sea")))?;
         each("splits", &self.splits, |at| point(*at))?;
         each("names", &self.names, |name| point(name.at).map_err(|fault| fault.within("at")))?;
         each("types", &self.types, |of_piece| point(of_piece.at).map_err(|fault| fault.within("at")))?;
@@ -164,11 +167,24 @@ impl SavedDomain {
     }
 
     fn check_together(&self) -> Result<(), KeyFault> {
-        if self.region.is_some() && self.inside.is_some() {
-            return Err(KeyFault::key(
-                "inside",
-                "the domain is given by `region` or by `inside`, not by both.",
-            ));
+        let ways = [
+            ("region", self.region.is_some()),
+            ("land", self.land.is_some()),
+            ("inside", self.inside.is_some()),
+        ];
+        let mut ways = ways.into_iter().filter(|(_, is_given)| *is_given);
+        if let (Some((first, _)), Some((second, _))) = (ways.next(), ways.next()) {
+            let sentence = format!("the domain is given by `{first}` or by `{second}`, not by both.");
+            return Err(KeyFault::key(second, sentence));
+        }
+        if self.sea.is_some() && self.land.is_none() {
+            let sentence = "this is a place in the sea beside land; name the file of the land with `land`, or leave it out.";
+            return Err(KeyFault::key("sea", sentence));
+        }
+        if self.land.as_ref().is_some_and(|file| RasterFormat::of(file).is_ok()) {
+            let sentence = "this is a grid, and land is given by polygons or lines of coast: take `region` and `contour` for \
+                            the water of a grid.";
+            return Err(KeyFault::key("land", sentence));
         }
         let of_outline = [
             ("boundary_diameter", self.boundary_diameter.is_some()),
@@ -177,7 +193,7 @@ impl SavedDomain {
             ("crs", self.crs.is_some()),
         ];
         if let Some((key, _)) =
-            of_outline.into_iter().find(|(_, is_given)| *is_given && self.region.is_none())
+            of_outline.into_iter().find(|(_, is_given)| *is_given && self.outline_file().is_none())
         {
             let sentence =
                 "this is for the outline of a region; name its file with `region`, or leave it out.";
@@ -192,7 +208,17 @@ impl SavedDomain {
 
     /// Returns the rectangle that the coarse grid covers, in world units.
     pub(super) fn rect(&self) -> Result<Option<Rect>, KeyFault> {
-        self.bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))
+        let across_antimeridian = |[west, south, east, north]: [f64; 4]| match self.outline_file() {
+            Some(_) if west > east && west <= 180.0 && east >= -180.0 => [west, south, east + 360.0, north],
+            _ => [west, south, east, north],
+        };
+        let bounds = self.bounds.map(across_antimeridian);
+        bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))
+    }
+
+    /// Returns the file of the polygons or lines that give the outline.
+    pub fn outline_file(&self) -> Option<&Path> {
+        self.region.as_deref().or(self.land.as_deref())
     }
 
     /// Returns how the projection of the region is chosen; `None` for the plane of its own coordinates.
@@ -222,6 +248,8 @@ impl SavedDomain {
             contour: self.contour(),
             outside_nodata: self.outside_nodata,
             positive: self.positive.map(Into::into),
+            is_land: self.land.is_some(),
+            sea_at: self.sea.map(DVec2::from),
             assumed: self.assumed()?,
             projection: self.projection()?,
         })

@@ -179,7 +179,7 @@ fn has_word(table: &[(String, TextValue)], key: &str, word: &str) -> bool {
 impl<L> SavedSettings<L> {
     /// Takes lengths with units: those in metres need a plane in metres.
     pub(in crate::io) fn with_lengths(mut self, lengths: WrittenLengths) -> Self {
-        if lengths.are_metric() && self.domain.region.is_some() {
+        if lengths.are_metric() && self.domain.outline_file().is_some() {
             self.domain.projection.get_or_insert_with(|| METRES.to_owned());
         }
         Self { lengths, ..self }

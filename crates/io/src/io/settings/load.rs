@@ -63,6 +63,10 @@ pub struct RegionCoordinates {
     pub positive: Option<PositiveDepth>,
     /// Whether the domain is where the grid has values, in place of a contour.
     pub outside_nodata: bool,
+    /// Whether the file has land, and the domain is the rectangle less it.
+    pub is_land: bool,
+    /// A place in the sea beside the land, in the coordinates of the file.
+    pub sea_at: Option<DVec2>,
     /// What coordinates of files are that do not name a known system.
     pub assumed: Option<Coordinates>,
     /// How the plane is chosen; `None` for that of the polygons' own coordinates.
@@ -80,7 +84,7 @@ pub trait Storage {
     fn keys(layer: &Self::Layer) -> &SavedLayer;
 
     /// Returns the polygons of the domain, in `bounds` where these are given, in the plane of a projection
-    /// where one is chosen.
+    /// where one is chosen. The bounds are in the coordinates of the file.
     ///
     /// # Errors
     /// Fails when they cannot be read or used.
@@ -181,8 +185,8 @@ impl<L> SavedSettings<L> {
     /// Returns the bounds of a domain and a spacing that suit the samples of a surface, where the text leaves
     /// the domain to the layers.
     fn on_samples(&self, layers: &[Layer]) -> Option<(Rect, f64)> {
-        let SavedDomain { bounds, inside, region, .. } = &self.domain;
-        let is_free = bounds.is_none() && inside.is_none() && region.is_none();
+        let SavedDomain { bounds, inside, .. } = &self.domain;
+        let is_free = bounds.is_none() && inside.is_none() && self.domain.outline_file().is_none();
         let mut rasters = layers.iter().filter_map(|layer| match &layer.kind {
             LayerKind::Surface(surface) => surface.source.raster(),
             _ => None,
@@ -193,7 +197,7 @@ impl<L> SavedSettings<L> {
 
     fn read_domain<S: Storage<Layer = L>>(&self, storage: &mut S) -> Result<ReadRegion, S::Error> {
         let bounds = self.domain.rect()?;
-        if let Some(file) = &self.domain.region {
+        if let Some(file) = self.domain.outline_file() {
             return storage.region(file, bounds, &self.domain.coordinates()?);
         }
         let bounds = match bounds {

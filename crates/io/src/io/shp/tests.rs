@@ -56,7 +56,7 @@ fn square(low: f64, high: f64, is_clockwise: bool) -> Vec<[f64; 2]> {
 }
 
 fn parsed(records: &[Vec<u8>]) -> ShapeList {
-    parse(&*file(records)).unwrap()
+    parse(&*file(records), None).unwrap()
 }
 
 fn said(bytes: &[u8]) -> String {
@@ -176,4 +176,31 @@ fn every_cut_is_an_error() {
     for end in 0..whole.len() {
         assert!(read_from(&whole[..end], Path::new("a.shp")).is_err(), "cut at {end}");
     }
+}
+
+#[test]
+fn only_what_can_meet_a_rectangle_is_read() {
+    let with_extent = |kind: i32, ring: &[[f64; 2]]| {
+        let mut record = parts(kind, &[ring]);
+        let extent = bounds(&ring.iter().map(|&at| at.into()).collect::<Vec<DVec2>>());
+        record[4..36].copy_from_slice(&coordinates_of(&[extent.min.into(), extent.max.into()]));
+        record
+    };
+    let west = [[-179.5, 0.0], [-179.0, 0.0], [-179.0, 1.0], [-179.5, 0.0]];
+    let records = [
+        with_extent(5, &square(1.0, 2.0, true)),
+        with_extent(3, &square(5.0, 6.0, true)),
+        with_extent(15, &west),
+        points(8, &[[100.0, 50.0]]),
+    ];
+    let near = |west: f64, east: f64| {
+        let read = parse(&*file(&records), Some(Rect::new(dvec2(west, 0.0), dvec2(east, 9.0)))).unwrap();
+        [read.polygons.len(), read.lines.len(), read.points.len()]
+    };
+    assert_eq!(near(0.0, 3.0), [1, 0, 1]);
+    assert_eq!(near(4.0, 7.0), [0, 1, 1]);
+    assert_eq!(near(170.0, 190.0), [1, 0, 1], "after a whole turn");
+    let cut = &file(&records)[..300];
+    let error = parse(cut, Some(Rect::new(dvec2(50.0, 50.0), dvec2(51.0, 51.0)))).unwrap_err();
+    assert!(matches!(error.flaw, Flaw::CutOff), "{error:?}");
 }
