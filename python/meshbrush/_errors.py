@@ -27,7 +27,14 @@ class FormulaError(MeshError):
 
 
 class FileError(OSError):
-    """A file cannot be read or written."""
+    """A file cannot be read or written. `errno` is the number of the system, as `errno.ENOENT`, where it has one."""
+
+    def __init__(self, sentence: str, errno: int | None = None) -> None:
+        super().__init__(sentence)
+        self.errno = errno
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (self.args[0], self.errno))
 
 
 class MeshbrushWarning(UserWarning):

@@ -47,6 +47,7 @@ def _tables(options: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     memory = values.get("max_memory")
     if isinstance(memory, (int, np.integer)):
         values["max_memory"] = f"{int(memory)} B"
+    values.update({key: _whole(values[key]) for key in ("max_triangles", "max_level") if key in values})
     return {table: {key: values[key] for key in keys if key in values} for table, keys in _TABLES.items()}
 
 
@@ -71,6 +72,11 @@ def _openings(value: Any, given: list[tuple[str, Any]]) -> list[Any]:
 def _is_ring(value: Sequence[Any]) -> bool:
     """Whether these are points with two coordinates each."""
     return all(isinstance(at, (list, tuple, np.ndarray)) and len(at) == 2 for at in value)
+
+
+def _whole(count: Any) -> Any:
+    """Returns a count that was written as 1e6 as an integer."""
+    return int(count) if isinstance(count, float) and count.is_integer() else count
 
 
 def _warn(notes: Sequence[str]) -> None:

@@ -46,6 +46,8 @@ class Common(TypedDict, total=False):
 class Layer:
     """A layer of a document. Its attributes can be set."""
 
+    __slots__ = ("_document", "_number", "__weakref__")
+
     def __init__(self, document: CoreDocument, number: int) -> None:
         self._document = document
         self._number = number

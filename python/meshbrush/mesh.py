@@ -306,6 +306,8 @@ class Mesh:
 
 def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array = np.asarray(points, dtype=np.float64)
+    if array.shape == (0,):
+        array = array.reshape(0, 2)
     if array.ndim == 1 and array.size == 2:
         array = array.reshape(1, 2)
     if array.ndim != 2:

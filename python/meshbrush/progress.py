@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from ._errors import MeshError
+
 #: None or False for none; True for a bar of tqdm, or a line on standard error where there is no tqdm; or a function of
 #: the stage and of what is done of it.
 Progress = bool | Callable[[str, int], Any] | None
@@ -15,6 +17,8 @@ Progress = bool | Callable[[str, int], Any] | None
 @contextmanager
 def watching(progress: Progress, threads: int | None = None) -> Iterator[dict[str, Any]]:
     """Gives the compiled module what watches its work."""
+    if threads is not None and not (isinstance(threads, int) and not isinstance(threads, bool) and 0 <= threads < 2**31):
+        raise MeshError(f"threads = {threads!r}: write how many threads may work, from 1.")
     if progress is True:
         show, close = _bar()
         try:

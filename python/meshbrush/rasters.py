@@ -134,6 +134,8 @@ def sampled(
     function: Callable[[npt.NDArray[np.float64], npt.NDArray[np.float64]], Any], bounds: Bounds, pixels: int
 ) -> Grid:
     """Returns the values of a function at the centres of pixels, `pixels` along the longer side."""
+    if isinstance(pixels, bool) or not isinstance(pixels, (int, np.integer)) or pixels < 1:
+        raise MeshError(f"pixels = {pixels!r}: write how many pixels there are along the longer side, from 1.")
     x0, y0, x1, y1 = (float(side) for side in bounds)
     side = max(x1 - x0, y1 - y0) / pixels
     columns, rows = (max(1, round(length / side)) for length in (x1 - x0, y1 - y0))
@@ -143,7 +145,10 @@ def sampled(
     tile = max(1, _TILE // columns)
     for first in range(0, rows, tile):
         xs, ys = np.meshgrid(x, y[first : first + tile])
-        values[first : first + tile] = np.broadcast_to(np.asarray(function(xs, ys), dtype=np.float64), xs.shape)
+        found = function(xs, ys)
+        if found is None:
+            raise MeshError("The function returns None: it must return the values at x and y, as numbers or an array.")
+        values[first : first + tile] = np.broadcast_to(np.asarray(found, dtype=np.float64), xs.shape)
     return Grid(values, [x0, y0, x1, y1], True, None)
 
 

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use meshbrush_core::field::formula::ParseError;
 use meshbrush_io::io::recipe::LoadError;
-use meshbrush_io::io::{KeyFault, ReadError, Step, TextValue};
+use meshbrush_io::io::{Flaw, KeyFault, Mark, ReadError, Step, TextValue};
 use pyo3::BoundObject;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -30,6 +30,22 @@ pub fn file_error(sentence: impl Display) -> PyErr {
     error_of("FileError", (sentence.to_string(),))
 }
 
+/// Returns the error of a file with the number that the system has for it.
+fn system_error(sentence: impl Display, errno: Option<i32>) -> PyErr {
+    error_of("FileError", (sentence.to_string(), errno))
+}
+
+/// The number of the system for a file that is not there.
+const NOT_THERE: i32 = 2;
+/// Keys whose values name files.
+const FILE_KEYS: [&str; 5] = ["region", "land", "open", "file", "mask_file"];
+
+/// Returns whether a value names a file that is not there.
+fn names_no_file(fault: &KeyFault) -> bool {
+    let of_file = |step: &Step| matches!(step, Step::Key(key) if FILE_KEYS.contains(&&**key));
+    fault.mark == Mark::Entry && fault.path.last().is_some_and(of_file)
+}
+
 /// Returns the error for a mistake in a formula. `position` counts characters.
 fn formula_error(sentence: String, pointer: &str, formula: &str, position: usize) -> PyErr {
     let pointer = pointer.replace('\n', "\n    ");
@@ -50,6 +66,7 @@ pub fn fault_in(tables: &TextValue, fault: &KeyFault) -> PyErr {
             let formula = text_at(tables, &fault.path).unwrap_or_default();
             formula_error(without_table(fault).to_string(), pointer, formula, position)
         }
+        _ if names_no_file(fault) => system_error(without_table(fault), Some(NOT_THERE)),
         _ => mesh_error(without_table(fault)),
     }
 }
@@ -77,7 +94,11 @@ fn text_at<'a>(tables: &'a TextValue, path: &[Step]) -> Option<&'a str> {
 
 /// Returns the error for a file that is of no use.
 pub fn read_error(error: &ReadError) -> PyErr {
-    file_error(error)
+    let errno = match &error.flaw {
+        Flaw::Io(error) => error.raw_os_error(),
+        _ => None,
+    };
+    system_error(error, errno)
 }
 
 /// Returns the error for settings that cannot be loaded.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import errno
 import json
 import pickle
 import re
@@ -331,7 +332,7 @@ def test_why_and_path() -> None:
     (lambda d: d.layers.raster(np.ones((1, 70_000)), reads="diameter"), mb.MeshError, "70,000 × 1 pixels are too many"),
     (lambda d: d.layers.raster(np.ones((0, 3)), reads="diameter"), mb.MeshError, "3 × 0 pixels are too many or none"),
     (lambda d: d.layers.raster(np.array([["a"]]), reads="diameter"), mb.MeshError, "is no raster"),
-    (lambda d: d.layers.raster("none.tif", reads="diameter"), mb.MeshError, "none.tif"),
+    (lambda d: d.layers.raster("none.tif", reads="diameter"), mb.FileError, "none.tif"),
     (lambda d: d.layers.threats(x=1, y=1, range=-1), mb.MeshError, "range"),
     (lambda d: d.layers.distance("outline", at_zero=0, slope=1), mb.MeshError, "at_zero: 0 cannot be used"),
     (lambda d: d.layers.distance(np.ones((3, 3)), at_zero=1, slope=1), mb.MeshError, "rows of two numbers"),
@@ -341,7 +342,7 @@ def test_why_and_path() -> None:
     (lambda d: (d.set(max_triangles=300), d.mesh()), mb.MeshError, "or raise max_triangles"),
     (lambda d: d.layers.add("paint", quantity="risk", layer="a"), mb.MeshError, "`layer` names a layer"),
     (lambda d: mb.Document([[0, 0], [1, 1]]), mb.MeshError, "."),
-    (lambda d: mb.Document("nothing.geojson"), mb.MeshError, "nothing.geojson"),
+    (lambda d: mb.Document("nothing.geojson"), mb.FileError, "nothing.geojson"),
     (lambda d: mb.Document(mb.Domain.formula("x >", (0, 0, 1, 1))), mb.FormulaError, "inside"),
     (lambda d: mb.Document(mb.Domain.rectangle(1, 0, 0, 1)), mb.MeshError, "no rectangle"),
     (lambda d: mb.Document(object()), mb.MeshError, "no shapes"),
@@ -644,3 +645,54 @@ def test_heights_in_files(tmp_path: Path) -> None:
     assert (third(flat=True) == 0).all()
     mesh.write(tmp_path / "m.glb")
     assert (tmp_path / "m.glb").read_bytes()[:4] == b"glTF"
+
+
+def area(mesh: mb.Mesh) -> float:
+    a, b, c = (mesh.nodes[mesh.triangles[:, corner]] for corner in range(3))
+    return float(((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]).sum() / 2)
+
+
+def test_the_sea_beside_land() -> None:
+    shapely = pytest.importorskip("shapely")
+    island = np.array([[-5.5, 47.5], [-4.5, 47.5], [-4.5, 48.5], [-5.5, 48.5], [-5.5, 47.5]])
+    polygon = {"type": "Polygon", "coordinates": [island.tolist()]}
+    frame = (-6.0, 47.0, -2.0, 49.0)
+    for land in (polygon, [island], shapely.LineString(island)):
+        document = mb.Document(mb.Domain.sea(land, bounds=frame), spacing=0.25)
+        assert abs(area(document.mesh()) - 7) < 1e-9
+        assert document.settings["bounds"] == frame
+    coast = np.array([[-4.0, 46.0], [-4.0, 50.0]])
+    for place in ((-5, 48), (-3, 48)):
+        document = mb.Document(mb.Domain.sea(coast, bounds=frame, place=place), spacing=0.25)
+        assert abs(area(document.mesh()) - 4) < 1e-9
+        assert (document.mesh().nodes[:, 0].mean() < -4) == (place[0] < -4)
+    part = mb.Document(mb.Domain(polygon, bounds=(-5.0, 47.0, -2.0, 48.0)), spacing=0.25, parts="all")
+    assert abs(area(part.mesh()) - 0.25) < 1e-9
+    with pytest.raises(mb.MeshError, match="end inside the frame, at -4, 48"):
+        mb.Document(mb.Domain.sea(np.array([[-4.0, 46.0], [-4.0, 48.0]]), bounds=frame))
+
+
+def test_values_of_python_are_taken_or_refused_with_a_sentence() -> None:
+    document = square()
+    assert document.mesh().locate([]).triangle.size == 0
+    document.set(max_triangles=1e6)
+    assert document.settings["max_triangles"] == 1_000_000
+    layer = document.layers.formula(0.05)
+    with pytest.raises(AttributeError):
+        layer.visibel = False  # type: ignore[attr-defined]
+    for fault, part in (
+        (lambda: document.mesh(threads="two", fresh=True), "threads = 'two': write how many"),
+        (lambda: document.layers.sample(lambda x, y: x, pixels=0), "pixels = 0: write how many"),
+        (lambda: document.layers.sample(lambda x, y: None), "The function returns None"),
+    ):
+        with pytest.raises(mb.MeshError, match=re.escape(part)):
+            fault()
+    for missing in (
+        lambda: mb.Document("nothing.geojson"),
+        lambda: document.layers.raster("nothing.tif", reads="diameter"),
+        lambda: document.layers.threats("nothing.csv"),
+        lambda: document.layers.formula(1, mask="nothing.geojson"),
+    ):
+        with pytest.raises(mb.FileError, match="nothing") as raised:
+            missing()
+        assert raised.value.errno == errno.ENOENT

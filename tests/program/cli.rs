@@ -706,7 +706,7 @@ fn a_folder_that_cannot_be_written_is_an_error() {
     if Path::new("/proc/self").is_dir() {
         assert_fails(
             &folder,
-            "mesh --target 1 -o /proc/self/m.vtu --json",
+            "mesh --target 0.05 -o /proc/self/m.vtu --json",
             1,
             "/proc/self/m.vtu cannot be written",
         );

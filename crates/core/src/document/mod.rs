@@ -11,6 +11,7 @@ mod field_price;
 mod follower;
 mod following;
 mod history;
+mod idle_layers;
 mod layer_titles;
 mod layers;
 mod outline;

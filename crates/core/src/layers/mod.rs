@@ -11,6 +11,7 @@ mod distance;
 mod engine;
 mod extent;
 mod feature_size;
+mod idle;
 mod layer;
 mod least;
 mod mask;

@@ -17,7 +17,7 @@ use super::LoadedLayer;
 use super::file_frame::{OutlineSource, part_in_bounds, sea_of_land};
 use super::grid_region::contour_of_grid;
 use super::notes::{
-    cut_at_antimeridian, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
+    cut_at_antimeridian, far_places, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
 };
 use super::opening::{self, OpenData};
 use meshbrush_core::document::{Document, Settings, SettingsError, check_layer_count};
@@ -128,7 +128,11 @@ impl SavedSettings {
         settings.check_depth_unit().map_err(unsuited)?;
         // Without a domain of its own, the mesh covers all rasters.
         let has_frame = self.domain.bounds.is_some() || self.domain.outline_file().is_some();
-        let without_effect = notes(&settings, has_frame).chain(idle.without_effect).chain(opened);
+        let without_effect = notes(&settings, &files.paint, has_frame)
+            .into_iter()
+            .chain(far_places(&settings))
+            .chain(idle.without_effect)
+            .chain(opened);
         let without_effect: Vec<String> = without_effect.map(|note| abridged(&note)).collect();
         let in_degrees = places_in_degrees(self, &settings);
         let facts = [files.note, idle.assumed, in_degrees, no_open_boundary(&settings)];

@@ -5,12 +5,13 @@ use std::path::Path;
 use glam::DVec2;
 use rayon::prelude::*;
 
+use super::super::Number;
 use super::super::geojson::Outline;
 use super::super::settings::{SavedDomain, SavedSettings, marks_of};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryPieces, PieceChoice};
 use meshbrush_core::earth::Projection;
-use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, RasterSource};
+use meshbrush_core::layers::{DistanceTo, Layer, LayerKind, PaintLayers, RasterSource};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::{LengthUnit, short_name};
 
@@ -45,9 +46,34 @@ pub fn in_the_plane(outline: &Outline, projection: &Projection) -> String {
 
 /// Returns layers that ask for nothing, or only in a part of the domain: that is noted where the domain
 /// `has_frame` of its own.
-pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = String> {
+pub fn notes(settings: &Settings, paint: &PaintLayers, has_frame: bool) -> Vec<String> {
+    notes_on(settings, paint, has_frame, |_| true)
+}
+
+/// Returns the notes on some layers.
+pub fn notes_on(
+    settings: &Settings,
+    paint: &PaintLayers,
+    has_frame: bool,
+    is_one: impl Fn(&Layer) -> bool,
+) -> Vec<String> {
     let domain = settings.domain.bounds;
-    let note = move |layer: &Layer| match (&layer.kind, &layer.mask) {
+    let visible: Vec<&Layer> =
+        settings.layers.iter().filter(|layer| layer.visible && is_one(layer)).collect();
+    let missing = missing_pieces(settings, &visible);
+    let note = |layer: &&&Layer| of_layer(layer, domain, has_frame);
+    let idle = settings.idle_layers(paint);
+    let is_new = |layer: &&&Layer| {
+        let measures_to_pieces = matches!(&layer.kind, LayerKind::Distance { to: DistanceTo::Pieces(_), .. });
+        idle.contains(&layer.id) && note(layer).is_none() && (missing.is_empty() || !measures_to_pieces)
+    };
+    let idle = visible.iter().filter(is_new).map(|layer| idle_layer(layer));
+    visible.iter().filter_map(|layer| note(&layer)).chain(idle).chain(missing.iter().cloned()).collect()
+}
+
+/// Returns the note on a layer whose mask or grid does not cover the domain.
+fn of_layer(layer: &Layer, domain: Rect, has_frame: bool) -> Option<String> {
+    match (&layer.kind, &layer.mask) {
         (_, Some(mask)) if mask.bounds().intersection(&domain).is_none() => Some(format!(
             "The mask of the layer “{}” does not meet the domain: it asks for nothing.",
             layer.name
@@ -56,9 +82,44 @@ pub fn notes(settings: &Settings, has_frame: bool) -> impl Iterator<Item = Strin
             let source = kind.raster_source();
             source.and_then(|source| of_raster(layer, source, domain, has_frame))
         }
-    };
-    let visible = || settings.layers.iter().filter(|layer| layer.visible);
-    visible().filter_map(note).chain(missing_pieces(settings))
+    }
+}
+
+/// Returns the note on a layer that changes nothing.
+fn idle_layer(layer: &Layer) -> String {
+    format!(
+        "The layer “{}” changes nothing: nowhere in the rectangle of the domain does it ask for less than the coarse \
+         triangles and h_max are. Check its values, its place and its unit.",
+        short_name(&layer.name)
+    )
+}
+
+/// Returns notes on pins, places of paths and keep-out regions that do not meet the domain.
+pub fn far_places(settings: &Settings) -> impl Iterator<Item = String> {
+    let domain = settings.domain.bounds;
+    let is_far = move |at: &DVec2| !domain.contains(*at);
+    let place = |at: &DVec2| format!("{}, {}", Number(at.x), Number(at.y));
+    let pins = settings.pins.iter().filter(move |at| is_far(at)).map(move |at| {
+        format!(
+            "The pin at {} lies outside the rectangle of the domain: there is nothing to read.",
+            place(at)
+        )
+    });
+    let routes = settings.paths.routes.iter().zip(1..);
+    let routes = routes.flat_map(|(route, number)| route.iter().map(move |at| (at, number)));
+    let routes = routes.filter(move |(at, _)| is_far(at)).map(move |(at, number)| {
+        format!(
+            "The place {} of path {number} lies outside the rectangle of the domain: no path leads there.",
+            place(at)
+        )
+    });
+    let regions = settings.paths.keep_out.iter();
+    let regions = regions.filter(move |region| region.mask.bounds().intersection(&domain).is_none());
+    let regions = regions.map(|region| {
+        let name = short_name(&region.name);
+        format!("The keep-out region “{name}” does not meet the domain: it keeps no path out.")
+    });
+    pins.chain(routes).chain(regions)
 }
 
 /// Returns a note where places of pins and paths are taken for longitudes and latitudes.
@@ -108,8 +169,8 @@ pub fn mark_notes(domain: &SavedDomain, settings: &Settings) -> MarkNotes {
 }
 
 /// Returns the names of pieces of the boundary that visible layers measure to, and that no piece has.
-fn missing_pieces(settings: &Settings) -> Vec<String> {
-    let chosen = settings.layers.iter().filter(|layer| layer.visible).filter_map(|layer| match &layer.kind {
+fn missing_pieces(settings: &Settings, visible: &[&Layer]) -> Vec<String> {
+    let chosen = visible.iter().copied().filter_map(|layer| match &layer.kind {
         LayerKind::Distance { to: DistanceTo::Pieces(chosen), .. } if !chosen.names.is_empty() => {
             Some((layer, chosen))
         }

@@ -9,11 +9,11 @@ use super::super::layers::{SavedKind, SavedLayer};
 use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
-use super::notes::notes;
+use super::notes::notes_on;
 use super::{LoadError, Loaded, Loading, Recipe, found_in};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_core::layers::{Layer, LayerId, PaintLayers};
 use meshbrush_core::raster::TiledRaster;
 use meshbrush_mesh::text::{LengthUnit, abridged};
 
@@ -143,8 +143,12 @@ impl SavedLayer {
         loading: &Loading,
     ) -> Result<LoadedLayer, LoadError> {
         let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
-        let alone = Settings { layers: vec![loaded.layer.clone()], ..settings.clone() };
-        let notes = loaded.notes.into_iter().chain(notes(&alone, true)).map(|note| abridged(&note)).collect();
+        // A formula uses the depths of other layers.
+        let others = settings.layers.iter().filter(|layer| layer.id != id).cloned();
+        let layers = others.chain([loaded.layer.clone()]).collect();
+        let with_layer = Settings { layers, ..settings.clone() };
+        let notes = notes_on(&with_layer, PaintLayers::blank(), true, |layer| layer.id == id);
+        let notes = loaded.notes.into_iter().chain(notes).map(|note| abridged(&note)).collect();
         Ok(LoadedLayer { notes, ..loaded })
     }
 }
