@@ -25,6 +25,8 @@ pub enum Outcome {
         path: PathBuf,
         /// The document.
         opened: Opened,
+        /// A sentence about it for a person.
+        note: Option<String>,
     },
     /// A file was read that becomes a part of the document.
     Read {

@@ -92,6 +92,8 @@ fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     assert!(!notice(&window).is_empty(), "an edit does not change what failed");
     send(&mut window, Command::Edit(EditCommand::Undo));
     send(&mut window, Command::File(FileCommand::Open(good)));
+    wait_until(&mut window, |window| window.query_by_label("What is the file to be?").is_some());
+    super::click_button(&mut window, "Open");
     wait_until(&mut window, |window| notice(window).is_empty());
     wait_until(&mut window, |window| super::document(window).settings().name == "sea");
 }

@@ -30,9 +30,14 @@ pub enum DomainCommand {
     Adds(bool),
     /// Gives the domain other bounds.
     Bounds(Rect),
-    /// Reads polygons, and opens a new document with them as its domain.
+    /// Reads polygons, and opens a new document with them as its domain. Longitudes and latitudes are asked
+    /// about first.
+    Choose(PathBuf),
+    /// Opens such a document without a question: in metres where that is possible, with a note.
+    OpenFirst(PathBuf),
+    /// Opens a document whose domain are polygons in the coordinates of their file.
     Open(PathBuf),
-    /// Opens a document whose domain are longitudes and latitudes in the plane of a projection.
+    /// Opens a document whose domain are polygons on the Earth, in the plane of a projection.
     OpenInMetres(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),

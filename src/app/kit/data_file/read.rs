@@ -11,6 +11,7 @@ use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::{Raster, RasterValues};
+use meshbrush_io::io::geojson::Outline;
 use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader};
 use meshbrush_io::io::{self, DocumentPlane, Meter, RasterFormat};
 use meshbrush_mesh::geometry::Rect;
@@ -50,7 +51,26 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
         is_on_earth,
         unit,
         preview,
+        is_opened: false,
     })
+}
+
+/// Returns polygons that were read, to ask how the document is to be that opens with them.
+pub fn seen_outline(path: &Path, outline: &Outline, meter: &Meter) -> DataFile {
+    let polygons: Vec<_> = outline.polygons.iter().map(|named| named.polygon.clone()).collect();
+    let contents = DataContents::Shapes { points: 0, lines: 0, polygons: polygons.len() };
+    let shapes = ShapeList { polygons, ..ShapeList::default() };
+    let Seen { contents, extent, unit, preview, .. } = drawn(contents, &shapes, outline.coordinates.unit());
+    DataFile {
+        path: path.to_owned(),
+        bytes: meter.total().unwrap_or(0),
+        contents,
+        extent,
+        is_on_earth: outline.coordinates.on_earth(None).is_some(),
+        unit,
+        preview,
+        is_opened: true,
+    }
 }
 
 /// What was seen of a file.
