@@ -37,6 +37,15 @@ pub(super) static SENTENCES: &[(&str, &str)] = &[
     ("Whole rectangle", "Makes the whole rectangle the domain."),
     ("What a click does/Select", "A click selects a piece of the boundary[; {select-or-split} switches]."),
     ("What a click does/Split", "A click ends a piece of the boundary there[; {select-or-split} switches]."),
+    (
+        "Along the frame",
+        "Opens all of the boundary that lies on the rectangle around it, in the coordinates of its file.",
+    ),
+    ("In polygons…", "Opens all of the boundary that lies in the polygons of a file."),
+    (
+        "Open where deeper",
+        "Opens all of the boundary where the water is deeper than this, by the layers of depths.",
+    ),
     ("Join with next", "Makes one piece of this one and the next along the boundary."),
     ("Name", "Name of the piece in files."),
     ("Type", "What the piece is for coastal solvers: open, land or an inflow, and how land treats the flow."),
