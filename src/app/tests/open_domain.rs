@@ -167,7 +167,7 @@ fn coordinates_that_nobody_knows_are_opened_with_a_note() {
     let mut window = window();
     send(&mut window, Command::File(FileCommand::Open(file)));
     let note = wait_for_notice(&mut window);
-    assert!(note.contains("plain.geojson names no coordinate system") && note.contains("*Unit*"), "{note}");
+    assert!(note.contains("plain.geojson names no coordinate system") && note.contains("“Unit”"), "{note}");
     assert_eq!((settings(&window).name.as_str(), settings(&window).unit), ("plain", LengthUnit::None));
 }
 
@@ -186,7 +186,7 @@ fn started_with(file: PathBuf) -> Window {
 fn a_coast_given_at_the_start_is_in_metres_and_a_note_says_so() {
     let window = started_with(written("start", "coast.geojson", COAST));
     let note = notice(&window);
-    assert!(note.contains("in metres") && note.contains("*Open domain…*"), "{note}");
+    assert!(note.contains("in metres") && note.contains("“Open domain…”"), "{note}");
     assert!(!is_asked(&window));
     assert!(settings(&window).unit == LengthUnit::Metre && settings(&window).domain.projection.is_some());
 

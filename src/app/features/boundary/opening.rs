@@ -71,13 +71,13 @@ pub fn set_opened(opened: OpenedBoundary, ctx: &mut Ctx<'_>) {
 fn opened(before: Settings, entry: SavedOpen, meter: &Meter) -> Result<OpenedBoundary, String> {
     let Some(pieces) = BoundaryPieces::of_domain(&before.domain, &before.boundary_marks) else {
         return Err("The boundary of a domain that is given by a formula is that of its mesh, and cannot be opened in one \
-                    step. Click its pieces with the tool Boundary, and set their *Type* in the tab Domain."
+                    step. Click its pieces with the tool Boundary, and set their “Type” in the tab Domain."
             .into());
     };
     if matches!(entry, SavedOpen::Deeper(_)) && DepthSurface::of(&before.layers).is_none() {
         return Err(
-            "There are no depths in this document. Add a grid of them with *Add data…* in the menu File, as \
-                    *Depth of water*."
+            "There are no depths in this document. Add a grid of them with “Add data…” in the menu File, as \
+                    “Depth of water”."
                 .into(),
         );
     }

@@ -57,7 +57,7 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
     let unit = outline.coordinates.unit();
     if outline.coordinates.on_earth(None).is_none() {
         let note = format!(
-            "{name} names no coordinate system that is known here, so the document has no unit. Set one with *Unit* in the tab Domain."
+            "{name} names no coordinate system that is known here, so the document has no unit. Set one with “Unit” in the tab Domain."
         );
         let note = (unit == LengthUnit::None).then_some(note);
         return opened(file, note, document_of(file, outline, DomainPlane::OfFile));
@@ -68,7 +68,7 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
             let plane = document.settings().domain.projection.map_or("", |plane| plane.kind().name());
             let note = match are_longitudes {
                 true => format!(
-                    "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane; *Open domain…* in \
+                    "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane; “Open domain…” in \
                      the menu File opens it in degrees."
                 ),
                 false => format!("{name} is in metres, and was opened in a {plane} plane."),

@@ -12,8 +12,8 @@ use crate::app::command::{Command, ShellCommand};
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::{Raster, RasterValues};
 use meshbrush_io::io::geojson::Outline;
-use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader};
-use meshbrush_io::io::{self, DocumentPlane, Meter, RasterFormat};
+use meshbrush_io::io::layers::{LoadedRaster, RasterFile, RasterFrame, RasterLoader};
+use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter, RasterFormat};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -85,7 +85,7 @@ struct Seen {
 fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
     let read = RasterLoader::new(meter).load(&file, RasterValues::Any, frame);
-    let pixels = read.map_err(|error| error.to_string())?.raster;
+    let LoadedRaster { raster: pixels, coordinates, .. } = read.map_err(|error| error.to_string())?;
     let raster = pixels.raster();
     let facts = facts(raster);
     let extent = if file.format.has_place() {
@@ -96,7 +96,12 @@ fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, Strin
     let is_grid = file.format.is_grid();
     let contents = if is_grid { DataContents::Grid(facts) } else { DataContents::Picture(facts) };
     let preview = Preview::of_raster(raster, facts.values);
-    Ok(Seen { contents, extent, is_on_earth: false, unit: LengthUnit::None, preview })
+    let unit = match (&frame.plane, coordinates) {
+        (Some(_), _) => LengthUnit::Metre,
+        (None, Some(stated @ (FileCoordinates::Known(_) | FileCoordinates::Foreign(_)))) => stated.unit(),
+        (None, _) => LengthUnit::None,
+    };
+    Ok(Seen { contents, extent, is_on_earth: false, unit, preview })
 }
 
 fn facts(raster: &Raster) -> RasterFacts {

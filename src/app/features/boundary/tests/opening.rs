@@ -89,7 +89,7 @@ fn all_that_is_deep_is_opened_where_there_are_depths() {
     assert!(button.accesskit_node().is_disabled(), "there are no depths");
     choose_in_palette(&mut window, "Open the boundary deeper than 50 m");
     assert!(
-        wait_for_notice(&mut window).contains("Add a grid of them with *Add data…*"),
+        wait_for_notice(&mut window).contains("Add a grid of them with “Add data…”"),
         "{}",
         notice(&window)
     );
@@ -153,5 +153,5 @@ fn a_domain_by_a_formula_says_how_its_boundary_is_opened() {
     };
     send(&mut window, show(Settings::for_domain("disc".into(), domain)));
     choose_in_palette(&mut window, "Open the boundary along the frame");
-    assert!(wait_for_notice(&mut window).contains("*Type* in the tab Domain"), "{}", notice(&window));
+    assert!(wait_for_notice(&mut window).contains("“Type” in the tab Domain"), "{}", notice(&window));
 }

@@ -81,7 +81,8 @@ fn sizes_need_a_document_in_metres() {
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
     click_on(&mut window, Role::RadioButton, "Wavelength");
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
-    assert!(window.query_by_label_contains("need a document in metres").is_some());
+    let remarks = window.query_all_by_label_contains("Sizes from depths need a document in metres").count();
+    assert_eq!(remarks, 1);
 }
 
 #[test]
