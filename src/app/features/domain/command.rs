@@ -45,17 +45,19 @@ pub enum DomainCommand {
     UseContour(LayerId, DepthContour),
     /// Makes the area in which the raster of a layer of a surface has values the domain.
     UseValues(LayerId),
-    /// Adds an outline that was read.
+    /// Takes over an outline that was read or found.
     SetOutline(Box<OutlineChange>),
 }
 
 /// An outline that was read for a domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineChange {
-    /// Name of the file.
+    /// The name of the file or the layer.
     pub name: String,
-    /// The domain that it was added to.
+    /// The domain that it was made for.
     pub before: Domain,
     /// The change of the document.
     pub setting: Setting,
+    /// A sentence about the new domain; without one, polygons of a file were added to it.
+    pub news: Option<String>,
 }

@@ -66,7 +66,7 @@ impl Feature for DomainEditor {
 }
 
 fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
-    let OutlineChange { name, before, setting } = change;
+    let OutlineChange { name, before, setting, news } = change;
     let settings = ctx.session.document().settings();
     if settings.domain != before || ctx.session.is_cutting() {
         let problem = "was not added, as the domain was edited in the meantime. Add it again.";
@@ -79,7 +79,8 @@ fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
     if settings.domain != before {
         let grows = settings.domain.bounds != before.bounds;
         let frame = if grows { " The frame grew to hold it." } else { "" };
-        ctx.session.tell(format!("The outline {name} was added to the domain.{frame}"));
+        let added = || format!("The outline {name} was added to the domain.{frame}");
+        ctx.session.tell(news.unwrap_or_else(added));
         ctx.view.camera = ctx.view.camera.filter(|_| !grows);
     }
 }

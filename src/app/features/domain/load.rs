@@ -8,12 +8,15 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened, ShellCommand};
 use crate::app::kit::seen_outline;
 use crate::app::session::Session;
+use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::layers::{LayerId, LayerKind};
+use meshbrush_core::raster::Raster;
 use meshbrush_io::io::geojson::Outline;
 use meshbrush_io::io::{self, FileCoordinates, Meter};
+use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// The plane in which polygons become a domain.
@@ -122,7 +125,8 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
         };
         match settings.with_outline(&polygons) {
             Ok(setting) => {
-                let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
+                let change =
+                    OutlineChange { name: name_of(&file), before: settings.domain, setting, news: None };
                 Outcome::Read {
                     path: file,
                     commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
@@ -138,7 +142,17 @@ pub fn load_contour(session: &Session, background: &mut Background, layer: Layer
     let settings = session.document().settings().clone();
     let Some(layer) = settings.layer(layer).cloned() else { return };
     let (LayerKind::Depth(depths), name) = (layer.kind, layer.name) else { return };
-    find_outline(background, settings, name, move |settings| settings.with_contour(&depths, &contour));
+    let find = move |settings: &Settings| {
+        let setting = settings.with_contour(&depths, &contour)?;
+        let unknown = unknown_in(depths.source().raster.raster(), settings.domain.bounds);
+        let land = match unknown {
+            0 => String::new(),
+            1 => " One pixel without a value in it counts as land.".to_owned(),
+            count => format!(" {} pixels without a value in it count as land.", format::count(count)),
+        };
+        Ok((setting, format!("is the contour of {}.{land}", depths.source().name)))
+    };
+    find_outline(background, settings, name, find);
 }
 
 /// Finds where the raster of a layer of a surface has values, and makes that the domain of the document.
@@ -146,21 +160,32 @@ pub fn load_area_of_values(session: &Session, background: &mut Background, layer
     let settings = session.document().settings().clone();
     let Some(layer) = settings.layer(layer).cloned() else { return };
     let Some(source) = layer.kind.raster_source().cloned() else { return };
-    let find = move |settings: &Settings| settings.with_values_of(source.raster.raster());
+    let find = move |settings: &Settings| {
+        let setting = settings.with_values_of(source.raster.raster())?;
+        Ok((setting, format!("is the area in which {} has values.", source.name)))
+    };
     find_outline(background, settings, layer.name, find);
 }
 
-/// Finds an outline, and makes it the domain of the document.
+/// Returns how many pixels with their centres in an area have no value.
+fn unknown_in(raster: &Raster, area: Rect) -> u64 {
+    let ([columns, rows], centers) = (raster.size(), raster.pixel_centers());
+    let is_unknown = |x: u32, y: u32| raster.get(x, y).is_nan() && area.contains(centers(x, y));
+    (0..rows).map(|y| (0..columns).filter(|&x| is_unknown(x, y)).count() as u64).sum()
+}
+
+/// Finds an outline with the end of a sentence about it, and makes it the domain of the document.
 fn find_outline(
     background: &mut Background,
     settings: Settings,
     name: String,
-    find: impl FnOnce(&Settings) -> Result<Setting, OutlineError> + Send + 'static,
+    find: impl FnOnce(&Settings) -> Result<(Setting, String), OutlineError> + Send + 'static,
 ) {
     let shown = name.clone();
     background.start(Aim::Read, Path::new(&shown), move |_| match find(&settings) {
-        Ok(setting) => {
-            let change = OutlineChange { name, before: settings.domain, setting };
+        Ok((setting, what)) => {
+            let news = Some(format!("The domain was replaced: it {what}"));
+            let change = OutlineChange { name, before: settings.domain, setting, news };
             Outcome::PartRead(vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))])
         }
         Err(error) => Outcome::NotRead(format!("{name}: {error}")),
