@@ -19,6 +19,8 @@ const WIDTH: f32 = 700.0;
 const FACTS: f32 = 272.0;
 /// Indentation of the sentence below a choice, in points.
 const BESIDE_RADIO: f32 = 16.0;
+/// What the ends of an extent are rounded to, as a share of its longer side.
+const STEP_OF_EXTENT: f64 = 1e-5;
 /// Height of the picture, in points.
 const PICTURE: f32 = 188.0;
 
@@ -163,9 +165,16 @@ impl Question {
 fn fact_rows(ui: &mut Ui, file: &DataFile) {
     ValueRow::new("Contents", &contents_text(file)).help("What the file holds.").show(ui);
     ValueRow::new("File size", &format::file_size(file.bytes)).help("The size of the file.").show(ui);
-    let range = |low: f64, high: f64| format!("{} … {}", number(low), file.unit.after(&number(high)));
     let extents = match &file.extent {
-        Some(extent) => [range(extent.min.x, extent.max.x), range(extent.min.y, extent.max.y)],
+        Some(extent) => {
+            let step = STEP_OF_EXTENT * extent.size().max_element();
+            let end = |value| {
+                let text = format::coordinate(value, step, LengthUnit::None);
+                format::without_zeros(&text).to_owned()
+            };
+            let range = |low, high| format!("{} … {}", end(low), file.unit.after(&end(high)));
+            [range(extent.min.x, extent.max.x), range(extent.min.y, extent.max.y)]
+        }
         None => ["the domain's", "the domain's"].map(String::from),
     };
     for (name, extent) in ["x", "y"].iter().zip(&extents) {

@@ -7,7 +7,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
-use crate::app::command::{Command, FileCommand, LayerCommand, Opened, ShellCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
@@ -251,7 +251,6 @@ impl App {
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
             Outcome::Opened { path, opened, note } => {
-                let note = note.map(|note| Command::Shell(ShellCommand::Tell(note)));
                 let show = Command::File(FileCommand::Show(opened));
                 self.finish_reading(path, [show].into_iter().chain(note).collect());
             }

@@ -95,10 +95,15 @@ pub fn with_space_around(extent: Rect) -> Rect {
 /// # Errors
 /// Fails with a sentence when no mesh can be built for them.
 pub fn show_over_extent(settings: Settings, file: &Path, notes: &[String]) -> Result<Vec<Command>, String> {
-    let (name, bounds) = (name_of(file), extent(&settings.domain.bounds));
+    // Metres in a plane that was chosen say nothing to a person who knows the file.
+    let bounds = match settings.domain.projection {
+        Some(_) => String::new(),
+        None => format!(": {}", extent(&settings.domain.bounds)),
+    };
+    let name = name_of(file);
     let document = Document::new(settings, None).map_err(|error| format!("{}: {error}", file.display()))?;
     let opened = Opened { document: Arc::new(document), home: None };
-    let news = format!("The document was empty, so it takes the extent of {name}: {bounds}.");
+    let news = format!("The document was empty, so it takes the extent of {name}{bounds}.");
     let news = [&[news], notes].concat().join(" ");
     Ok(vec![Command::File(FileCommand::Show(opened)), Command::Shell(ShellCommand::Tell(news))])
 }

@@ -12,7 +12,7 @@ use super::{
     wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use meshbrush_core::document::Setting;
 
 /// Lets the window show frames for some seconds of its own time.
@@ -77,6 +77,18 @@ fn a_failed_edit_is_forgotten_with_the_next_edit() {
     assert!(!notice(&window).is_empty());
     send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(notice(&window), "");
+}
+
+#[test]
+fn news_stays_long_enough_to_be_read() {
+    let mut window = window();
+    for (length, seconds) in [(40, 5.0), (280, 20.0)] {
+        send(&mut window, Command::Shell(ShellCommand::Tell("a".repeat(length))));
+        wait_seconds(&mut window, seconds - 1.0);
+        assert!(!notice(&window).is_empty(), "{length} characters are not read in {seconds} s");
+        wait_seconds(&mut window, 3.0);
+        assert_eq!(notice(&window), "", "{length} characters");
+    }
 }
 
 #[test]

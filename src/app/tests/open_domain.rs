@@ -184,11 +184,14 @@ fn started_with(file: PathBuf) -> Window {
 
 #[test]
 fn a_coast_given_at_the_start_is_in_metres_and_a_note_says_so() {
-    let window = started_with(written("start", "coast.geojson", COAST));
+    let mut window = started_with(written("start", "coast.geojson", COAST));
     let note = notice(&window);
-    assert!(note.contains("in metres") && note.contains("“Open domain…”"), "{note}");
+    assert!(note.contains("longitudes and latitudes. It was opened in metres"), "{note}");
     assert!(!is_asked(&window));
     assert!(settings(&window).unit == LengthUnit::Metre && settings(&window).domain.projection.is_some());
+    click_button(&mut window, "Open in degrees");
+    wait_until(&mut window, |window| settings(window).unit == LengthUnit::Degree);
+    assert_eq!(notice(&window), "");
 
     let window = started_with(written("start", "world.geojson", WORLD));
     let note = notice(&window);

@@ -103,6 +103,11 @@ pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
     unit.after(&fixed(value, decimals_for(step)))
 }
 
+/// Returns the text of a number without the zeros after its last decimal.
+pub fn without_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
 /// Returns the number of decimals that tells apart values `step` from each other, at most 15.
 pub fn decimals_for(step: f64) -> usize {
     if !(step.is_finite() && step > 0.0) {

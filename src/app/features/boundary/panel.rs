@@ -26,8 +26,12 @@ const MOST_ROWS: usize = 200;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(pieces) = state.session.boundary_pieces() else {
-        let text = "The pieces are being found.";
-        Section::new("Boundary").id("boundary").show(ui, |ui| remark(ui, text));
+        // As high as with the pieces, so that the panel does not scroll meanwhile.
+        Section::new("Boundary").id("boundary").show(ui, |ui| {
+            remark(ui, "The pieces are being found.");
+            ui.add_space(LIST_HEIGHT);
+            opening_rows(ui, state, commands);
+        });
         return;
     };
     let selected = state.tools.boundary.selected_of(pieces);
@@ -52,7 +56,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 /// Where to open the boundary in one step.
 fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ui.add_space(8.0);
-    remark(ui, "Open all of the boundary that lies somewhere; islands stay land.");
+    remark(ui, "Open in one step where the sea goes on. Islands stay land.");
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Along the frame")).clicked() {
             commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Frame)));

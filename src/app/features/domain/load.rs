@@ -15,7 +15,7 @@ use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::layers::{LayerId, LayerKind};
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::geojson::Outline;
-use meshbrush_io::io::{self, FileCoordinates, Meter};
+use meshbrush_io::io::{self, FileCoordinates};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -30,7 +30,7 @@ pub enum DomainPlane {
 
 /// Reads polygons, and opens a document with them as its domain.
 pub fn load_domain(background: &mut Background, path: &Path, plane: DomainPlane) {
-    open_outline(background, path, move |file, outline, _| {
+    open_outline(background, path, move |file, outline| {
         opened(file, None, document_of(file, outline, plane))
     });
 }
@@ -38,11 +38,11 @@ pub fn load_domain(background: &mut Background, path: &Path, plane: DomainPlane)
 /// Reads polygons, and opens a document with them as its domain: at once where their coordinates leave no
 /// choice, and else after a question.
 pub fn choose_plane(background: &mut Background, path: &Path) {
-    open_outline(background, path, |file, outline, meter| {
+    open_outline(background, path, |file, outline| {
         if !are_longitudes(&outline.coordinates) {
             return open_unasked(file, outline);
         }
-        let asked = Arc::new(seen_outline(file, &outline, meter));
+        let asked = Arc::new(seen_outline(file, &outline));
         Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(asked))])
     });
 }
@@ -50,7 +50,7 @@ pub fn choose_plane(background: &mut Background, path: &Path) {
 /// Reads polygons, and opens a document with them as its domain: in metres where that is possible. A note
 /// says which coordinates were chosen.
 pub fn load_first(background: &mut Background, path: &Path) {
-    open_outline(background, path, |file, outline, _| open_unasked(file, outline));
+    open_outline(background, path, open_unasked);
 }
 
 /// Opens polygons in metres where that is possible, and else in the coordinates of their file. A note says
@@ -62,7 +62,7 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
         let note = format!(
             "{name} names no coordinate system that is known here, so the document has no unit. Set one with “Unit” in the tab Domain."
         );
-        let note = (unit == LengthUnit::None).then_some(note);
+        let note = (unit == LengthUnit::None).then_some(Command::Shell(ShellCommand::Tell(note)));
         return opened(file, note, document_of(file, outline, DomainPlane::OfFile));
     }
     let are_longitudes = are_longitudes(&outline.coordinates);
@@ -70,18 +70,27 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
         Ok(document) => {
             let plane = document.settings().domain.projection.map_or("", |plane| plane.kind().name());
             let note = match are_longitudes {
-                true => format!(
-                    "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane; “Open domain…” in \
-                     the menu File opens it in degrees."
+                true => ShellCommand::Offer(
+                    format!(
+                        "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane."
+                    ),
+                    "Open in degrees",
+                    Box::new(Command::Domain(DomainCommand::Open(file.to_owned()))),
                 ),
-                false => format!("{name} is in metres, and was opened in a {plane} plane."),
+                false => {
+                    ShellCommand::Tell(format!("{name} is in metres, and was opened in a {plane} plane."))
+                }
             };
-            opened(file, Some(note), Ok(document))
+            opened(file, Some(Command::Shell(note)), Ok(document))
         }
         Err(problem) => {
             let note =
                 format!("{name} was opened in its own coordinates, as metres do not suit it. {problem}");
-            opened(file, Some(note), document_of(file, outline, DomainPlane::OfFile))
+            opened(
+                file,
+                Some(Command::Shell(ShellCommand::Tell(note))),
+                document_of(file, outline, DomainPlane::OfFile),
+            )
         }
     }
 }
@@ -90,16 +99,16 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
 fn open_outline(
     background: &mut Background,
     path: &Path,
-    open: impl FnOnce(&Path, Outline, &Meter) -> Outcome + Send + 'static,
+    open: impl FnOnce(&Path, Outline) -> Outcome + Send + 'static,
 ) {
     let file = path.to_owned();
     background.start(Aim::Read, path, move |meter| match io::shape_format::read_outline(&file, meter) {
-        Ok(outline) => open(&file, outline, meter),
+        Ok(outline) => open(&file, outline),
         Err(error) => Outcome::not_read(error),
     });
 }
 
-fn opened(file: &Path, note: Option<String>, document: Result<Document, String>) -> Outcome {
+fn opened(file: &Path, note: Option<Command>, document: Result<Document, String>) -> Outcome {
     match document {
         Ok(document) => {
             let opened = Opened { document: Arc::new(document), home: None };

@@ -45,7 +45,7 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
     let Seen { contents, extent, is_on_earth, unit, preview } = seen;
     Ok(DataFile {
         path: path.to_owned(),
-        bytes: meter.total().unwrap_or(0),
+        bytes: io::disk::bytes_of(path),
         contents,
         extent,
         is_on_earth,
@@ -56,14 +56,14 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
 }
 
 /// Returns polygons that were read, to ask how the document is to be that opens with them.
-pub fn seen_outline(path: &Path, outline: &Outline, meter: &Meter) -> DataFile {
+pub fn seen_outline(path: &Path, outline: &Outline) -> DataFile {
     let polygons: Vec<_> = outline.polygons.iter().map(|named| named.polygon.clone()).collect();
     let contents = DataContents::Shapes { points: 0, lines: 0, polygons: polygons.len() };
     let shapes = ShapeList { polygons, ..ShapeList::default() };
     let Seen { contents, extent, unit, preview, .. } = drawn(contents, &shapes, outline.coordinates.unit());
     DataFile {
         path: path.to_owned(),
-        bytes: meter.total().unwrap_or(0),
+        bytes: io::disk::bytes_of(path),
         contents,
         extent,
         is_on_earth: outline.coordinates.on_earth(None).is_some(),
