@@ -25,6 +25,8 @@ pub enum Outcome {
         path: PathBuf,
         /// The document.
         opened: Opened,
+        /// The command that says something about it.
+        note: Option<Command>,
     },
     /// A file was read that becomes a part of the document.
     Read {

@@ -141,7 +141,8 @@ pub fn open(background: &mut Background, path: &Path) {
     background.start(Aim::Read, path, move |meter| match io::project::read_stamped(&file, meter) {
         Ok((document, stamp)) => {
             let home = Some(Home { path: file.clone(), stamp: Some(stamp) });
-            Outcome::Opened { path: file, opened: Opened { document: Arc::new(document), home } }
+            let opened = Opened { document: Arc::new(document), home };
+            Outcome::Opened { path: file, opened, note: None }
         }
         Err(error) => Outcome::not_read(error),
     });

@@ -186,7 +186,7 @@ impl App {
     ) -> Result<Self, String> {
         let mut app = Self::with_document(ctx, render_state, files::new_document())?;
         app.starts_with_file = true;
-        app.send(Command::File(FileCommand::Open(file)));
+        app.send(Command::File(FileCommand::OpenFirst(file)));
         Ok(app)
     }
 

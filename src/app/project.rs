@@ -8,6 +8,7 @@ use super::background::Background;
 use super::command::{Command, FigureCommand, FileCommand};
 use super::file_kinds::{files_that_open, opened_by_ending};
 use super::home::{self, Claims, Expected, Home, Loss};
+use super::kit::FileRequest;
 use super::replacing::Replacing;
 use super::session::Session;
 use super::widgets::Answer;
@@ -398,14 +399,14 @@ fn announce_closing(command: &Command, session: &mut Session, background: &Backg
     }
 }
 
-/// Returns the command that opens a file, by the ending of its name.
+/// Returns the kind of a file to open, by the ending of its name.
 ///
 /// # Errors
 /// Fails with a sentence when files with that ending cannot be opened.
-pub fn open_command(path: PathBuf) -> Result<Command, String> {
+pub fn opened_kind(path: &Path) -> Result<FileRequest, String> {
     let name = path.file_name().unwrap_or_default();
     match opened_by_ending().find(|kind| kind.takes(name)) {
-        Some(kind) => Ok((kind.command)(path)),
+        Some(kind) => Ok(kind),
         None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
     }
 }

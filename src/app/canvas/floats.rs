@@ -10,12 +10,16 @@ use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use crate::app::features::painting::show_limit_offer;
 use crate::app::features::picture::show_corners;
 use crate::app::kit::FrameState;
+use crate::app::notices::Notice;
 use crate::app::session::Session;
 use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use meshbrush_core::document::{DrawnPart, Stage};
 
-/// How long news is shown, in seconds.
+/// How long news is shown at least, in seconds, and with a button.
 const NEWS_SECONDS: f64 = 5.0;
+const NEWS_SECONDS_WITH_BUTTON: f64 = 12.0;
+/// Characters that people read in a second who do not wait for them.
+const READ_PER_SECOND: f64 = 14.0;
 /// How long it is shown after the pointer has left it, in seconds.
 const NEWS_SECONDS_AFTER_POINTER: f64 = 2.0;
 
@@ -110,7 +114,7 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
         (None, _) => banner,
     };
     let answer = banner.show(&mut child);
-    if !notice.failed && !stands && has_faded(&child, notice.number) {
+    if !notice.failed && !stands && has_faded(&child, notice) {
         commands.push(Command::Shell(ShellCommand::DismissNotice));
     }
     match answer {
@@ -130,19 +134,25 @@ fn draw_notice(ui: &mut Ui, inner: Rect, session: &Session, commands: &mut Vec<C
 }
 
 /// Returns whether news has been shown long enough. Under the pointer it stays. The window sleeps meanwhile.
-fn has_faded(ui: &Ui, number: u64) -> bool {
+fn has_faded(ui: &Ui, notice: &Notice) -> bool {
     let id = Id::unique("end of the news");
     let now = ui.input(|input| input.time);
-    let known = ui.data(|data| data.get_temp::<(u64, f64)>(id)).filter(|(of, _)| *of == number);
-    let mut end = known.map_or(now + NEWS_SECONDS, |(_, end)| end);
+    let known = ui.data(|data| data.get_temp::<(u64, f64)>(id)).filter(|(of, _)| *of == notice.number);
+    let mut end = known.map_or(now + seconds_of(notice), |(_, end)| end);
     if ui.rect_contains_pointer(ui.min_rect()) {
         end = end.max(now + NEWS_SECONDS_AFTER_POINTER);
     }
-    ui.data_mut(|data| data.insert_temp(id, (number, end)));
+    ui.data_mut(|data| data.insert_temp(id, (notice.number, end)));
     if now < end {
         ui.ctx().request_repaint_after(Duration::from_secs_f64(end - now));
     }
     now >= end
+}
+
+/// Returns how long news is shown: long enough to be read.
+fn seconds_of(notice: &Notice) -> f64 {
+    let least = if notice.offer.is_some() { NEWS_SECONDS_WITH_BUTTON } else { NEWS_SECONDS };
+    least.max(notice.text.chars().count() as f64 / READ_PER_SECOND)
 }
 
 /// Returns the present work on the mesh in words, and its progress.

@@ -3,7 +3,7 @@
 use eframe::egui::{Key, Modifiers};
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_IN_METRES};
+use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
@@ -45,6 +45,12 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             File,
             "Open domain in metres…",
             Command::File(FileCommand::Ask(&OPEN_DOMAIN_IN_METRES)),
+        )
+        .palette_only(),
+        CatalogItem::new(
+            File,
+            "Open domain in its own coordinates…",
+            Command::File(FileCommand::Ask(&OPEN_DOMAIN_AS_IT_IS)),
         )
         .palette_only(),
         CatalogItem::new(

@@ -1,7 +1,7 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 47] = [
+static SYNONYMS: [(&str, &str); 48] = [
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
@@ -9,6 +9,10 @@ static SYNONYMS: [(&str, &str); 47] = [
     ("Open grid as target diameter…", "raster asc size import"),
     ("Open background picture…", "image map trace png"),
     ("Open domain…", "coast outline polygon geojson import boundary"),
+    (
+        "Open the boundary",
+        "sea ocean obc offshore elevation water level specified bathymetry depth side mask",
+    ),
     ("Add outline to this document…", "coast polygon geojson import boundary"),
     ("Save as recipe…", "toml export script"),
     (

@@ -26,6 +26,8 @@ pub enum FileCommand {
     Ask(FileRequest),
     /// Opens a file; its ending says what it is.
     Open(PathBuf),
+    /// Opens the file that the program was started with, without a question about it.
+    OpenFirst(PathBuf),
     /// Opens a project or a recipe; reads any other file, and asks what it is to be.
     AddData(PathBuf),
     /// Reads a project, and opens it in place of the document.

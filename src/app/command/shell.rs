@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::Command;
 use crate::app::help::HelpTopic;
 use crate::app::kit::{DataFile, Keymap, Tool};
 
@@ -38,6 +39,8 @@ pub enum ShellCommand {
     Report(String),
     /// Shows news.
     Tell(String),
+    /// Shows news, and a button that sends a command.
+    Offer(String, &'static str, Box<Command>),
     /// Dismisses the message.
     DismissNotice,
     /// Moves the focus by so many parts of the window: menus, tools, canvas, panel, status bar.

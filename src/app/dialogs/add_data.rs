@@ -9,7 +9,7 @@ use eframe::egui::{
 
 use crate::app::background::name_of;
 use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{DataContents, DataFile, DataRole, EmptyDocument, FrameState, RasterFacts};
+use crate::app::kit::{DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, RasterFacts};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 use meshbrush_mesh::text::LengthUnit;
@@ -19,6 +19,8 @@ const WIDTH: f32 = 700.0;
 const FACTS: f32 = 272.0;
 /// Indentation of the sentence below a choice, in points.
 const BESIDE_RADIO: f32 = 16.0;
+/// What the ends of an extent are rounded to, as a share of its longer side.
+const STEP_OF_EXTENT: f64 = 1e-5;
 /// Height of the picture, in points.
 const PICTURE: f32 = 188.0;
 
@@ -63,7 +65,8 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
 /// Returns the roles for such files in their order, each with the reason why it is impossible.
 fn roles(state: &FrameState<'_>, file: &DataFile) -> Vec<(&'static DataRole, Option<String>)> {
     let all = state.rows.iter().flat_map(|row| row.roles);
-    let mut roles: Vec<_> = all.filter(|role| (role.is_for)(&file.contents)).collect();
+    let is_offered = |role: &&DataRole| !file.is_opened || role.kind.act == FileAct::OpenDocument;
+    let mut roles: Vec<_> = all.filter(|role| (role.is_for)(&file.contents)).filter(is_offered).collect();
     roles.sort_by_key(|role| role.place);
     roles.into_iter().map(|role| (role, (role.refusal)(file, state))).collect()
 }
@@ -83,7 +86,7 @@ impl Question {
         roles: &[(&'static DataRole, Option<String>)],
     ) -> Option<bool> {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
-        dialog_title(ui, &format!("Add {}", name_of(&self.file.path)));
+        dialog_title(ui, &format!("{} {}", self.verb(), name_of(&self.file.path)));
         ui.add_space(8.0);
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
@@ -95,10 +98,17 @@ impl Question {
             ui.vertical(|ui| self.choices(ui, roles));
         });
         ui.add_space(8.0);
-        if let Some(note) = note_on_extent(state, &self.file) {
+        let chosen = roles.iter().find(|(role, _)| Some(role.title) == self.chosen);
+        let is_added = chosen.is_none_or(|(role, _)| role.kind.act != FileAct::OpenDocument);
+        if let Some(note) = note_on_extent(state, &self.file).filter(|_| is_added) {
             ui.label(RichText::new(note).font(font::caption()).color(tokens(ui).label));
         }
         self.buttons(ui)
+    }
+
+    /// Returns the word on the button.
+    fn verb(&self) -> &'static str {
+        if self.file.is_opened { FileAct::OpenDocument.verb() } else { FileAct::Add.verb() }
     }
 
     /// Shows the picture in the middle of its place.
@@ -140,7 +150,7 @@ impl Question {
         let is_ready = self.chosen.is_some();
         let is_entered = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let add = ActionButton::new("Add").kind(ButtonKind::Main);
+            let add = ActionButton::new(self.verb()).kind(ButtonKind::Main);
             if ui.add_enabled_ui(is_ready, |ui| ui.add(add)).inner.clicked() {
                 return Some(true);
             }
@@ -155,9 +165,16 @@ impl Question {
 fn fact_rows(ui: &mut Ui, file: &DataFile) {
     ValueRow::new("Contents", &contents_text(file)).help("What the file holds.").show(ui);
     ValueRow::new("File size", &format::file_size(file.bytes)).help("The size of the file.").show(ui);
-    let range = |low: f64, high: f64| format!("{} … {}", number(low), file.unit.after(&number(high)));
     let extents = match &file.extent {
-        Some(extent) => [range(extent.min.x, extent.max.x), range(extent.min.y, extent.max.y)],
+        Some(extent) => {
+            let step = STEP_OF_EXTENT * extent.size().max_element();
+            let end = |value| {
+                let text = format::coordinate(value, step, LengthUnit::None);
+                format::without_zeros(&text).to_owned()
+            };
+            let range = |low, high| format!("{} … {}", end(low), file.unit.after(&end(high)));
+            [range(extent.min.x, extent.max.x), range(extent.min.y, extent.max.y)]
+        }
         None => ["the domain's", "the domain's"].map(String::from),
     };
     for (name, extent) in ["x", "y"].iter().zip(&extents) {

@@ -70,11 +70,8 @@ impl App {
             FileCommand::ShowExample(example, opened) => self.show_example(example, opened.document),
             FileCommand::CopyLink => self.copy_link(ctx),
             FileCommand::Ask(request) => self.ask_for_file(request),
-            FileCommand::Open(path) => match (link::part_of(&path), project::open_command(path)) {
-                (Some(link), _) => self.open_link(&link),
-                (None, Ok(command)) => self.send(command),
-                (None, Err(problem)) => self.fail(problem),
-            },
+            FileCommand::Open(path) => self.open_file(path, |kind| kind.command),
+            FileCommand::OpenFirst(path) => self.open_file(path, |kind| kind.command_at_start),
             FileCommand::AddData(path) => self.add_data(path),
             FileCommand::OpenProject(path) => home::open(&mut self.background, &path),
             FileCommand::OpenRecipe(path) => files::open_recipe(&mut self.background, &path),
@@ -134,6 +131,15 @@ impl App {
                 self.session.tell(format!("The link was copied. {how}."));
             }
             Err(problem) => self.session.report(problem),
+        }
+    }
+
+    /// Opens a link, or a file by a command of its kind.
+    fn open_file(&mut self, path: PathBuf, command: fn(FileRequest) -> fn(PathBuf) -> Command) {
+        match (link::part_of(&path), project::opened_kind(&path)) {
+            (Some(link), _) => self.open_link(&link),
+            (None, Ok(kind)) => self.send(command(kind)(path)),
+            (None, Err(problem)) => self.fail(problem),
         }
     }
 
@@ -244,8 +250,9 @@ impl App {
 
     fn finish(&mut self, outcome: Outcome) {
         match outcome {
-            Outcome::Opened { path, opened } => {
-                self.finish_reading(path, vec![Command::File(FileCommand::Show(opened))])
+            Outcome::Opened { path, opened, note } => {
+                let show = Command::File(FileCommand::Show(opened));
+                self.finish_reading(path, [show].into_iter().chain(note).collect());
             }
             Outcome::Read { path, commands } => self.finish_reading(path, commands),
             Outcome::PartRead(commands) => {

@@ -12,6 +12,7 @@ use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::{Features, ROWS};
 use super::help::stop_editing_keys;
+use super::notices::Offer;
 use super::{files as file_work, parts};
 use crate::app::kit::{Ctx, Tool};
 
@@ -99,6 +100,9 @@ impl App {
             ShellCommand::LimitThreads(count) => self.limit_threads(count),
             ShellCommand::Report(failure) => self.session.report(failure),
             ShellCommand::Tell(news) => self.session.notices_mut().tell(news),
+            ShellCommand::Offer(news, label, command) => {
+                self.session.notices_mut().tell_with_offer(news, Offer { label, command: *command });
+            }
             ShellCommand::DismissNotice => self.session.notices_mut().dismiss(),
             ShellCommand::FocusPart(by) => parts::focus(ctx, self.canvas.id(), by),
             ShellCommand::SetKeys(keymap) => self.keymap = keymap,

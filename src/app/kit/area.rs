@@ -10,9 +10,7 @@ use meshbrush_core::layers::Mask;
 /// Returns the area that a mask covers, with the unit of the document: on the Earth in the plane of a
 /// projection.
 pub fn area_text(ui: &Ui, state: &FrameState<'_>, mask: &Mask, digits: usize) -> String {
-    let symbol = state.unit().symbol();
-    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
-    format::with_unit(&format::digits(area(ui, state, mask), digits), &square)
+    format::area(area(ui, state, mask), state.unit(), digits)
 }
 
 fn area(ui: &Ui, state: &FrameState<'_>, mask: &Mask) -> f64 {

@@ -39,11 +39,16 @@ impl EmptyDocument {
         if !extent.is_proper() || extent == self.0.domain.bounds {
             return None;
         }
+        Some(self.on(file, Domain::rectangle(extent), unit))
+    }
+
+    /// Returns the settings on a domain from a file, with lengths in proportion to it.
+    pub fn on(&self, file: &Path, domain: Domain, unit: LengthUnit) -> Settings {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let unit = if unit == LengthUnit::None { self.0.unit } else { unit };
         let Settings { rule, cleaning, gradation, max_triangles, max_memory, .. } = self.0;
-        let usual = Settings::for_domain(name, Domain::rectangle(extent));
-        Some(Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual })
+        let usual = Settings::for_domain(name, domain);
+        Settings { unit, rule, cleaning, gradation, max_triangles, max_memory, ..usual }
     }
 }
 
@@ -60,14 +65,19 @@ pub fn raster_frame(session: &Session) -> RasterFrame {
 }
 
 /// Returns the commands that show settings over the extent of a file, with a layer of it on top, which is
-/// selected.
+/// selected. The notes are told, too.
 ///
 /// # Errors
 /// Fails with a sentence when no mesh can be built for them.
-pub fn show_with_layer(mut settings: Settings, kind: LayerKind, file: &Path) -> Result<Vec<Command>, String> {
+pub fn show_with_layer(
+    mut settings: Settings,
+    kind: LayerKind,
+    file: &Path,
+    notes: &[String],
+) -> Result<Vec<Command>, String> {
     let id = LayerId(settings.layers.iter().map(|layer| layer.id.0 + 1).max().unwrap_or(0));
     settings.layers.push(Layer::new(id, kind.name(), kind));
-    let mut commands = show_over_extent(settings, file)?;
+    let mut commands = show_over_extent(settings, file, notes)?;
     commands.push(Command::Layer(LayerCommand::Select(id)));
     Ok(commands)
 }
@@ -80,14 +90,20 @@ pub fn with_space_around(extent: Rect) -> Rect {
     extent.expanded(SHARE_AROUND * extent.size().max_element())
 }
 
-/// Returns the commands that show settings over the extent of a file, and say so.
+/// Returns the commands that show settings over the extent of a file, and say so, with notes after it.
 ///
 /// # Errors
 /// Fails with a sentence when no mesh can be built for them.
-pub fn show_over_extent(settings: Settings, file: &Path) -> Result<Vec<Command>, String> {
-    let (name, bounds) = (name_of(file), extent(&settings.domain.bounds));
+pub fn show_over_extent(settings: Settings, file: &Path, notes: &[String]) -> Result<Vec<Command>, String> {
+    // Metres in a plane that was chosen say nothing to a person who knows the file.
+    let bounds = match settings.domain.projection {
+        Some(_) => String::new(),
+        None => format!(": {}", extent(&settings.domain.bounds)),
+    };
+    let name = name_of(file);
     let document = Document::new(settings, None).map_err(|error| format!("{}: {error}", file.display()))?;
     let opened = Opened { document: Arc::new(document), home: None };
-    let news = format!("The document was empty, so it takes the extent of {name}: {bounds}.");
+    let news = format!("The document was empty, so it takes the extent of {name}{bounds}.");
+    let news = [&[news], notes].concat().join(" ");
     Ok(vec![Command::File(FileCommand::Show(opened)), Command::Shell(ShellCommand::Tell(news))])
 }

@@ -25,6 +25,8 @@ pub struct FileKind {
     /// The command for a path from the desktop's own dialog, in which the person has already confirmed to
     /// replace the file.
     pub command_after_browsing: fn(PathBuf) -> Command,
+    /// The command for a file that the program was started with: nothing is asked about it.
+    pub command_at_start: fn(PathBuf) -> Command,
 }
 
 /// A kind of file that is asked for.
@@ -45,6 +47,18 @@ pub enum FileAct {
     Export,
 }
 
+impl FileAct {
+    /// Returns the word on the button.
+    pub fn verb(self) -> &'static str {
+        match self {
+            Self::OpenDocument | Self::Open => "Open",
+            Self::Add => "Add",
+            Self::Save => "Save",
+            Self::Export => "Export",
+        }
+    }
+}
+
 impl FileKind {
     /// Creates a kind that is read for the document, without the rest of its row.
     pub const fn new(command: fn(PathBuf) -> Command) -> Self {
@@ -57,17 +71,13 @@ impl FileKind {
             suffix: "",
             command,
             command_after_browsing: command,
+            command_at_start: command,
         }
     }
 
     /// Returns the word on the button.
     pub fn verb(&self) -> &'static str {
-        match self.act {
-            FileAct::OpenDocument | FileAct::Open => "Open",
-            FileAct::Add => "Add",
-            FileAct::Save => "Save",
-            FileAct::Export => "Export",
-        }
+        self.act.verb()
     }
 
     /// Returns whether a file is written.

@@ -66,9 +66,12 @@ fn needs(ui: &mut Ui, state: &FrameState<'_>) {
     let share = 100.0 * mesh.raw_triangle_count() as f64 / most as f64;
     let count = format::count(mesh.raw_triangle_count() as u64);
     let used = format!("{count} ({} %)", format::digits(share, 2));
-    let help =
-        "The triangles of the mesh, and their share of those that the smaller of the two budgets allows.";
-    ValueRow::new("Triangles in use", &used).help(help).show(ui);
+    let help = format!(
+        "All triangles that are in memory, {} in the domain and the others around it, and their share of those that the \
+         smaller of the two budgets allows.",
+        format::count(session.triangle_count() as u64)
+    );
+    ValueRow::new("Triangles in memory", &used).help(&help).show(ui);
     value_row(ui, "Memory in use", &format!("{} MB", format::fixed(mesh.bytes() as f64 / MEGABYTE, 1)));
     let (text, over) = match session.need() {
         Some(need) => (need_in_words(need), need.triangles() > most as u64),

@@ -115,6 +115,29 @@ fn a_dropped_grid_of_depths_is_asked_about_and_gives_an_empty_document_its_exten
 }
 
 #[test]
+fn the_facts_of_a_file_are_its_own_size_and_an_extent_without_idle_digits() {
+    let netcdf = include_bytes!("../../../crates/io/src/io/netcdf/tests/packed.nc");
+    let file = written("facts", "packed.nc", netcdf);
+    let mut window = window();
+    new_document(&mut window);
+    drop_and_wait(&mut window, &file);
+    let size = crate::app::widgets::format::file_size(netcdf.len() as u64);
+    assert_eq!(value_of(&window, Role::Definition, "File size"), size);
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    let grid =
+        "ncols 2\nnrows 2\nxllcorner -84.06666666680549\nyllcorner 36.5\ncellsize 0.1666666666\n1 2\n3 4\n";
+    drop_and_wait(&mut window, &written("facts", "heights.asc", grid));
+    // The status bar has x and y, too.
+    let canvas = super::canvas(&window);
+    let extent = ["x", "y"].map(|name| {
+        let mut rows = window.query_all_by_role_and_label(Role::Definition, name);
+        let row = rows.find(|row| canvas.contains(row.rect().center())).unwrap();
+        row.value().unwrap_or_default()
+    });
+    assert_eq!(extent, ["−84.066667 … −83.733333", "36.5 … 36.833333"]);
+}
+
+#[test]
 fn a_document_with_paint_keeps_its_extent() {
     let file = written("painted", "depths.asc", DEPTHS);
     let mut window = window();

@@ -75,6 +75,12 @@ fn is_open(window: &Window) -> bool {
     window.query_by_role_and_label(Role::TextInput, "Path").is_some()
 }
 
+/// Answers the question about a coast as proposed.
+fn answer(window: &mut Window) {
+    wait_until(window, |window| window.query_by_label("What is the file to be?").is_some());
+    press(window, "Open");
+}
+
 #[test]
 fn a_domain_is_found_by_clicks_and_by_typing() {
     let folder = folder("find");
@@ -101,6 +107,7 @@ fn a_domain_is_found_by_clicks_and_by_typing() {
     key(&mut window, Modifiers::NONE, Key::ArrowDown);
     key(&mut window, Modifiers::NONE, Key::ArrowDown);
     key(&mut window, Modifiers::NONE, Key::Enter);
+    answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north");
     assert!(!is_open(&window));
 
@@ -113,6 +120,7 @@ fn a_domain_is_found_by_clicks_and_by_typing() {
         window.event(button_event(at, PointerButton::Primary, true, Modifiers::NONE));
         window.event(button_event(at, PointerButton::Primary, false, Modifiers::NONE));
     }
+    answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north sea");
 }
 
@@ -163,6 +171,7 @@ fn edits_are_asked_about_only_for_a_file_that_can_be_opened() {
     key(&mut window, Modifiers::COMMAND, Key::A);
     type_text(&mut window, "north.geojson");
     key(&mut window, Modifiers::NONE, Key::Enter);
+    answer(&mut window);
     wait_until(&mut window, |window| window.query_by_label(question).is_some());
     assert!(!is_open(&window) && document(&window).settings().name == "Radar threats");
 }
@@ -259,6 +268,7 @@ fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     let folder = folder("beside");
     let mut window = window();
     send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
+    answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north");
     key(&mut window, Modifiers::COMMAND, Key::S);
     assert_eq!(text(&window), "north.meshbrush");
@@ -287,6 +297,7 @@ fn tab_completes_what_was_typed_and_otherwise_goes_on_whatever_the_list_has() {
     fs::write(folder.join("coasts/north.meshbrush"), "a project").unwrap();
     let mut window = window();
     send(&mut window, Command::File(FileCommand::Open(folder.join("coasts/north.geojson"))));
+    answer(&mut window);
     wait_until(&mut window, |window| document(window).settings().name == "north");
     key(&mut window, Modifiers::COMMAND, Key::S);
     wait_for_rows(&mut window, &["north.meshbrush"]);

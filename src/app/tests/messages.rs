@@ -12,7 +12,7 @@ use super::{
     wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
 use meshbrush_core::document::Setting;
 
 /// Lets the window show frames for some seconds of its own time.
@@ -80,6 +80,18 @@ fn a_failed_edit_is_forgotten_with_the_next_edit() {
 }
 
 #[test]
+fn news_stays_long_enough_to_be_read() {
+    let mut window = window();
+    for (length, seconds) in [(40, 5.0), (280, 20.0)] {
+        send(&mut window, Command::Shell(ShellCommand::Tell("a".repeat(length))));
+        wait_seconds(&mut window, seconds - 1.0);
+        assert!(!notice(&window).is_empty(), "{length} characters are not read in {seconds} s");
+        wait_seconds(&mut window, 3.0);
+        assert_eq!(notice(&window), "", "{length} characters");
+    }
+}
+
+#[test]
 fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     let folder = folder("app-messages", "files");
     let good = folder.join("sea.geojson");
@@ -92,6 +104,8 @@ fn a_file_that_cannot_be_opened_is_forgotten_once_another_one_is() {
     assert!(!notice(&window).is_empty(), "an edit does not change what failed");
     send(&mut window, Command::Edit(EditCommand::Undo));
     send(&mut window, Command::File(FileCommand::Open(good)));
+    wait_until(&mut window, |window| window.query_by_label("What is the file to be?").is_some());
+    super::click_button(&mut window, "Open");
     wait_until(&mut window, |window| notice(window).is_empty());
     wait_until(&mut window, |window| super::document(window).settings().name == "sea");
 }

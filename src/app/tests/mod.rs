@@ -26,6 +26,7 @@ mod menus;
 mod messages;
 mod next_document;
 mod numbers;
+mod open_domain;
 mod orientation;
 mod other_window;
 mod overlays;

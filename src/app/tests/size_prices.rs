@@ -8,10 +8,10 @@ use super::{
     FREE, TALL, Window, click_button, entries, fingerprint, key, notice, open_tab, send, set, settings,
     stroke, triangles, type_into, value_of, window, window_of,
 };
-use crate::app::command::{Command, EditCommand};
+use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::Tab;
 use crate::app::widgets::format;
-use meshbrush_core::document::{Setting, Settings};
+use meshbrush_core::document::{Example, Setting, Settings};
 
 const KEEP: &str = "Keep the mesh";
 const APPLY: &str = "Apply anyway";
@@ -153,11 +153,26 @@ fn the_budgets_say_what_is_used_and_what_would_be_needed() {
     open_tab(&mut window, Tab::Size);
     let count = triangles(&window);
     type_into(&mut window, "Triangle budget", "1M");
-    let used = value_of(&window, Role::Definition, "Triangles in use");
+    let used = value_of(&window, Role::Definition, "Triangles in memory");
     assert_eq!(used, format!("{} (3.4 %)", format::count(count as u64)), "of 1 million");
     assert_eq!(value_of(&window, Role::Definition, "Needed"), "as many as there are");
     set(&mut window, Setting::MaxTriangles(count + 100));
     stroke(&mut window, FREE, FREE);
     let needed = value_of(&window, Role::Definition, "Needed");
     assert!(needed.starts_with("about ") && needed.ends_with(" GB"), "the stroke stopped: {needed}");
+}
+
+#[test]
+fn the_budget_counts_triangles_around_the_domain_and_says_so() {
+    let mut window = window_of(TALL);
+    send(&mut window, Command::File(FileCommand::OpenExample(Example::Aegean)));
+    crate::app::tests::wait_for_jobs(&mut window);
+    open_tab(&mut window, Tab::Size);
+    let in_domain = format::count(window.state().session().triangle_count() as u64);
+    let all = format::count(window.state().session().mesh().raw_triangle_count() as u64);
+    let used = value_of(&window, Role::Definition, "Triangles in memory");
+    assert!(all != in_domain && used.starts_with(&format!("{all} (")), "{used}: {in_domain}");
+    let row = window.get_by_role_and_label(Role::Definition, "Triangles in memory");
+    let help = row.accesskit_node().description().unwrap_or_default();
+    assert!(help.contains(&format!("{in_domain} in the domain")), "{help}");
 }

@@ -40,17 +40,44 @@ pub fn about_change(value: i64) -> String {
 /// Returns an interval with as many digits as tell its ends apart, the lower end rounded down and the upper
 /// one up: `161.38 … 161.42`. Where that takes too many, it says how narrow it is: `161.4 (within 0.001 %)`.
 pub fn interval(lower: f64, upper: f64) -> String {
-    let digit = |digits: usize| 10_f64.powi(upper.abs().log10().floor() as i32 + 1 - digits as i32);
-    let Some(digits) = INTERVAL_DIGITS.into_iter().find(|&digits| 2.0 * digit(digits) <= upper - lower)
-    else {
+    let Some(unit) = unit_of_interval(lower, upper) else {
         let gap = if upper > lower { (upper - lower) / upper } else { 0.0 };
         return format!("{} (within {})", significant(upper, 4), percent_above(gap));
     };
-    let unit = digit(digits);
-    let decimals = decimals_for(unit);
     // A quotient is off by a rounding error where the number has these digits only.
-    let [lower, upper] = [(lower / unit + 1e-9).floor() * unit, (upper / unit - 1e-9).ceil() * unit];
-    format!("{} … {}", fixed(lower, decimals), fixed(upper, decimals))
+    let lower = (lower / unit + 1e-9).floor() * unit;
+    format!("{} … {}", fixed(lower, decimals_for(unit)), rounded_up(upper, unit))
+}
+
+/// Returns a value with the digits of an [`interval`] beside it, rounded up as the upper end is. One that
+/// these digits do not tell apart from that end is shown as it is.
+pub fn beside_interval(value: f64, lower: f64, upper: f64) -> String {
+    match unit_of_interval(lower, upper) {
+        Some(unit) if (upper - value).abs() < unit => rounded_up(upper, unit),
+        Some(unit) => rounded_up(value, unit),
+        None => significant(value, 4),
+    }
+}
+
+/// Returns the last digit of the ends of an interval; `None` where too many tell them apart.
+fn unit_of_interval(lower: f64, upper: f64) -> Option<f64> {
+    let digit = |digits: usize| 10_f64.powi(upper.abs().log10().floor() as i32 + 1 - digits as i32);
+    INTERVAL_DIGITS.into_iter().map(digit).find(|unit| 2.0 * unit <= upper - lower)
+}
+
+fn rounded_up(value: f64, unit: f64) -> String {
+    fixed((value / unit - 1e-9).ceil() * unit, decimals_for(unit))
+}
+
+/// Returns an area in square units, `12.5 km²`: from a square kilometre on, one in square metres is in
+/// square kilometres.
+pub fn area(value: f64, unit: LengthUnit, most_digits: usize) -> String {
+    let (value, symbol) = match unit {
+        LengthUnit::Metre if value >= 1e6 => (value / 1e6, LengthUnit::Kilometre.symbol()),
+        _ => (value, unit.symbol()),
+    };
+    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
+    with_unit(&digits(value, most_digits), &square)
 }
 
 /// Digits of the ends of an interval.
@@ -74,6 +101,11 @@ pub fn length(value: f64, unit: LengthUnit) -> String {
 /// apart: `0.5813`, `23.58°`.
 pub fn coordinate(value: f64, step: f64, unit: LengthUnit) -> String {
     unit.after(&fixed(value, decimals_for(step)))
+}
+
+/// Returns the text of a number without the zeros after its last decimal.
+pub fn without_zeros(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }
 
 /// Returns the number of decimals that tells apart values `step` from each other, at most 15.
@@ -315,5 +347,33 @@ mod tests {
     fn padding_keeps_columns() {
         assert_eq!(padded("42", 6), "    42");
         assert_eq!(padded("−4", 3), " −4");
+    }
+
+    #[test]
+    fn a_cost_is_never_below_the_upper_end_of_the_interval_beside_it() {
+        let (lower, upper) = (90_400.0, 92_083.0);
+        assert_eq!(interval(lower, upper), "90,400 … 92,090");
+        assert_eq!(beside_interval(92_083.0, lower, upper), "92,090");
+        assert_eq!(beside_interval(92_079.0, lower, upper), "92,090");
+        assert_eq!(beside_interval(92_083.0, 92_082.999, 92_083.0), "92,080", "as the interval");
+        assert_eq!(interval(92_082.999, 92_083.0), "92,080 (within 0.001 %)");
+        let mut value = 1.234_567;
+        for _ in 0..200 {
+            value *= 1.618_034;
+            let (lower, upper) = (value * 0.99, value);
+            let end = interval(lower, upper).split(" … ").nth(1).unwrap().to_owned();
+            assert_eq!(beside_interval(value, lower, upper), end, "{value}");
+        }
+    }
+
+    #[test]
+    fn large_areas_in_square_metres_are_in_square_kilometres() {
+        assert_eq!(area(2.662e9, LengthUnit::Metre, 6), "2,662 km²");
+        assert_eq!(area(999_999.0, LengthUnit::Metre, 6), "999,999 m²");
+        assert_eq!(area(2.5e6, LengthUnit::Kilometre, 6), "2,500,000 km²");
+        assert_eq!(
+            (area(3.25, LengthUnit::None, 6), area(3.25, LengthUnit::Degree, 2)),
+            ("3.25".into(), "3.2 °²".into())
+        );
     }
 }

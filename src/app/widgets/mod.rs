@@ -14,6 +14,7 @@ mod paint;
 mod reveal;
 pub mod degrees;
 pub mod shown_keys;
+mod domain_tips;
 mod space_tips;
 mod layer_tips;
 pub mod tips;

@@ -1,7 +1,7 @@
 //! Tooltips: one sentence for each control, beside the panel that it is in.
 
 use super::shown_keys::with_keys;
-use super::{layer_tips, space_tips};
+use super::{domain_tips, layer_tips, space_tips};
 use eframe::egui::{Rect, RectAlign, Response, Tooltip, Ui, pos2};
 
 /// Points at an edge of the window within which a panel counts as being at that edge.
@@ -206,41 +206,6 @@ static SENTENCES: &[(&str, &str)] = &[
     ("Draw on", "The keep-out region that is drawn on, or a new one."),
     ("Add or remove/Remove", "The domain tool removes area[; {add-to-the-domain} switches]."),
     ("Add or remove/Add", "The domain tool adds area[; {add-to-the-domain} switches]."),
-    (
-        "Boundary treatment/On outline",
-        "Moves nodes onto the outline, with all angles between 18.4° and 143.2°.",
-    ),
-    (
-        "Boundary treatment/Fitted",
-        "Keeps the triangles whose centroid is inside: the boundary is a staircase.",
-    ),
-    (
-        "Boundary treatment/As in report",
-        "Keeps coarse triangles with three corners inside: Appendix A of the report “Mesh Generation via Local Bisection Refinement of Triangulated Grids”.",
-    ),
-    ("Parts that stay/Largest part", "Only the largest connected part of the mesh stays."),
-    ("Parts that stay/Large parts", "Connected parts with at least a given share of the area stay."),
-    ("Parts that stay/All parts", "All connected parts of the mesh stay."),
-    (
-        "Keep pinched nodes",
-        "Keeps triangles that meet others only in a node; most solvers do not accept them.",
-    ),
-    ("Unit", "What coordinates and lengths mean; numbers are not converted."),
-    ("Left", "Smallest x of the domain, in the unit of the document."),
-    ("Bottom", "Smallest y of the domain, in the unit of the document."),
-    ("Right", "Largest x of the domain, in the unit of the document."),
-    ("Top", "Largest y of the domain, in the unit of the document."),
-    ("Open domain…", "Reads polygons from a GeoJSON file as the domain of a new document."),
-    (
-        "Add outline…",
-        "Reads polygons from a GeoJSON file as the domain of this document, and keeps the paint.",
-    ),
-    ("Whole rectangle", "Makes the whole rectangle the domain."),
-    ("What a click does/Select", "A click selects a piece of the boundary[; {select-or-split} switches]."),
-    ("What a click does/Split", "A click ends a piece of the boundary there[; {select-or-split} switches]."),
-    ("Join with next", "Makes one piece of this one and the next along the boundary."),
-    ("Name", "Name of the piece in files."),
-    ("Type", "What the piece is for coastal solvers: open, land or an inflow, and how land treats the flow."),
     ("Edges", "Draws the edges of the triangles[; {edges} switches]."),
     ("Coordinates", "Draws the coordinates along two sides of the canvas, in the unit of the document."),
     ("Graticule", "Draws meridians and parallels with their degrees, in documents on the Earth."),
@@ -408,7 +373,11 @@ static SENTENCES: &[(&str, &str)] = &[
 
 /// Returns the sentence for a control, or an empty text.
 pub fn sentence(name: &str) -> &'static str {
-    let all = SENTENCES.iter().chain(layer_tips::SENTENCES).chain(space_tips::SENTENCES);
+    let all = SENTENCES
+        .iter()
+        .chain(domain_tips::SENTENCES)
+        .chain(layer_tips::SENTENCES)
+        .chain(space_tips::SENTENCES);
     all.into_iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
 }
 
@@ -467,8 +436,12 @@ mod tests {
 
     #[test]
     fn every_sentence_ends_with_a_full_stop_and_every_name_occurs_once() {
-        let all: Vec<_> =
-            SENTENCES.iter().chain(layer_tips::SENTENCES).chain(space_tips::SENTENCES).collect();
+        let all: Vec<_> = SENTENCES
+            .iter()
+            .chain(domain_tips::SENTENCES)
+            .chain(layer_tips::SENTENCES)
+            .chain(space_tips::SENTENCES)
+            .collect();
         for (number, (name, text)) in all.iter().enumerate() {
             assert!(text.ends_with('.'), "{name}: {text}");
             assert!(all[..number].iter().all(|(other, _)| other != name), "{name}");

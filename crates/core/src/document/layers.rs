@@ -8,7 +8,7 @@ use super::{Document, Edit, EditError, Setting, Settings, SettingsError};
 use crate::layers::{Layer, LayerId, LayerKind, PaintLayers, Quantity};
 use crate::paint::Medium;
 use crate::raster::{PixelGrid, TiledRaster};
-use crate::text::short_name;
+use crate::text::{LengthUnit, short_name};
 
 /// Pixels of depth 0 along the longer side of the domain. Strokes choose their depth by their radius.
 const COARSEST_PIXELS: f64 = 1024.0;
@@ -22,6 +22,17 @@ pub(super) const MOST_LAYERS: usize = 1000;
 /// Fails beyond 1,000.
 pub fn check_layer_count(layers: usize) -> Result<(), SettingsError> {
     if layers > MOST_LAYERS { Err(SettingsError::Layers(layers)) } else { Ok(()) }
+}
+
+/// Says how lengths become metres that are in another unit.
+pub(super) fn way_to_metres(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Degree => {
+            "Mesh longitudes and latitudes in metres: with a projection, such as auto, or in the window as “Domain in metres”, \
+             or with the grid of depths as the first file of a new document."
+        }
+        _ => "Give the domain in metres.",
+    }
 }
 
 /// Why nothing can be painted with a brush.

@@ -50,9 +50,15 @@ pub enum OutlineError {
     TooLarge(GridError),
 }
 
-/// Returns ranges of x and y, in words.
+/// Decimal places of the ends of an extent beyond the first one of its longer side.
+const PLACES_OF_EXTENT: f64 = 6.0;
+
+/// Returns ranges of x and y, in words: to a millionth of the longer side.
 pub fn extent(bounds: &Rect) -> String {
-    let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(Number);
+    let first = libm::log10(bounds.size().max_element()).floor();
+    let places = if first.is_finite() { (PLACES_OF_EXTENT - first).clamp(0.0, 300.0) as usize } else { 17 };
+    let shown = |value: f64| Number(format!("{value:.places$}").parse().unwrap_or(value));
+    let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(shown);
     format!("x from {x0} to {x1} and y from {y0} to {y1}")
 }
 
@@ -143,5 +149,22 @@ impl Settings {
         let changed = Self { domain: domain.clone(), ..self.clone() };
         changed.lattice().map_err(OutlineError::TooLarge)?;
         Ok(Setting::Outline { domain, boundary_marks: self.boundary_marks.clone() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    #[test]
+    fn an_extent_is_told_to_a_millionth_of_its_longer_side() {
+        let told = |low, high| extent(&Rect::new(low, high));
+        let grid = told(dvec2(-84.066_666_666_805_49, 36.5), dvec2(-83.730_833_333_472_16, 36.786_666_7));
+        assert_eq!(grid, "x from -84.0666667 to -83.7308333 and y from 36.5 to 36.7866667");
+        assert_eq!(told(dvec2(0.0, -3.0), dvec2(20_000.0, 1e-9)), "x from 0 to 20000 and y from -3 to 0");
+        assert_eq!(told(dvec2(1e-9, 0.0), dvec2(3e-9, 1e-9)), "x from 1e-9 to 3e-9 and y from 0 to 1e-9");
+        assert_eq!(told(dvec2(2.5, 2.5), dvec2(2.5, 2.5)), "x from 2.5 to 2.5 and y from 2.5 to 2.5");
     }
 }

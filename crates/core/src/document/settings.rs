@@ -97,9 +97,8 @@ pub enum SettingsError {
     Constant(f64),
     /// Sizes from depths, which are in metres, in a document that is not.
     #[error(
-        "The layer “{}”: sizes from depths are in metres, and lengths of the domain are in {}. Mesh longitudes and \
-         latitudes in metres with a projection, such as auto.",
-        short_name(layer), unit.name()
+        "The layer “{}”: sizes from depths are in metres, and lengths of the domain are in {}. {}",
+        short_name(layer), unit.name(), layers::way_to_metres(*unit)
     )]
     DepthUnit {
         /// The name of the layer.

@@ -139,6 +139,11 @@ impl File {
     }
 }
 
+/// Returns the size of a file in bytes; 0 for one that cannot be opened.
+pub fn bytes_of(path: &Path) -> u64 {
+    File::open(path).and_then(|file| file.length()).unwrap_or(0)
+}
+
 /// Returns whether it is a pipe that is open already, as the input of the program and `<(command)` of a shell
 /// are: to open it waits for nobody.
 fn is_opened_pipe(path: &Path, kind: FileType) -> bool {

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::BoundaryToolMode;
+use super::{BoundaryToolMode, OpenedBoundary};
+use meshbrush_io::io::settings::SavedOpen;
 
 /// The commands of the boundary tool.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,4 +16,10 @@ pub enum BoundaryCommand {
     Mode(BoundaryToolMode),
     /// Joins the selected piece with the next one.
     Join,
+    /// Opens all of the boundary that lies somewhere.
+    Open(SavedOpen),
+    /// Takes over a boundary that was opened.
+    SetOpened(Box<OpenedBoundary>),
+    /// Sets the depth beyond which the boundary is opened, in metres.
+    Level(f64),
 }

@@ -2,9 +2,11 @@
 
 use eframe::egui::Key;
 
-use super::{BOUNDARY, BoundaryCommand, BoundaryToolMode};
-use crate::app::command::Command;
+use super::{BOUNDARY, BoundaryCommand, BoundaryToolMode, OPEN_IN_POLYGONS};
+use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu};
+use meshbrush_io::io::settings::SavedOpen;
+use meshbrush_mesh::text::Number;
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;
@@ -24,6 +26,20 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         );
         items.push(item("Join the piece with the next", BoundaryCommand::Join));
     }
+    let open = |title: &str, entry| item(title, BoundaryCommand::Open(entry));
+    items.extend([
+        open("Open the boundary along the frame", SavedOpen::Frame).group(),
+        open(
+            &format!("Open the boundary deeper than {} m", Number(tools.boundary.level)),
+            SavedOpen::Deeper(tools.boundary.level),
+        )
+        .id("open-boundary-deeper"),
+        CatalogItem::new(
+            Menu::Tool,
+            "Open the boundary in polygons…",
+            Command::File(FileCommand::Ask(&OPEN_IN_POLYGONS)),
+        ),
+    ]);
     // The menu has what the selected tool does.
     let is_tool = tools.tool == &BOUNDARY;
     items.into_iter().map(|item| item.in_menu(is_tool)).collect()

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::opening::{open_boundary, set_opened};
 use super::{BOUNDARY, Boundary, BoundaryCommand, BoundaryToolMode, PIECES, entries};
 use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_core::domain::BoundaryPieces;
@@ -29,6 +30,9 @@ impl Feature for Boundary {
                     ctx.session.changed_marks(|pieces, marks| pieces.joined(marks, selected(pieces)?));
                 ctx.session.set_marks(marks);
             }
+            BoundaryCommand::Open(entry) => open_boundary(ctx.session, ctx.background, entry),
+            BoundaryCommand::SetOpened(opened) => set_opened(*opened, ctx),
+            BoundaryCommand::Level(level) => ctx.tools.boundary.level = level,
         }
     }
 

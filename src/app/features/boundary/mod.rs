@@ -3,6 +3,8 @@
 mod command;
 mod entries;
 mod execute;
+mod files;
+mod opening;
 mod options;
 mod panel;
 #[cfg(test)]
@@ -11,6 +13,8 @@ mod tool;
 
 pub use command::BoundaryCommand;
 pub use entries::entries;
+use files::OPEN_IN_POLYGONS;
+use opening::OpenedBoundary;
 use options::BOUNDARY_OPTIONS;
 use panel::PIECES;
 pub use tool::{BOUNDARY, BoundaryTool, BoundaryToolMode};

@@ -1,18 +1,24 @@
 //! The pieces of the boundary: their kinds, types and lengths.
 
-use eframe::egui::{ScrollArea, Ui};
+use eframe::egui::{Key, ScrollArea, Ui};
 
-use super::BoundaryCommand;
-use crate::app::command::Command;
+use super::{BoundaryCommand, OPEN_IN_POLYGONS};
+use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
-use crate::app::widgets::{Section, ValueRow, dropdown_row, format, value_row};
+use crate::app::widgets::{
+    ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
+};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
+use meshbrush_core::layers::DepthSurface;
+use meshbrush_io::io::settings::SavedOpen;
 use meshbrush_mesh::text::LengthUnit;
 
 /// The pieces, and what is known of the selected one.
 pub static PIECES: Panel = Panel { name: "boundary", tab: Tab::Domain, place: 2, show };
 
+/// What a box is.
+const BOX_RULE: &str = "write west, south, east and north, as in -6, 48, -5, 50.";
 /// Height of the list, in points; more pieces scroll.
 const LIST_HEIGHT: f32 = 200.0;
 /// Most pieces in the list; the others are on the canvas.
@@ -20,8 +26,12 @@ const MOST_ROWS: usize = 200;
 
 fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some(pieces) = state.session.boundary_pieces() else {
-        let text = "The pieces are being found.";
-        Section::new("Boundary").id("boundary").show(ui, |ui| remark(ui, text));
+        // As high as with the pieces, so that the panel does not scroll meanwhile.
+        Section::new("Boundary").id("boundary").show(ui, |ui| {
+            remark(ui, "The pieces are being found.");
+            ui.add_space(LIST_HEIGHT);
+            opening_rows(ui, state, commands);
+        });
         return;
     };
     let selected = state.tools.boundary.selected_of(pieces);
@@ -39,7 +49,54 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         area.min_scrolled_height(LIST_HEIGHT).show(ui, |ui| {
             list(ui, pieces, lost, selected, state.unit(), commands);
         });
+        opening_rows(ui, state, commands);
     });
+}
+
+/// Where to open the boundary in one step.
+fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    ui.add_space(8.0);
+    remark(ui, "Open in one step where the sea goes on. Islands stay land.");
+    ui.horizontal(|ui| {
+        if ui.add(ActionButton::new("Along the frame")).clicked() {
+            commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Frame)));
+        }
+        if ui.add(ActionButton::new("In polygons…")).clicked() {
+            commands.push(Command::File(FileCommand::Ask(&OPEN_IN_POLYGONS)));
+        }
+    });
+    ui.add_space(4.0);
+    let mut level = state.tools.boundary.level;
+    let row = NumberRow::new("Deeper than", &mut level).range(f64::MIN..=f64::MAX).unit("m");
+    if row.help("The depth of water beyond which the boundary is opened.").show(ui).changed() {
+        commands.push(Command::Boundary(BoundaryCommand::Level(level)));
+    }
+    let has_depths = DepthSurface::of(&state.session.document().settings().layers).is_some();
+    let deeper = ActionButton::new("Open where deeper");
+    if ui.add_enabled_ui(has_depths, |ui| ui.add(deeper)).inner.clicked() {
+        commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Deeper(level))));
+    }
+    ui.add_space(4.0);
+    box_row(ui, state, commands);
+}
+
+/// The box in which to open the boundary. What is typed is in egui's memory.
+fn box_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
+    let id = ui.make_persistent_id(("box to open", state.session.document_id()));
+    let mut text: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let row = TextRow::new("In a box", &mut text).hint("west, south, east, north");
+    let help =
+        "Enter opens the boundary in the box: in degrees on the Earth, or else in the unit of the document.";
+    let response = row.help(help).show(ui);
+    let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    if is_entered && !text.trim().is_empty() {
+        commands.push(match SavedOpen::parse(&text) {
+            Ok(entry @ SavedOpen::Box(_)) => Command::Boundary(BoundaryCommand::Open(entry)),
+            Ok(_) => Command::Shell(ShellCommand::Report(format!("“{text}” is no box: {BOX_RULE}"))),
+            Err(problem) => Command::Shell(ShellCommand::Report(problem)),
+        });
+    }
+    ui.data_mut(|data| data.insert_temp(id, text));
 }
 
 fn selected_rows(

@@ -51,6 +51,10 @@ const LENGTH_OF_NAME: f32 = 50.0;
 const WIDTH: f32 = 2.5;
 const WIDE: f32 = 5.0;
 
+/// The depth beyond which the boundary is opened unless a person chooses another, in metres: about that of
+/// the edge of a shelf sea.
+const USUAL_LEVEL: f64 = 50.0;
+
 /// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BoundaryToolMode {
@@ -62,12 +66,20 @@ pub enum BoundaryToolMode {
 }
 
 /// Settings of the boundary tool.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryTool {
     /// The effect of a click.
     pub mode: BoundaryToolMode,
     /// A point of the selected piece in world units: numbers of pieces change.
     pub selected: Option<DVec2>,
+    /// The depth beyond which the boundary is opened, in metres.
+    pub level: f64,
+}
+
+impl Default for BoundaryTool {
+    fn default() -> Self {
+        Self { mode: BoundaryToolMode::default(), selected: None, level: USUAL_LEVEL }
+    }
 }
 
 impl BoundaryTool {

@@ -30,9 +30,14 @@ pub enum DomainCommand {
     Adds(bool),
     /// Gives the domain other bounds.
     Bounds(Rect),
-    /// Reads polygons, and opens a new document with them as its domain.
+    /// Reads polygons, and opens a new document with them as its domain. Longitudes and latitudes are asked
+    /// about first.
+    Choose(PathBuf),
+    /// Opens such a document without a question: in metres where that is possible, with a note.
+    OpenFirst(PathBuf),
+    /// Opens a document whose domain are polygons in the coordinates of their file.
     Open(PathBuf),
-    /// Opens a document whose domain are longitudes and latitudes in the plane of a projection.
+    /// Opens a document whose domain are polygons on the Earth, in the plane of a projection.
     OpenInMetres(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),
@@ -40,17 +45,19 @@ pub enum DomainCommand {
     UseContour(LayerId, DepthContour),
     /// Makes the area in which the raster of a layer of a surface has values the domain.
     UseValues(LayerId),
-    /// Adds an outline that was read.
+    /// Takes over an outline that was read or found.
     SetOutline(Box<OutlineChange>),
 }
 
 /// An outline that was read for a domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineChange {
-    /// Name of the file.
+    /// The name of the file or the layer.
     pub name: String,
-    /// The domain that it was added to.
+    /// The domain that it was made for.
     pub before: Domain,
     /// The change of the document.
     pub setting: Setting,
+    /// A sentence about the new domain; without one, polygons of a file were added to it.
+    pub news: Option<String>,
 }

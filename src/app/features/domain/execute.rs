@@ -1,12 +1,13 @@
 //! Runs the commands about the domain.
 
-use super::load::{load_area_of_values, load_contour, load_domain, load_outline};
+use super::load::{
+    DomainPlane, choose_plane, load_area_of_values, load_contour, load_domain, load_first, load_outline,
+};
 use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
 };
 use crate::app::kit::{Ctx, Feature, Row};
 use meshbrush_core::domain::CutShape;
-use meshbrush_core::earth::ProjectionChoice;
 
 impl Feature for DomainEditor {
     type Command = DomainCommand;
@@ -38,9 +39,11 @@ impl Feature for DomainEditor {
                 ctx.tools.domain.mode = mode;
             }
             DomainCommand::Adds(adds) => tool.adds = adds,
-            DomainCommand::Open(path) => load_domain(ctx.background, &path, None),
+            DomainCommand::Choose(path) => choose_plane(ctx.background, &path),
+            DomainCommand::OpenFirst(path) => load_first(ctx.background, &path),
+            DomainCommand::Open(path) => load_domain(ctx.background, &path, DomainPlane::OfFile),
             DomainCommand::OpenInMetres(path) => {
-                load_domain(ctx.background, &path, Some(ProjectionChoice::Automatic));
+                load_domain(ctx.background, &path, DomainPlane::Metres);
             }
             DomainCommand::AddOutline(path) => {
                 load_outline(ctx.session, ctx.background, &path);
@@ -63,7 +66,7 @@ impl Feature for DomainEditor {
 }
 
 fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
-    let OutlineChange { name, before, setting } = change;
+    let OutlineChange { name, before, setting, news } = change;
     let settings = ctx.session.document().settings();
     if settings.domain != before || ctx.session.is_cutting() {
         let problem = "was not added, as the domain was edited in the meantime. Add it again.";
@@ -76,7 +79,8 @@ fn set_outline(change: OutlineChange, ctx: &mut Ctx<'_>) {
     if settings.domain != before {
         let grows = settings.domain.bounds != before.bounds;
         let frame = if grows { " The frame grew to hold it." } else { "" };
-        ctx.session.tell(format!("The outline {name} was added to the domain.{frame}"));
+        let added = || format!("The outline {name} was added to the domain.{frame}");
+        ctx.session.tell(news.unwrap_or_else(added));
         ctx.view.camera = ctx.view.camera.filter(|_| !grows);
     }
 }

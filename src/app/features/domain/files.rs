@@ -4,9 +4,20 @@ use crate::app::command::{Command, DomainCommand};
 use crate::app::kit::{DataContents, DataRole, FileAct, FileKind};
 use meshbrush_io::io::shape_format;
 
-/// Polygons as the domain of a new document.
+/// Polygons as the domain of a new document. Longitudes and latitudes are asked about.
 pub static OPEN_DOMAIN: FileKind = FileKind {
     title: "Open domain",
+    act: FileAct::OpenDocument,
+    endings: shape_format::endings,
+    contents: "Polygons",
+    folder: "domains",
+    command_at_start: |path| Command::Domain(DomainCommand::OpenFirst(path)),
+    ..FileKind::new(|path| Command::Domain(DomainCommand::Choose(path)))
+};
+
+/// Polygons as the domain of a new document, in the coordinates of their file.
+pub static OPEN_DOMAIN_AS_IT_IS: FileKind = FileKind {
+    title: "Open domain in its own coordinates",
     act: FileAct::OpenDocument,
     endings: shape_format::endings,
     contents: "Polygons",
@@ -14,7 +25,7 @@ pub static OPEN_DOMAIN: FileKind = FileKind {
     ..FileKind::new(|path| Command::Domain(DomainCommand::Open(path)))
 };
 
-/// Longitudes and latitudes as the domain of a new document, in the plane of a projection.
+/// Polygons on the Earth as the domain of a new document, in the plane of a projection.
 pub static OPEN_DOMAIN_IN_METRES: FileKind = FileKind {
     title: "Open domain in metres",
     act: FileAct::OpenDocument,
@@ -50,8 +61,8 @@ pub static ROLES: [DataRole; 3] = [
     DataRole {
         place: 10,
         title: "Domain of a new document",
-        sentence: "A new document opens, and the polygons are its domain.",
-        kind: &OPEN_DOMAIN,
+        sentence: "A new document opens. The polygons are its domain in the coordinates of the file: degrees stay degrees.",
+        kind: &OPEN_DOMAIN_AS_IT_IS,
         is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
         refusal: |file, _| file.lacks_polygons(),
     },

@@ -5,25 +5,122 @@ use std::sync::Arc;
 
 use super::{DomainCommand, OutlineChange};
 use crate::app::background::{Aim, Background, Outcome, name_of};
-use crate::app::command::{Command, Opened};
+use crate::app::command::{Command, Opened, ShellCommand};
+use crate::app::kit::seen_outline;
 use crate::app::session::Session;
+use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, DepthContour, OutlineOnEarth};
-use meshbrush_core::earth::ProjectionChoice;
+use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::layers::{LayerId, LayerKind};
-use meshbrush_io::io::{self, Meter};
+use meshbrush_core::raster::Raster;
+use meshbrush_io::io::geojson::Outline;
+use meshbrush_io::io::{self, FileCoordinates};
+use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
-/// Reads polygons, and opens a document with them as its domain; in metres, in the plane of a projection that
-/// is chosen, or as they are.
-pub fn load_domain(background: &mut Background, path: &Path, projection: Option<ProjectionChoice>) {
+/// The plane in which polygons become a domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DomainPlane {
+    /// That of the coordinates in the file, in its unit.
+    OfFile,
+    /// That of a projection, in metres: the file's own, or one that suits its longitudes and latitudes.
+    Metres,
+}
+
+/// Reads polygons, and opens a document with them as its domain.
+pub fn load_domain(background: &mut Background, path: &Path, plane: DomainPlane) {
+    open_outline(background, path, move |file, outline| {
+        opened(file, None, document_of(file, outline, plane))
+    });
+}
+
+/// Reads polygons, and opens a document with them as its domain: at once where their coordinates leave no
+/// choice, and else after a question.
+pub fn choose_plane(background: &mut Background, path: &Path) {
+    open_outline(background, path, |file, outline| {
+        if !are_longitudes(&outline.coordinates) {
+            return open_unasked(file, outline);
+        }
+        let asked = Arc::new(seen_outline(file, &outline));
+        Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(asked))])
+    });
+}
+
+/// Reads polygons, and opens a document with them as its domain: in metres where that is possible. A note
+/// says which coordinates were chosen.
+pub fn load_first(background: &mut Background, path: &Path) {
+    open_outline(background, path, open_unasked);
+}
+
+/// Opens polygons in metres where that is possible, and else in the coordinates of their file. A note says
+/// which were chosen.
+fn open_unasked(file: &Path, outline: Outline) -> Outcome {
+    let name = name_of(file);
+    let unit = outline.coordinates.unit();
+    if outline.coordinates.on_earth(None).is_none() {
+        let note = format!(
+            "{name} names no coordinate system that is known here, so the document has no unit. Set one with “Unit” in the tab Domain."
+        );
+        let note = (unit == LengthUnit::None).then_some(Command::Shell(ShellCommand::Tell(note)));
+        return opened(file, note, document_of(file, outline, DomainPlane::OfFile));
+    }
+    let are_longitudes = are_longitudes(&outline.coordinates);
+    match document_of(file, outline.clone(), DomainPlane::Metres) {
+        Ok(document) => {
+            let plane = document.settings().domain.projection.map_or("", |plane| plane.kind().name());
+            let note = match are_longitudes {
+                true => ShellCommand::Offer(
+                    format!(
+                        "{name} has longitudes and latitudes. It was opened in metres, in a {plane} plane."
+                    ),
+                    "Open in degrees",
+                    Box::new(Command::Domain(DomainCommand::Open(file.to_owned()))),
+                ),
+                false => {
+                    ShellCommand::Tell(format!("{name} is in metres, and was opened in a {plane} plane."))
+                }
+            };
+            opened(file, Some(Command::Shell(note)), Ok(document))
+        }
+        Err(problem) => {
+            let note =
+                format!("{name} was opened in its own coordinates, as metres do not suit it. {problem}");
+            opened(
+                file,
+                Some(Command::Shell(ShellCommand::Tell(note))),
+                document_of(file, outline, DomainPlane::OfFile),
+            )
+        }
+    }
+}
+
+/// Reads the polygons of a file, and goes on with them.
+fn open_outline(
+    background: &mut Background,
+    path: &Path,
+    open: impl FnOnce(&Path, Outline) -> Outcome + Send + 'static,
+) {
     let file = path.to_owned();
-    background.start(Aim::Read, path, move |meter| match domain_of(&file, projection, meter) {
+    background.start(Aim::Read, path, move |meter| match io::shape_format::read_outline(&file, meter) {
+        Ok(outline) => open(&file, outline),
+        Err(error) => Outcome::not_read(error),
+    });
+}
+
+fn opened(file: &Path, note: Option<Command>, document: Result<Document, String>) -> Outcome {
+    match document {
         Ok(document) => {
             let opened = Opened { document: Arc::new(document), home: None };
-            Outcome::Opened { path: file, opened }
+            Outcome::Opened { path: file.to_owned(), opened, note }
         }
         Err(problem) => Outcome::NotRead(problem),
-    });
+    }
+}
+
+/// Returns whether a choice between degrees and metres is left to a person.
+fn are_longitudes(coordinates: &FileCoordinates) -> bool {
+    matches!(coordinates.on_earth(None), Some(Coordinates::Geographic | Coordinates::OnDatum(_)))
 }
 
 /// Reads polygons, and adds them to the domain of the document.
@@ -37,7 +134,8 @@ pub fn load_outline(session: &Session, background: &mut Background, path: &Path)
         };
         match settings.with_outline(&polygons) {
             Ok(setting) => {
-                let change = OutlineChange { name: name_of(&file), before: settings.domain, setting };
+                let change =
+                    OutlineChange { name: name_of(&file), before: settings.domain, setting, news: None };
                 Outcome::Read {
                     path: file,
                     commands: vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))],
@@ -53,7 +151,17 @@ pub fn load_contour(session: &Session, background: &mut Background, layer: Layer
     let settings = session.document().settings().clone();
     let Some(layer) = settings.layer(layer).cloned() else { return };
     let (LayerKind::Depth(depths), name) = (layer.kind, layer.name) else { return };
-    find_outline(background, settings, name, move |settings| settings.with_contour(&depths, &contour));
+    let find = move |settings: &Settings| {
+        let setting = settings.with_contour(&depths, &contour)?;
+        let unknown = unknown_in(depths.source().raster.raster(), settings.domain.bounds);
+        let land = match unknown {
+            0 => String::new(),
+            1 => " One pixel without a value in it counts as land.".to_owned(),
+            count => format!(" {} pixels without a value in it count as land.", format::count(count)),
+        };
+        Ok((setting, format!("is the contour of {}.{land}", depths.source().name)))
+    };
+    find_outline(background, settings, name, find);
 }
 
 /// Finds where the raster of a layer of a surface has values, and makes that the domain of the document.
@@ -61,21 +169,32 @@ pub fn load_area_of_values(session: &Session, background: &mut Background, layer
     let settings = session.document().settings().clone();
     let Some(layer) = settings.layer(layer).cloned() else { return };
     let Some(source) = layer.kind.raster_source().cloned() else { return };
-    let find = move |settings: &Settings| settings.with_values_of(source.raster.raster());
+    let find = move |settings: &Settings| {
+        let setting = settings.with_values_of(source.raster.raster())?;
+        Ok((setting, format!("is the area in which {} has values.", source.name)))
+    };
     find_outline(background, settings, layer.name, find);
 }
 
-/// Finds an outline, and makes it the domain of the document.
+/// Returns how many pixels with their centres in an area have no value.
+fn unknown_in(raster: &Raster, area: Rect) -> u64 {
+    let ([columns, rows], centers) = (raster.size(), raster.pixel_centers());
+    let is_unknown = |x: u32, y: u32| raster.get(x, y).is_nan() && area.contains(centers(x, y));
+    (0..rows).map(|y| (0..columns).filter(|&x| is_unknown(x, y)).count() as u64).sum()
+}
+
+/// Finds an outline with the end of a sentence about it, and makes it the domain of the document.
 fn find_outline(
     background: &mut Background,
     settings: Settings,
     name: String,
-    find: impl FnOnce(&Settings) -> Result<Setting, OutlineError> + Send + 'static,
+    find: impl FnOnce(&Settings) -> Result<(Setting, String), OutlineError> + Send + 'static,
 ) {
     let shown = name.clone();
     background.start(Aim::Read, Path::new(&shown), move |_| match find(&settings) {
-        Ok(setting) => {
-            let change = OutlineChange { name, before: settings.domain, setting };
+        Ok((setting, what)) => {
+            let news = Some(format!("The domain was replaced: it {what}"));
+            let change = OutlineChange { name, before: settings.domain, setting, news };
             Outcome::PartRead(vec![Command::Domain(DomainCommand::SetOutline(Box::new(change)))])
         }
         Err(error) => Outcome::NotRead(format!("{name}: {error}")),
@@ -83,13 +202,12 @@ fn find_outline(
 }
 
 /// Returns a new document on the polygons of a file.
-fn domain_of(path: &Path, choice: Option<ProjectionChoice>, meter: &Meter) -> Result<Document, String> {
-    let mut outline = io::shape_format::read_outline(path, meter).map_err(|error| error.to_string())?;
+fn document_of(path: &Path, mut outline: Outline, plane: DomainPlane) -> Result<Document, String> {
     let mut on_earth =
         OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None, frame: None };
-    if let Some(choice) = choice {
-        let projected =
-            outline.projected(choice, None).map_err(|error| format!("{}: {error}", path.display()))?;
+    if plane == DomainPlane::Metres {
+        let projected = outline.projected(ProjectionChoice::OwnOrAutomatic, None);
+        let projected = projected.map_err(|error| format!("{}: {error}", path.display()))?;
         (outline, on_earth.projection) = (projected.0, Some(projected.1));
     }
     let (domain, marks) = BoundaryMarks::domain_of(&outline.polygons, None, &on_earth)

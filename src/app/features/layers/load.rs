@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::ground::ground_under;
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
@@ -14,9 +15,23 @@ use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues};
 use meshbrush_io::io::layers::{
     LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader, in_direction,
 };
-use meshbrush_io::io::{self, DocumentPlane, Meter, ValueFacts};
+use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
+
+/// How a part of a grid becomes a document in metres.
+const COAST_IN_METRES: &str = "Open a coast as “Domain in metres”, and add the grid to it.";
+
+/// Says how a document in another unit becomes one in metres.
+pub fn way_to_metres(unit: LengthUnit) -> &'static str {
+    match unit {
+        LengthUnit::Degree => {
+            "Open the coast as “Domain in metres” and add the grid to it, or start a new document with the grid as “Depth of \
+             water”."
+        }
+        _ => "Open a domain whose coordinates are metres.",
+    }
+}
 
 /// Reads a picture or a grid, and adds it as a layer of risk.
 pub fn load_image(session: &Session, background: &mut Background, path: &Path) {
@@ -37,13 +52,11 @@ pub fn load_band(session: &Session, background: &mut Background, path: &Path) {
     load_raster(session, background, path, RasterValues::Any, LayerKind::band_of);
 }
 
-/// Reads a grid of heights or depths, and adds a layer of depths.
+/// Reads a grid of heights or depths, and adds a layer of depths. An empty document becomes one in metres
+/// where that is possible.
 pub fn load_depth(session: &Session, background: &mut Background, path: &Path) {
-    let kind_of = match session.document().settings().unit.may_be_metres() {
-        true => LayerKind::depths_of,
-        false => LayerKind::depths_without_sizes,
-    };
-    load_raster(session, background, path, RasterValues::Any, kind_of);
+    let making = Making { values: RasterValues::Any, kind_of: LayerKind::depths_of, is_depth: true };
+    load_layer(session, background, path, making);
 }
 
 /// Reads a picture or a grid, and adds it as a surface that the mesh is to be close to.
@@ -56,6 +69,15 @@ pub fn load_values(session: &Session, background: &mut Background, path: &Path) 
     load_raster(session, background, path, RasterValues::Any, LayerKind::curve_of);
 }
 
+/// How a layer is made of a raster.
+#[derive(Clone, Copy)]
+struct Making {
+    values: RasterValues,
+    kind_of: fn(RasterSource, &Transfer) -> Option<LayerKind>,
+    /// Whether its sizes are from depths, and need metres.
+    is_depth: bool,
+}
+
 /// Reads a picture or a grid, and adds what it becomes as a layer. An empty document takes its extent.
 fn load_raster(
     session: &Session,
@@ -64,34 +86,90 @@ fn load_raster(
     values: RasterValues,
     kind_of: fn(RasterSource, &Transfer) -> Option<LayerKind>,
 ) {
-    let (file, empty) = (path.to_owned(), EmptyDocument::of(session));
-    let frame = raster_frame(session);
-    background.start(Aim::Read, path, move |meter| {
-        let read = || {
-            let (source, facts) = raster_of(&file, values, &frame, meter)?;
-            let bounds = source.raster.raster().bounds();
-            let over = empty.and_then(|empty| empty.over(&file, bounds, LengthUnit::None));
-            let transfer = over.as_ref().map_or(frame.transfer, |settings| settings.transfer);
-            let kind = kind_of(source, &transfer).ok_or_else(|| no_values(&file))?;
-            let kind = in_direction(kind, facts.positive);
-            let mut commands = match over {
-                Some(settings) => show_with_layer(settings.with_nodes_on_samples(&kind), kind, &file),
-                None => check_place(&bounds, &frame.domain, &file).map(|()| commands_to_add(kind)),
-            }?;
-            let notes = facts.notes.iter().map(|note| format!("{}: {note}", name_of(&file)));
-            let notes: Vec<String> = notes.collect();
-            if !notes.is_empty() {
-                commands.push(Command::Shell(ShellCommand::Tell(notes.join(" "))));
-            }
-            Ok(commands)
-        };
-        match read() {
-            // Only what the window opens by its ending is among the recent files.
-            Ok(commands) if values == RasterValues::Risk => Outcome::Read { path: file, commands },
-            Ok(commands) => Outcome::PartRead(commands),
-            Err(problem) => Outcome::NotRead(problem),
-        }
+    load_layer(session, background, path, Making { values, kind_of, is_depth: false });
+}
+
+/// The document that a raster is read for.
+struct Target {
+    frame: RasterFrame,
+    empty: Option<EmptyDocument>,
+    unit: LengthUnit,
+}
+
+fn load_layer(session: &Session, background: &mut Background, path: &Path, making: Making) {
+    let file = path.to_owned();
+    let unit = session.document().settings().unit;
+    let target = Target { frame: raster_frame(session), empty: EmptyDocument::of(session), unit };
+    background.start(Aim::Read, path, move |meter| match layer_of(&file, making, &target, meter) {
+        // Only what the window opens by its ending is among the recent files.
+        Ok(commands) if making.values == RasterValues::Risk => Outcome::Read { path: file, commands },
+        Ok(commands) => Outcome::PartRead(commands),
+        Err(problem) => Outcome::NotRead(problem),
     });
+}
+
+/// Returns the commands that add a raster as a layer, or show it in place of an empty document.
+fn layer_of(file: &Path, making: Making, target: &Target, meter: &Meter) -> Result<Vec<Command>, String> {
+    let LoadedRaster { raster, facts, coordinates } = raster_of(file, making.values, &target.frame, meter)?;
+    let bounds = raster.raster().bounds();
+    let ground = target
+        .empty
+        .as_ref()
+        .and_then(|empty| ground_under(empty, file, &raster, coordinates, making.is_depth));
+    let note = |note: &String| format!("{}: {note}", name_of(file));
+    let mut notes: Vec<String> = facts.notes.iter().map(note).collect();
+    let (settings, raster) = match ground {
+        Some(ground) => {
+            notes.extend(ground.note);
+            (Some(ground.settings), ground.raster.unwrap_or(raster))
+        }
+        None => (None, raster),
+    };
+    let lack = match making.is_depth {
+        true => lack_of_metres(file, settings.as_ref(), target, coordinates),
+        false => None,
+    };
+    let kind_of = if lack.is_some() { LayerKind::depths_without_sizes } else { making.kind_of };
+    notes.extend(lack);
+    let transfer = settings.as_ref().map_or(target.frame.transfer, |settings| settings.transfer);
+    let source = RasterSource { name: name_of(file), raster };
+    let kind = kind_of(source, &transfer).ok_or_else(|| no_values(file))?;
+    let kind = in_direction(kind, facts.positive);
+    if let Some(settings) = settings {
+        return show_with_layer(settings.with_nodes_on_samples(&kind), kind, file, &notes);
+    }
+    check_place(&bounds, &target.frame.domain, file)?;
+    let mut commands = commands_to_add(kind);
+    if !notes.is_empty() {
+        commands.push(Command::Shell(ShellCommand::Tell(notes.join(" "))));
+    }
+    Ok(commands)
+}
+
+/// Returns a sentence where sizes from depths have no metres in the document that the raster is for.
+fn lack_of_metres(
+    file: &Path,
+    over: Option<&Settings>,
+    target: &Target,
+    coordinates: Option<FileCoordinates>,
+) -> Option<String> {
+    let unit = over.map_or(target.unit, |settings| settings.unit);
+    let is_stated = matches!(coordinates, Some(FileCoordinates::Known(_)));
+    let in_degrees =
+        is_stated && coordinates.is_some_and(|coordinates| coordinates.unit() == LengthUnit::Degree);
+    let lies_in_degrees = unit == LengthUnit::None && target.frame.plane.is_none() && in_degrees;
+    if unit.may_be_metres() && !lies_in_degrees {
+        return None;
+    }
+    let unit = if lies_in_degrees { LengthUnit::Degree } else { unit };
+    // A grid that begins a document in degrees cannot begin one in metres.
+    let is_whole = over.is_some() && unit == LengthUnit::Degree;
+    let way = if is_whole { COAST_IN_METRES } else { way_to_metres(unit) };
+    Some(format!(
+        "The layer {} asks for no sizes: they need a document in metres, and this one is in {}. {way}",
+        name_of(file),
+        unit.name()
+    ))
 }
 
 fn commands_to_add(kind: LayerKind) -> Vec<Command> {
@@ -112,7 +190,7 @@ pub fn load_shapes(session: &Session, background: &mut Background, path: &Path) 
             let kind = LayerKind::distance_to(to, &transfer, Settings::USUAL_GRADATION);
             over.map_or_else(
                 || Ok(commands_to_add(kind.clone())),
-                |settings| show_with_layer(settings, kind.clone(), &file),
+                |settings| show_with_layer(settings, kind.clone(), &file, &[]),
             )
         };
         match read() {
@@ -167,26 +245,25 @@ fn raster_of(
     values: RasterValues,
     frame: &RasterFrame,
     meter: &Meter,
-) -> Result<(RasterSource, ValueFacts), String> {
+) -> Result<LoadedRaster, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
     let loaded = RasterLoader::new(meter).load(&file, values, frame);
-    let LoadedRaster { raster, facts } = loaded.map_err(|error| match (&error, values) {
+    let loaded = loaded.map_err(|error| match (&error, values) {
         (RasterError::Value(_), RasterValues::Risk) => {
             format!(
-                "{error} If they are target diameters, add the file with *Add data…* in the menu File as target diameter."
+                "{error} If they are target diameters, add the file with “Add data…” in the menu File as target diameter."
             )
         }
         _ => error.to_string(),
     })?;
     let beside = match file.format.has_place() {
-        false => io::world_file::bounds_beside(path, raster.raster().size()),
+        false => io::world_file::bounds_beside(path, loaded.raster.raster().size()),
         true => Ok(None),
     };
-    let raster = match beside.map_err(|error| error.to_string())? {
-        Some(bounds) => placed(raster.raster(), bounds),
-        None => raster,
-    };
-    Ok((RasterSource { name: name_of(path), raster }, facts))
+    Ok(match beside.map_err(|error| error.to_string())? {
+        Some(bounds) => LoadedRaster { raster: placed(loaded.raster.raster(), bounds), ..loaded },
+        None => loaded,
+    })
 }
 
 fn placed(raster: &Raster, bounds: Rect) -> Arc<RasterPyramid> {

@@ -6,6 +6,7 @@ mod entries;
 mod execute;
 mod files;
 mod gradation;
+mod ground;
 mod kinds;
 mod list;
 mod load;
@@ -23,6 +24,7 @@ use files::{OPEN_BAND, OPEN_DEPTH, OPEN_MASK, OPEN_SHAPES, OPEN_SURFACE, REPLACE
 pub use files::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use gradation::GRADATION;
 use kinds::KINDS;
+use load::way_to_metres;
 use panel::LAYERS;
 use pictures::LayerPictures;
 pub use pictures::layer_color32;

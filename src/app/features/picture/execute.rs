@@ -46,10 +46,12 @@ fn load(path: &Path, ctx: &mut Ctx<'_>) {
         let (name, picture) = (name_of(&file), Arc::new(picture));
         let shown = Some(Background { name, picture, bounds, opacity: Background::USUAL_OPACITY });
         match over {
-            Some(settings) => match show_over_extent(Settings { background: shown, ..settings }, &file) {
-                Ok(commands) => Outcome::PartRead(commands),
-                Err(problem) => Outcome::NotRead(problem),
-            },
+            Some(settings) => {
+                match show_over_extent(Settings { background: shown, ..settings }, &file, &[]) {
+                    Ok(commands) => Outcome::PartRead(commands),
+                    Err(problem) => Outcome::NotRead(problem),
+                }
+            }
             None => Outcome::PartRead(vec![
                 Command::Edit(EditCommand::Set(Setting::Background(shown))),
                 Command::Edit(EditCommand::EndGesture),

@@ -30,7 +30,7 @@ pub fn load_pins(session: &Session, background: &mut Background, path: &Path) {
             return Outcome::PartRead(vec![Command::Pins(PinsCommand::AddAll(points))]);
         };
         settings.pins = Arc::new(with_points(Vec::new(), points));
-        match show_over_extent(settings, &file) {
+        match show_over_extent(settings, &file, &[]) {
             Ok(commands) => Outcome::PartRead(commands),
             Err(problem) => Outcome::NotRead(problem),
         }

@@ -87,9 +87,7 @@ fn shape_rows(
     state: &FrameState<'_>,
     commands: &mut Vec<Command>,
 ) {
-    let symbol = state.unit().symbol();
-    let square = if symbol.is_empty() { String::new() } else { format!("{symbol}²") };
-    value_row(ui, "Area", &format::with_unit(&format::digits(measured.area, 6), &square));
+    value_row(ui, "Area", &format::area(measured.area, state.unit(), 6));
     let angles = [statistics.smallest_angle, statistics.largest_angle].map(|angle| format::fixed(angle, 1));
     value_row(ui, "Angles", &format!("{}° to {}°", angles[0], angles[1]));
     let (value, place) =

@@ -27,7 +27,7 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
         let over = empty.zip(extent).and_then(|(empty, extent)| empty.over(&file, extent, LengthUnit::None));
         match (Threats::new(list), over) {
             (Ok(threats), Some(settings)) => {
-                match show_with_layer(settings, LayerKind::Threats(threats), &file) {
+                match show_with_layer(settings, LayerKind::Threats(threats), &file, &[]) {
                     Ok(commands) => Outcome::PartRead(commands),
                     Err(problem) => Outcome::NotRead(problem),
                 }

@@ -6,7 +6,7 @@ mod read;
 use std::path::PathBuf;
 
 pub use preview::Preview;
-pub use read::look_at;
+pub use read::{look_at, seen_outline};
 
 use super::{FileRequest, FrameState};
 use meshbrush_mesh::geometry::Rect;
@@ -29,6 +29,8 @@ pub struct DataFile {
     pub unit: LengthUnit,
     /// A small picture of the contents.
     pub preview: Preview,
+    /// Whether it is opened: only what becomes a document of its own is asked about.
+    pub is_opened: bool,
 }
 
 /// The kind of the contents of a file of data, with what is known of them.

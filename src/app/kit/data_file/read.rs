@@ -11,8 +11,9 @@ use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::{Raster, RasterValues};
-use meshbrush_io::io::layers::{RasterFile, RasterFrame, RasterLoader};
-use meshbrush_io::io::{self, DocumentPlane, Meter, RasterFormat};
+use meshbrush_io::io::geojson::Outline;
+use meshbrush_io::io::layers::{LoadedRaster, RasterFile, RasterFrame, RasterLoader};
+use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter, RasterFormat};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -44,13 +45,32 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
     let Seen { contents, extent, is_on_earth, unit, preview } = seen;
     Ok(DataFile {
         path: path.to_owned(),
-        bytes: meter.total().unwrap_or(0),
+        bytes: io::disk::bytes_of(path),
         contents,
         extent,
         is_on_earth,
         unit,
         preview,
+        is_opened: false,
     })
+}
+
+/// Returns polygons that were read, to ask how the document is to be that opens with them.
+pub fn seen_outline(path: &Path, outline: &Outline) -> DataFile {
+    let polygons: Vec<_> = outline.polygons.iter().map(|named| named.polygon.clone()).collect();
+    let contents = DataContents::Shapes { points: 0, lines: 0, polygons: polygons.len() };
+    let shapes = ShapeList { polygons, ..ShapeList::default() };
+    let Seen { contents, extent, unit, preview, .. } = drawn(contents, &shapes, outline.coordinates.unit());
+    DataFile {
+        path: path.to_owned(),
+        bytes: io::disk::bytes_of(path),
+        contents,
+        extent,
+        is_on_earth: outline.coordinates.on_earth(None).is_some(),
+        unit,
+        preview,
+        is_opened: true,
+    }
 }
 
 /// What was seen of a file.
@@ -65,7 +85,7 @@ struct Seen {
 fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, String> {
     let file = RasterFile::named(path).map_err(|rule| format!("{}: {rule}", path.display()))?;
     let read = RasterLoader::new(meter).load(&file, RasterValues::Any, frame);
-    let pixels = read.map_err(|error| error.to_string())?.raster;
+    let LoadedRaster { raster: pixels, coordinates, .. } = read.map_err(|error| error.to_string())?;
     let raster = pixels.raster();
     let facts = facts(raster);
     let extent = if file.format.has_place() {
@@ -76,7 +96,12 @@ fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, Strin
     let is_grid = file.format.is_grid();
     let contents = if is_grid { DataContents::Grid(facts) } else { DataContents::Picture(facts) };
     let preview = Preview::of_raster(raster, facts.values);
-    Ok(Seen { contents, extent, is_on_earth: false, unit: LengthUnit::None, preview })
+    let unit = match (&frame.plane, coordinates) {
+        (Some(_), _) => LengthUnit::Metre,
+        (None, Some(stated @ (FileCoordinates::Known(_) | FileCoordinates::Foreign(_)))) => stated.unit(),
+        (None, _) => LengthUnit::None,
+    };
+    Ok(Seen { contents, extent, is_on_earth: false, unit, preview })
 }
 
 fn facts(raster: &Raster) -> RasterFacts {

@@ -136,7 +136,7 @@ impl SavedLayer {
     }
 
     fn source<D: LayerData>(&self, data: &mut D) -> Result<(RasterSource, ValueFacts), D::Error> {
-        let LoadedRaster { raster, facts } = data.raster(self)?;
+        let LoadedRaster { raster, facts, .. } = data.raster(self)?;
         facts.notes.iter().for_each(|note| data.note(format!("{}: {note}", self.file_name())));
         Ok((RasterSource { name: self.file_name(), raster }, facts))
     }

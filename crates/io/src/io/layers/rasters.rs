@@ -54,17 +54,26 @@ pub struct LoadedRaster {
     pub raster: Arc<RasterPyramid>,
     /// What the file says.
     pub facts: ValueFacts,
+    /// What the coordinates in the file are; `None` where it has none, or they do not count.
+    pub coordinates: Option<FileCoordinates>,
 }
 
 impl LoadedRaster {
     fn new(raster: Raster, facts: ValueFacts) -> Self {
-        Self { raster: Arc::new(RasterPyramid::new(raster)), facts }
+        Self { facts, ..Arc::new(RasterPyramid::new(raster)).into() }
     }
 }
 
 impl From<Arc<RasterPyramid>> for LoadedRaster {
     fn from(raster: Arc<RasterPyramid>) -> Self {
-        Self { raster, facts: ValueFacts::default() }
+        Self { raster, facts: ValueFacts::default(), coordinates: None }
+    }
+}
+
+impl From<FileGrid> for LoadedRaster {
+    fn from(grid: FileGrid) -> Self {
+        let coordinates = Some(grid.coordinates());
+        Self { coordinates, ..Self::new(grid.raster, grid.facts) }
     }
 }
 
@@ -119,10 +128,7 @@ impl RasterLoader {
         }
         match (file.format.read(), file.bounds) {
             (ReadRaster::Grid(read), None) => {
-                let read = |meter: &Meter| {
-                    let FileGrid { raster, facts, .. } = read(&file.path, &GridPlace::default(), meter)?;
-                    Ok((raster, facts))
-                };
+                let read = |meter: &Meter| Ok(read(&file.path, &GridPlace::default(), meter)?.into());
                 let loaded = self.read_once::<ReadError>((file.path.clone(), false), read)?;
                 Ok(Some(loaded.raster.raster().bounds()))
             }
@@ -141,13 +147,13 @@ impl RasterLoader {
         values: RasterValues,
         frame: &RasterFrame,
     ) -> Result<LoadedRaster, RasterError> {
-        let LoadedRaster { raster, facts } = self.pixels(file, values, frame)?;
+        let LoadedRaster { raster, facts, coordinates } = self.pixels(file, values, frame)?;
         if values == RasterValues::Diameter && !file.format.is_grid() {
             return Ok(LoadedRaster::new(diameters(raster.raster(), &frame.transfer), facts));
         }
         let named = |problem| RasterError::Value(format!("{}: {problem}", file.path.display()));
         check_values(&raster, values).map_err(named)?;
-        Ok(LoadedRaster { raster, facts })
+        Ok(LoadedRaster { raster, facts, coordinates })
     }
 
     /// Returns the values of a file, before the layer interprets them.
@@ -161,17 +167,17 @@ impl RasterLoader {
             return Ok(LoadedRaster {
                 raster: placed(grid, *bounds, frame, path)?,
                 facts: grid.facts.clone(),
+                coordinates: bounds.is_none().then_some(grid.coordinates),
             });
         }
         match (format.read(), bounds) {
             (ReadRaster::Grid(read), None) => self.read_once((path.clone(), false), |meter| {
                 let place = GridPlace { over: None, window: frame.window() };
                 let mut grid = read(path, &place, meter)?;
-                let facts = std::mem::take(&mut grid.facts);
-                match &frame.plane {
-                    Some(plane) => Ok((grid_in_plane(grid, plane, frame, path)?, facts)),
-                    None => Ok((grid.raster, facts)),
-                }
+                let Some(plane) = &frame.plane else { return Ok(grid.into()) };
+                let (facts, coordinates) = (std::mem::take(&mut grid.facts), grid.coordinates());
+                let raster = grid_in_plane(grid, plane, frame, path)?;
+                Ok(LoadedRaster { coordinates: Some(coordinates), ..LoadedRaster::new(raster, facts) })
             }),
             (ReadRaster::Grid(read), over @ Some(_)) => {
                 let place = GridPlace { over: *over, window: None };
@@ -184,14 +190,17 @@ impl RasterLoader {
             }
             (ReadRaster::Array(read), None) => self.read_once((path.clone(), false), |meter| {
                 let FileGrid { raster, facts, .. } = read(path, frame.domain, meter)?;
-                Ok((raster, facts))
+                Ok(LoadedRaster::new(raster, facts))
             }),
             (ReadRaster::Image(read), _) => {
                 let behind = if values == RasterValues::Risk { Behind::Black } else { Behind::White };
                 let place = bounds.unwrap_or(frame.domain);
-                let read = |meter: &Meter| Ok((read(path, place, behind, meter)?, ValueFacts::default()));
+                let read = |meter: &Meter| {
+                    let raster = read(path, place, behind, meter)?;
+                    Ok(LoadedRaster::new(raster, ValueFacts::default()))
+                };
                 match bounds {
-                    Some(_) => read(&self.meter).map(|(raster, facts)| LoadedRaster::new(raster, facts)),
+                    Some(_) => read(&self.meter),
                     None => self.read_once((path.clone(), behind == Behind::Black), read),
                 }
             }
@@ -201,13 +210,12 @@ impl RasterLoader {
     fn read_once<E>(
         &mut self,
         key: (PathBuf, bool),
-        read: impl FnOnce(&Meter) -> Result<(Raster, ValueFacts), E>,
+        read: impl FnOnce(&Meter) -> Result<LoadedRaster, E>,
     ) -> Result<LoadedRaster, E> {
         if let Some(raster) = self.known.get(&key) {
             return Ok(raster.clone());
         }
-        let (raster, facts) = read(&self.meter)?;
-        let loaded = LoadedRaster::new(raster, facts);
+        let loaded = read(&self.meter)?;
         self.known.insert(key, loaded.clone());
         Ok(loaded)
     }

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 
 use super::raster::source_rows;
 use crate::app::command::{Command, DomainCommand, FileCommand};
-use crate::app::features::layers::OPEN_DEPTH;
+use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
 use crate::app::widgets::{
     ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
@@ -82,7 +82,7 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         sizes.rule = size.usual();
     }
     if !is_in_metres {
-        remark(ui, "Sizes from depths need a document in metres.");
+        remark(ui, &format!("Sizes from depths need a document in metres. {}", way_to_metres(state.unit())));
     }
     rule_rows(ui, &mut sizes.rule);
     if size != Size::Nothing {

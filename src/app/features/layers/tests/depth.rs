@@ -11,7 +11,7 @@ use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ViewC
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, click_button, entries, folder, notice, on_screen, send, settings,
-    triangles, type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
+    step_until, triangles, type_into, value_of, wait_for_jobs, wait_for_notice, wait_until, window_of,
 };
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{Example, Setting};
@@ -81,7 +81,8 @@ fn sizes_need_a_document_in_metres() {
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
     click_on(&mut window, Role::RadioButton, "Wavelength");
     assert_eq!(sizes(&window).rule, DepthRule::Nothing);
-    assert!(window.query_by_label_contains("need a document in metres").is_some());
+    let remarks = window.query_all_by_label_contains("Sizes from depths need a document in metres").count();
+    assert_eq!(remarks, 1);
 }
 
 #[test]
@@ -101,6 +102,7 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     let found = domain(&window);
     let rings: Vec<_> = found.region().unwrap().rings().collect();
     assert_eq!((rings.len(), found.bounds), (2, Rect::new(DVec2::ZERO, DVec2::ONE)));
+    assert_eq!(notice(&window), "The domain was replaced: it is the contour of bay.asc.");
     send(&mut window, Command::Edit(EditCommand::Undo));
     assert_eq!(domain(&window), before);
     type_into(&mut window, "Smallest island", "0.05");
@@ -110,6 +112,25 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     type_into(&mut window, "Contour", "50");
     click_button(&mut window, "Use the contour as the domain");
     assert!(wait_for_notice(&mut window).contains("no pixel is deeper than 50 m"), "{}", notice(&window));
+}
+
+#[test]
+fn pixels_without_a_value_that_become_land_are_told() {
+    let file = folder("app-layer-contour", "unknown").join("bay.asc");
+    let rows = ["9 9 9 9 9 9", "9 -5 -5 -5 -5 9", "9 -5 -1 -1 -5 9", "9 -5 -5 -5 -5 9", "9 -5 -5 -5 -5 9"];
+    let head = "ncols 6\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\nNODATA_value -1\n";
+    fs::write(&file, head.to_owned() + &rows.join("\n")).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| active(window).name == "bay.asc");
+    click_button(&mut window, "Use the contour as the domain");
+    step_until(&mut window, |window| notice(window).contains("was replaced"));
+    assert!(
+        notice(&window).ends_with("2 pixels without a value in it count as land."),
+        "{}",
+        notice(&window)
+    );
+    assert_eq!(settings(&window).domain.region().unwrap().rings().count(), 2, "an island");
 }
 
 #[test]

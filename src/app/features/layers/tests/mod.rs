@@ -2,5 +2,6 @@
 
 mod data;
 mod depth;
+mod ground;
 pub mod stack;
 mod surface;

@@ -135,8 +135,12 @@ fn figures(ui: &mut Ui, state: &FrameState<'_>, found: &FoundPath) {
         }
         None => (format::length(solution.length, state.unit()), IN_THE_PLANE),
     };
+    let cost = match has_bound {
+        true => format::beside_interval(solution.cost, solution.lower, solution.upper),
+        false => number(solution.cost),
+    };
     let rows = [
-        ("Cost", number(solution.cost), "The integral of the cost per length along the path that is shown."),
+        ("Cost", cost, "The integral of the cost per length along the path that is shown."),
         ("Proved", gap, PROVED),
         ("Least possible cost", optimum, LEAST_POSSIBLE),
         ("Length", length, metric),

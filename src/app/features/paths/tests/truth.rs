@@ -50,6 +50,8 @@ fn the_highest_risk_is_the_top_of_the_plot_and_the_interval_has_two_ends() {
     let interval = row(&window, "Least possible cost");
     let (lower, upper) = interval.split_once(" … ").unwrap();
     assert_ne!(lower, upper);
+    let number = |text: &str| text.replace(',', "").parse::<f64>().unwrap();
+    assert!(number(&row(&window, "Cost")) >= number(upper), "{} and {interval}", row(&window, "Cost"));
 }
 
 /// Puts another path in the place of the one that was shown before a proof.

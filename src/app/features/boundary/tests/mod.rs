@@ -1,5 +1,7 @@
 //! Naming, splitting and joining pieces of the boundary, and setting their types.
 
+mod opening;
+
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Vec2, vec2};
 use egui_kittest::kittest::Queryable as _;
