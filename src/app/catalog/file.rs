@@ -3,7 +3,9 @@
 use eframe::egui::{Key, Modifiers};
 
 use crate::app::command::{Command, FileCommand};
-use crate::app::features::domain::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES};
+use crate::app::features::domain::{
+    ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES, OPEN_SEA,
+};
 use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
@@ -53,6 +55,8 @@ pub fn file(state: &FrameState<'_>) -> Vec<CatalogItem> {
             Command::File(FileCommand::Ask(&OPEN_DOMAIN_AS_IT_IS)),
         )
         .palette_only(),
+        CatalogItem::new(File, "Open the sea around land…", Command::File(FileCommand::Ask(&OPEN_SEA)))
+            .palette_only(),
         CatalogItem::new(
             File,
             "Add outline to this document…",

@@ -1,13 +1,17 @@
 //! Other words by which commands are found: those of other programs, and those of what a command acts on.
 
 /// The beginning of a title, and other words for it.
-static SYNONYMS: [(&str, &str); 48] = [
+static SYNONYMS: [(&str, &str); 49] = [
     ("New…", "create empty blank document start page"),
     ("Open…", "load read file import"),
     ("Add data…", "import load drop grid raster dem terrain depths shapes table csv geojson asc png"),
     ("Open picture as risk…", "image raster png import"),
     ("Open grid as target diameter…", "raster asc size import"),
     ("Open background picture…", "image map trace png"),
+    (
+        "Open the sea around land…",
+        "coast coastline island shoreline water ocean frame line gshhs osm shapefile",
+    ),
     ("Open domain…", "coast outline polygon geojson import boundary"),
     (
         "Open the boundary",

@@ -9,7 +9,9 @@ use eframe::egui::{
 
 use crate::app::background::name_of;
 use crate::app::command::{Command, ShellCommand};
-use crate::app::kit::{DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, RasterFacts};
+use crate::app::kit::{
+    DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, Preview, RasterFacts,
+};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 use meshbrush_mesh::text::LengthUnit;
@@ -30,6 +32,8 @@ struct Question {
     /// The file that it is about.
     file: Arc<DataFile>,
     texture: TextureHandle,
+    /// The picture of the water beside the shapes.
+    sea_texture: Option<TextureHandle>,
     /// The title of the chosen role.
     chosen: Option<&'static str>,
 }
@@ -42,7 +46,8 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
     let kept = kept.filter(|question| Arc::ptr_eq(&question.file, file));
     let mut question = kept.unwrap_or_else(|| Question {
         file: file.clone(),
-        texture: texture(ctx, file),
+        texture: texture(ctx, &file.preview),
+        sea_texture: file.sea.as_ref().ok().map(|sea| texture(ctx, sea)),
         chosen: roles.iter().find(|(_, refusal)| refusal.is_none()).map(|(role, _)| role.title),
     });
     let shown = dialog(ctx, "add data", |ui| question.contents(ui, state, &roles));
@@ -71,10 +76,10 @@ fn roles(state: &FrameState<'_>, file: &DataFile) -> Vec<(&'static DataRole, Opt
     roles.into_iter().map(|role| (role, (role.refusal)(file, state))).collect()
 }
 
-fn texture(ctx: &Context, file: &DataFile) -> TextureHandle {
+fn texture(ctx: &Context, preview: &Preview) -> TextureHandle {
     let pixel = |[r, g, b, a]: [u8; 4]| Color32::from_rgba_unmultiplied(r, g, b, a);
-    let pixels = file.preview.rgba.iter().copied().map(pixel).collect();
-    ctx.load_texture("preview of a file", ColorImage::new(file.preview.size, pixels), TextureOptions::LINEAR)
+    let pixels = preview.rgba.iter().copied().map(pixel).collect();
+    ctx.load_texture("preview of a file", ColorImage::new(preview.size, pixels), TextureOptions::LINEAR)
 }
 
 impl Question {
@@ -91,7 +96,7 @@ impl Question {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
                 ui.set_width(FACTS);
-                self.picture(ui);
+                self.picture(ui, roles);
                 fact_rows(ui, &self.file);
             });
             ui.add_space(16.0);
@@ -111,17 +116,19 @@ impl Question {
         if self.file.is_opened { FileAct::OpenDocument.verb() } else { FileAct::Add.verb() }
     }
 
-    /// Shows the picture in the middle of its place.
-    fn picture(&self, ui: &mut Ui) {
+    /// Shows the picture in the middle of its place: the water, where the chosen role is for that.
+    fn picture(&self, ui: &mut Ui, roles: &[(&'static DataRole, Option<String>)]) {
+        let is_sea = roles.iter().any(|(role, _)| Some(role.title) == self.chosen && role.kind.is_of_sea);
+        let texture = self.sea_texture.as_ref().filter(|_| is_sea).unwrap_or(&self.texture);
         let (place, _) = ui.allocate_exact_size(vec2(FACTS, PICTURE), Sense::hover());
         let t = *tokens(ui);
         ui.painter().rect_filled(place, metrics::RADIUS_CONTROL, t.well);
         let room = place.shrink(8.0);
-        let size = self.texture.size_vec2();
+        let size = texture.size_vec2();
         let size = size * (room.width() / size.x).min(room.height() / size.y);
         let tint = if self.file.preview.is_drawing { t.accent } else { Color32::WHITE };
         let name = format!("Picture of {}", name_of(&self.file.path));
-        let image = egui::Image::new(&self.texture).tint(tint).alt_text(name);
+        let image = egui::Image::new(texture).tint(tint).alt_text(name);
         ui.put(Rect::from_center_size(room.center(), size), image.fit_to_exact_size(size));
         ui.add_space(8.0);
     }

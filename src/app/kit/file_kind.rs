@@ -27,6 +27,8 @@ pub struct FileKind {
     pub command_after_browsing: fn(PathBuf) -> Command,
     /// The command for a file that the program was started with: nothing is asked about it.
     pub command_at_start: fn(PathBuf) -> Command,
+    /// Whether the water beside what the file holds is meant, and not that itself.
+    pub is_of_sea: bool,
 }
 
 /// A kind of file that is asked for.
@@ -72,6 +74,7 @@ impl FileKind {
             command,
             command_after_browsing: command,
             command_at_start: command,
+            is_of_sea: false,
         }
     }
 

@@ -14,7 +14,8 @@ use super::{
     wait_for_notice, wait_until, window,
 };
 use crate::app::App;
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, DomainCommand, FileCommand};
+use meshbrush_core::document::Settings;
 use meshbrush_mesh::text::LengthUnit;
 
 const COAST: &str =
@@ -25,6 +26,9 @@ const UTM: &str = r#"{"type": "Polygon", "crs": {"type": "name", "properties": {
     "coordinates": [[[400000, 4000000], [440000, 4000000], [440000, 4030000], [400000, 4030000], [400000, 4000000]]]}"#;
 const PLAIN: &str =
     r#"{"type": "Polygon", "coordinates": [[[0, 0], [900, 0], [900, 700], [0, 700], [0, 0]]]}"#;
+
+/// A way to open a file: its name, the button that answers the question, and what a person does.
+type Way = (&'static str, &'static str, Box<dyn Fn(&mut Window)>);
 
 fn written(test: &str, name: &str, text: &str) -> PathBuf {
     let file = folder("open-domain", test).join(name);
@@ -67,7 +71,7 @@ fn type_path(window: &mut Window, file: &Path) {
 #[test]
 fn every_way_to_open_a_coast_in_degrees_asks_and_proposes_metres() {
     let file = written("ways", "coast.geojson", COAST);
-    let mut ways: Vec<(&str, &str, Box<dyn Fn(&mut Window)>)> = Vec::new();
+    let mut ways: Vec<Way> = Vec::new();
     let path = file.clone();
     ways.push((
         "New…, Coast…",
@@ -197,4 +201,53 @@ fn a_coast_given_at_the_start_is_in_metres_and_a_note_says_so() {
     let note = notice(&window);
     assert!(note.contains("opened in its own coordinates") && !is_asked(&window), "{note}");
     assert_eq!(settings(&window).unit, LengthUnit::Degree);
+}
+
+/// An island of a degree of latitude, and a coast from south to north with land to its left, in degrees.
+const ISLAND: &str =
+    r#"{"type": "Polygon", "coordinates": [[[20, 30], [21, 30], [21, 31], [20, 31], [20, 30]]]}"#;
+const LINE: &str = r#"{"type": "LineString", "coordinates": [[20, 30], [21, 31], [20, 32]]}"#;
+
+fn choose(window: &mut Window, title: &str) {
+    window.get_by_role_and_label(Role::RadioButton, title).click();
+    window.run();
+}
+
+#[test]
+fn land_is_opened_as_the_sea_around_it() {
+    let file = written("sea", "island.geojson", ISLAND);
+    let mut window = window();
+    send(&mut window, Command::Domain(DomainCommand::Choose(file)));
+    wait_until(&mut window, is_asked);
+    choose(&mut window, "Sea around this land");
+    click_button(&mut window, "Open");
+    wait_until(&mut window, |window| settings(window).name == "island");
+    let Settings { domain, unit, .. } = settings(&window).clone();
+    let region = domain.region().unwrap();
+    assert!(unit == LengthUnit::Metre && region.hole_count() == 1 && domain.cuts().len() == 1, "{unit:?}");
+    // A frame of 1.2° by 1.2° around 1° by 1°.
+    let share = region.area() / domain.bounds.size().element_product();
+    assert!((share - (1.0 - 1.0 / 1.44)).abs() < 0.02, "{share}");
+    let notice = wait_for_notice(&mut window);
+    assert!(notice.contains("water in a frame around the land of island.geojson"), "{notice}");
+}
+
+#[test]
+fn a_line_of_coast_is_asked_about_and_has_no_domain_of_its_own() {
+    let file = written("line", "line.geojson", LINE);
+    let mut window = window();
+    send(&mut window, Command::Domain(DomainCommand::Choose(file)));
+    wait_until(&mut window, is_asked);
+    let nodes = window.query_all_by_role(Role::RadioButton);
+    let possible = nodes.filter(|node| !node.accesskit_node().data().is_disabled());
+    let possible: Vec<String> =
+        possible.filter_map(|node| node.accesskit_node().data().label().map(str::to_owned)).collect();
+    assert_eq!(possible, ["Sea around this land"]);
+    click_button(&mut window, "Open");
+    wait_until(&mut window, |window| settings(window).name == "line");
+    let domain = settings(&window).domain.clone();
+    let share = domain.region().unwrap().area() / domain.bounds.size().element_product();
+    assert!((share - 0.5).abs() < 0.02, "{share}");
+    let notice = wait_for_notice(&mut window);
+    assert!(notice.contains("land is taken to be to the left of the lines"), "{notice}");
 }

@@ -60,6 +60,17 @@ pub enum WaterSide {
     RightOfLines,
 }
 
+impl WaterSide {
+    /// Returns how the side was found, as the begin of a sentence.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::OfPlace => "the water is where the place in the sea is",
+            Self::AroundIslands => "the water is on the side of the lines where closed lines lie, as islands",
+            Self::RightOfLines => "land is taken to be to the left of the lines, as in OpenStreetMap",
+        }
+    }
+}
+
 /// Why land leaves no sea.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -39,6 +39,8 @@ pub enum DomainCommand {
     Open(PathBuf),
     /// Opens a document whose domain are polygons on the Earth, in the plane of a projection.
     OpenInMetres(PathBuf),
+    /// Opens a document whose domain is the water around land, or beside lines of coast.
+    OpenSea(PathBuf),
     /// Reads polygons, and adds them to the domain of the document.
     AddOutline(PathBuf),
     /// Makes a contour of a layer of depths the domain.

@@ -2,6 +2,7 @@
 
 use super::load::{
     DomainPlane, choose_plane, load_area_of_values, load_contour, load_domain, load_first, load_outline,
+    load_sea,
 };
 use super::{
     DOMAIN, DOMAIN_PANEL, DomainCommand, DomainEditor, FIT, OPEN_DOMAIN, OutlineChange, ROLES, entries,
@@ -45,6 +46,7 @@ impl Feature for DomainEditor {
             DomainCommand::OpenInMetres(path) => {
                 load_domain(ctx.background, &path, DomainPlane::Metres);
             }
+            DomainCommand::OpenSea(path) => load_sea(ctx.background, &path),
             DomainCommand::AddOutline(path) => {
                 load_outline(ctx.session, ctx.background, &path);
             }

@@ -35,6 +35,17 @@ pub static OPEN_DOMAIN_IN_METRES: FileKind = FileKind {
     ..FileKind::new(|path| Command::Domain(DomainCommand::OpenInMetres(path)))
 };
 
+/// Land or coasts, whose sea is the domain of a new document.
+pub static OPEN_SEA: FileKind = FileKind {
+    title: "Open the sea around land",
+    act: FileAct::OpenDocument,
+    endings: shape_format::endings,
+    contents: "Land or coasts",
+    folder: "domains",
+    is_of_sea: true,
+    ..FileKind::new(|path| Command::Domain(DomainCommand::OpenSea(path)))
+};
+
 /// Polygons that are added to the domain of the document.
 pub static ADD_OUTLINE: FileKind = FileKind {
     title: "Add outline to this document",
@@ -46,7 +57,7 @@ pub static ADD_OUTLINE: FileKind = FileKind {
 };
 
 /// The uses of a file that the domain has.
-pub static ROLES: [DataRole; 3] = [
+pub static ROLES: [DataRole; 4] = [
     DataRole {
         place: 9,
         title: "Domain in metres",
@@ -68,6 +79,15 @@ pub static ROLES: [DataRole; 3] = [
     },
     DataRole {
         place: 11,
+        title: "Sea around this land",
+        sentence: "A new document opens. Its domain is the water around the land or beside the lines of coast, in metres \
+                   where the file says where on the Earth it is.",
+        kind: &OPEN_SEA,
+        is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
+        refusal: |file, _| file.sea.as_ref().err().cloned(),
+    },
+    DataRole {
+        place: 12,
         title: "Outline of this document",
         sentence: "The polygons are added to the domain of this document, or become it.",
         kind: &ADD_OUTLINE,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::{DomainCommand, OutlineChange};
 use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened, ShellCommand};
-use crate::app::kit::seen_outline;
+use crate::app::kit::seen_shapes;
 use crate::app::session::Session;
 use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
@@ -15,7 +15,8 @@ use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::layers::{LayerId, LayerKind};
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::geojson::Outline;
-use meshbrush_io::io::{self, FileCoordinates};
+use meshbrush_io::io::recipe::{self, OutlineSource};
+use meshbrush_io::io::{self, FileCoordinates, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -31,20 +32,56 @@ pub enum DomainPlane {
 /// Reads polygons, and opens a document with them as its domain.
 pub fn load_domain(background: &mut Background, path: &Path, plane: DomainPlane) {
     open_outline(background, path, move |file, outline| {
-        opened(file, None, document_of(file, outline, plane))
+        opened(file, None, document_of(file, outline, plane, None))
     });
 }
 
 /// Reads polygons, and opens a document with them as its domain: at once where their coordinates leave no
 /// choice, and else after a question.
 pub fn choose_plane(background: &mut Background, path: &Path) {
-    open_outline(background, path, |file, outline| {
-        if !are_longitudes(&outline.coordinates) {
-            return open_unasked(file, outline);
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| {
+        let shapes = match io::shape_format::read_own_shapes(&file, None, meter) {
+            Ok(shapes) => shapes,
+            Err(error) => return Outcome::not_read(error),
+        };
+        // Lines are coasts: there is no domain of their own.
+        if are_longitudes(&shapes.coordinates) || shapes.shapes.polygons.is_empty() {
+            let asked = Arc::new(seen_shapes(&file, &shapes));
+            return Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(asked))]);
         }
-        let asked = Arc::new(seen_outline(file, &outline));
-        Outcome::PartRead(vec![Command::Shell(ShellCommand::AskRole(asked))])
+        match io::shape_format::read_outline(&file, meter) {
+            Ok(outline) => open_unasked(&file, outline),
+            Err(error) => Outcome::not_read(error),
+        }
     });
+}
+
+/// Reads land or coasts, and opens a document whose domain is the water beside them: in metres where the file
+/// says where on the Earth it is. A note says how the water was found.
+pub fn load_sea(background: &mut Background, path: &Path) {
+    let file = path.to_owned();
+    background.start(Aim::Read, path, move |meter| match sea_of(&file, meter) {
+        Ok((document, note)) => opened(&file, Some(Command::Shell(ShellCommand::Tell(note))), Ok(document)),
+        Err(problem) => Outcome::NotRead(problem),
+    });
+}
+
+/// Returns a document on the water beside the land of a file, and a note on it.
+fn sea_of(file: &Path, meter: &Meter) -> Result<(Document, String), String> {
+    let read = io::shape_format::read_own_shapes(file, None, meter).map_err(|error| error.to_string())?;
+    let sea = recipe::sea_of_land(file, &read, None, None, None).map_err(|error| error.to_string())?;
+    let (OutlineSource { outline, frame }, name) = (sea.source, name_of(file));
+    let plane = match outline.coordinates.on_earth(None) {
+        Some(_) => DomainPlane::Metres,
+        None => DomainPlane::OfFile,
+    };
+    let document = document_of(file, outline, plane, frame.map(|frame| frame.rect))?;
+    let side = sea.decided.map_or_else(String::new, |side| format!(": {}", side.text()));
+    let note = format!(
+        "The domain is the water in a frame around the land of {name}{side}. Cut it to size with the tool Domain."
+    );
+    Ok((document, note))
 }
 
 /// Reads polygons, and opens a document with them as its domain: in metres where that is possible. A note
@@ -63,10 +100,10 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
             "{name} names no coordinate system that is known here, so the document has no unit. Set one with “Unit” in the tab Domain."
         );
         let note = (unit == LengthUnit::None).then_some(Command::Shell(ShellCommand::Tell(note)));
-        return opened(file, note, document_of(file, outline, DomainPlane::OfFile));
+        return opened(file, note, document_of(file, outline, DomainPlane::OfFile, None));
     }
     let are_longitudes = are_longitudes(&outline.coordinates);
-    match document_of(file, outline.clone(), DomainPlane::Metres) {
+    match document_of(file, outline.clone(), DomainPlane::Metres, None) {
         Ok(document) => {
             let plane = document.settings().domain.projection.map_or("", |plane| plane.kind().name());
             let note = match are_longitudes {
@@ -89,7 +126,7 @@ fn open_unasked(file: &Path, outline: Outline) -> Outcome {
             opened(
                 file,
                 Some(Command::Shell(ShellCommand::Tell(note))),
-                document_of(file, outline, DomainPlane::OfFile),
+                document_of(file, outline, DomainPlane::OfFile, None),
             )
         }
     }
@@ -112,7 +149,7 @@ fn opened(file: &Path, note: Option<Command>, document: Result<Document, String>
     match document {
         Ok(document) => {
             let opened = Opened { document: Arc::new(document), home: None };
-            Outcome::Opened { path: file.to_owned(), opened, note }
+            Outcome::Opened { path: file.to_owned(), opened, note: note.map(Box::new) }
         }
         Err(problem) => Outcome::NotRead(problem),
     }
@@ -201,10 +238,14 @@ fn find_outline(
     });
 }
 
-/// Returns a new document on the polygons of a file.
-fn document_of(path: &Path, mut outline: Outline, plane: DomainPlane) -> Result<Document, String> {
-    let mut on_earth =
-        OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None, frame: None };
+/// Returns a new document on the polygons of a file, which were cut by `frame` in its coordinates.
+fn document_of(
+    path: &Path,
+    mut outline: Outline,
+    plane: DomainPlane,
+    frame: Option<Rect>,
+) -> Result<Document, String> {
+    let mut on_earth = OutlineOnEarth { file: outline.coordinates.on_earth(None), projection: None, frame };
     if plane == DomainPlane::Metres {
         let projected = outline.projected(ProjectionChoice::OwnOrAutomatic, None);
         let projected = projected.map_err(|error| format!("{}: {error}", path.display()))?;

@@ -15,7 +15,7 @@ mod tool;
 pub use command::DomainCommand;
 use command::OutlineChange;
 use files::ROLES;
-pub use files::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES};
+pub use files::{ADD_OUTLINE, OPEN_DOMAIN, OPEN_DOMAIN_AS_IT_IS, OPEN_DOMAIN_IN_METRES, OPEN_SEA};
 use fit::FIT;
 use options::DOMAIN_OPTIONS;
 use panel::DOMAIN_PANEL;

@@ -78,7 +78,7 @@ fn in_metres(
     let outline = Outline { polygons: vec![polygon], coordinates: FileCoordinates::Known(from) };
     let projected = outline.projected(ProjectionChoice::Automatic, None);
     let (outline, to) = projected.map_err(|error| error.to_string())?;
-    let on_earth = OutlineOnEarth { file: Some(from), projection: Some(to) };
+    let on_earth = OutlineOnEarth { file: Some(from), projection: Some(to), frame: None };
     let domain = BoundaryMarks::domain_of(&outline.polygons, None, &on_earth);
     let domain: Domain = domain.map_err(|error| error.to_string())?.0;
     let projected = projected_raster(raster.raster(), &Reprojection { from, to }, domain.bounds);

@@ -6,7 +6,7 @@ mod read;
 use std::path::PathBuf;
 
 pub use preview::Preview;
-pub use read::{look_at, seen_outline};
+pub use read::{look_at, seen_shapes};
 
 use super::{FileRequest, FrameState};
 use meshbrush_mesh::geometry::Rect;
@@ -29,6 +29,8 @@ pub struct DataFile {
     pub unit: LengthUnit,
     /// A small picture of the contents.
     pub preview: Preview,
+    /// A small picture of the water beside the shapes, if they are land or coasts; or why they cannot be.
+    pub sea: Result<Preview, String>,
     /// Whether it is opened: only what becomes a document of its own is asked about.
     pub is_opened: bool,
 }

@@ -11,9 +11,9 @@ use crate::app::background::{Aim, Background, Outcome};
 use crate::app::command::{Command, ShellCommand};
 use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::{Raster, RasterValues};
-use meshbrush_io::io::geojson::Outline;
 use meshbrush_io::io::layers::{LoadedRaster, RasterFile, RasterFrame, RasterLoader};
-use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter, RasterFormat};
+use meshbrush_io::io::shapes::ShapeFile;
+use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter, RasterFormat, recipe};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -42,7 +42,7 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
         Err(_) if is_table => table(path, meter)?,
         Err(_) => shapes(path, frame.plane.as_ref(), meter)?,
     };
-    let Seen { contents, extent, is_on_earth, unit, preview } = seen;
+    let Seen { contents, extent, is_on_earth, unit, preview, sea } = seen;
     Ok(DataFile {
         path: path.to_owned(),
         bytes: io::disk::bytes_of(path),
@@ -51,24 +51,26 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
         is_on_earth,
         unit,
         preview,
+        sea,
         is_opened: false,
     })
 }
 
-/// Returns polygons that were read, to ask how the document is to be that opens with them.
-pub fn seen_outline(path: &Path, outline: &Outline) -> DataFile {
-    let polygons: Vec<_> = outline.polygons.iter().map(|named| named.polygon.clone()).collect();
-    let contents = DataContents::Shapes { points: 0, lines: 0, polygons: polygons.len() };
-    let shapes = ShapeList { polygons, ..ShapeList::default() };
-    let Seen { contents, extent, unit, preview, .. } = drawn(contents, &shapes, outline.coordinates.unit());
+/// Returns shapes that were read, to ask how the document is to be that opens with them.
+pub fn seen_shapes(path: &Path, file: &ShapeFile) -> DataFile {
+    let ShapeList { points, lines, polygons } = &file.shapes;
+    let contents =
+        DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
+    let Seen { contents, extent, unit, preview, .. } = drawn(contents, &file.shapes, file.coordinates.unit());
     DataFile {
         path: path.to_owned(),
         bytes: io::disk::bytes_of(path),
         contents,
         extent,
-        is_on_earth: outline.coordinates.on_earth(None).is_some(),
+        is_on_earth: file.coordinates.on_earth(None).is_some(),
         unit,
         preview,
+        sea: drawn_sea(path, file),
         is_opened: true,
     }
 }
@@ -80,6 +82,21 @@ struct Seen {
     is_on_earth: bool,
     unit: LengthUnit,
     preview: Preview,
+    sea: Result<Preview, String>,
+}
+
+/// Why nothing but shapes leaves a sea.
+fn no_sea() -> Result<Preview, String> {
+    Err("The file has neither polygons of land nor lines of coast.".into())
+}
+
+/// Draws the water beside shapes that are land or coasts.
+fn drawn_sea(path: &Path, file: &ShapeFile) -> Result<Preview, String> {
+    let sea = recipe::sea_of_land(path, file, None, None, None).map_err(|error| error.to_string())?;
+    let polygons: Vec<_> = sea.source.outline.polygons.into_iter().map(|named| named.polygon).collect();
+    let corners = polygons.iter().flatten().flatten().map(|&at| Rect::new(at, at));
+    let extent = corners.reduce(|a, b| a.union(&b)).unwrap_or(Rect::UNIT);
+    Ok(Preview::of_shapes(&ShapeList { polygons, ..ShapeList::default() }, extent))
 }
 
 fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, String> {
@@ -101,7 +118,7 @@ fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, Strin
         (None, Some(stated @ (FileCoordinates::Known(_) | FileCoordinates::Foreign(_)))) => stated.unit(),
         (None, _) => LengthUnit::None,
     };
-    Ok(Seen { contents, extent, is_on_earth: false, unit, preview })
+    Ok(Seen { contents, extent, is_on_earth: false, unit, preview, sea: no_sea() })
 }
 
 fn facts(raster: &Raster) -> RasterFacts {
@@ -120,7 +137,8 @@ fn shapes(path: &Path, plane: Option<&DocumentPlane>, meter: &Meter) -> Result<S
     let contents =
         DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
     let is_on_earth = file.coordinates.on_earth(None).is_some();
-    Ok(Seen { is_on_earth, ..drawn(contents, &file.shapes, file.coordinates.unit()) })
+    let sea = drawn_sea(path, &file);
+    Ok(Seen { is_on_earth, sea, ..drawn(contents, &file.shapes, file.coordinates.unit()) })
 }
 
 /// A table of threats, or else of points.
@@ -155,7 +173,7 @@ fn drawn(contents: DataContents, shapes: &ShapeList, unit: LengthUnit) -> Seen {
     let all = shapes.points.iter().chain(rings);
     let extent = all.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b));
     let preview = Preview::of_shapes(shapes, extent.unwrap_or(Rect::UNIT));
-    Seen { contents, extent, is_on_earth: false, unit, preview }
+    Seen { contents, extent, is_on_earth: false, unit, preview, sea: no_sea() }
 }
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use super::super::geojson::Outline;
 use super::super::settings::RegionCoordinates;
 use super::super::shapes::ShapeFile;
 use super::LoadError;
-use meshbrush_core::domain::{FileFrame, Land, NamedPolygon, RegionError, Sea, WaterSide};
+use meshbrush_core::domain::{FileFrame, Land, NamedPolygon, Sea, WaterSide};
+use meshbrush_core::earth::Coordinates;
 use meshbrush_core::layers::ShapeList;
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -49,8 +50,17 @@ pub fn part_in_bounds(
     Ok(OutlineSource { outline: Outline { polygons, ..outline }, frame: Some(frame) })
 }
 
-/// Returns the water in `bounds` beside the land of a file, or in a rectangle around the land, and sentences
-/// for a person about it.
+/// The water beside the land of a file.
+pub struct SeaSource {
+    /// Its polygons, and the rectangle that they were cut from.
+    pub source: OutlineSource,
+    /// How the sides of lines were told apart; `None` without lines that need it.
+    pub decided: Option<WaterSide>,
+}
+
+/// Returns the water in `bounds` beside the land of a file, or in a rectangle around the land. `sea_at` is a
+/// place in the water, in the coordinates of the file, which are `assumed` where it does not name a known
+/// system.
 ///
 /// # Errors
 /// Fails when the file has neither polygons nor lines, and when they do not part water from land.
@@ -58,43 +68,47 @@ pub fn sea_of_land(
     file: &Path,
     read: &ShapeFile,
     bounds: Option<Rect>,
-    region: &RegionCoordinates,
-) -> Result<(OutlineSource, Vec<String>), LoadError> {
+    sea_at: Option<DVec2>,
+    assumed: Option<Coordinates>,
+) -> Result<SeaSource, LoadError> {
     let ShapeList { points: _, lines, polygons } = &read.shapes;
-    let land = Land { polygons, lines, sea_at: region.sea_at };
-    let unit = read.coordinates.assuming(region.assumed).unit();
+    let land = Land { polygons, lines, sea_at };
+    let unit = read.coordinates.assuming(assumed).unit();
     let frame = match bounds {
         Some(rect) => Some(frame_of(file, rect, unit)?),
         None => land.frame_around(unit == LengthUnit::Degree),
     };
-    let none = || in_file(file, &RegionError::NoArea.to_string());
+    let none = || in_file(file, "the file has neither polygons of land nor lines of coast.");
     let frame = frame.ok_or_else(none)?;
     let Sea { polygons, decided } = frame.sea(&land).map_err(|error| in_file(file, &error.to_string()))?;
     let unnamed = |polygon| NamedPolygon { polygon, name: String::new() };
     let polygons = polygons.into_iter().map(unnamed).collect();
     let outline = Outline { polygons, coordinates: read.coordinates };
-    let mut notes: Vec<String> = side_note(decided).into_iter().collect();
-    if bounds.is_none() {
-        let place = places(&frame.rect);
-        notes.push(format!(
-            "The domain is the water in a frame around the land, {place}. Other bounds are given with --bounds, or the key \
-             `bounds`."
-        ));
-    }
-    let notes = notes.into_iter().map(|note| format!("{}: {note}", file.display())).collect();
-    Ok((OutlineSource { outline, frame: Some(frame) }, notes))
+    Ok(SeaSource { source: OutlineSource { outline, frame: Some(frame) }, decided })
+}
+
+/// Returns sentences for a person about a sea: how its side was found, and its frame unless bounds were
+/// given.
+pub(super) fn sea_notes(file: &Path, sea: &SeaSource, has_bounds: bool) -> Vec<String> {
+    let frame = sea.source.frame.filter(|_| !has_bounds);
+    let frame = frame.map(|frame| {
+        format!(
+            "the domain is the water in a frame around the land, {}. Other bounds are given with --bounds, or the key \
+             `bounds`.",
+            places(&frame.rect)
+        )
+    });
+    let notes = side_note(sea.decided).into_iter().chain(frame);
+    notes.map(|note| format!("{}: {note}", file.display())).collect()
 }
 
 /// Returns the note on how the sides of lines were told apart.
 fn side_note(decided: Option<WaterSide>) -> Option<String> {
-    let how = match decided? {
-        WaterSide::OfPlace => return None,
-        WaterSide::AroundIslands => {
-            "the water is on the side of the lines where closed lines lie, as islands"
-        }
-        WaterSide::RightOfLines => "land is taken to be to the left of the lines, as in OpenStreetMap",
-    };
-    Some(format!("{how}. If that is the wrong side, name a place in the sea with --sea, or the key `sea`."))
+    let side = decided.filter(|&side| side != WaterSide::OfPlace)?;
+    Some(format!(
+        "{}. If that is the wrong side, name a place in the sea with --sea, or the key `sea`.",
+        side.text()
+    ))
 }
 
 /// Returns the frame of bounds in the coordinates of a file.

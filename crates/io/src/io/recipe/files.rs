@@ -14,7 +14,7 @@ use super::super::{
     DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
 };
 use super::LoadedLayer;
-use super::file_frame::{OutlineSource, part_in_bounds, sea_of_land};
+use super::file_frame::{OutlineSource, part_in_bounds, sea_notes, sea_of_land};
 use super::grid_region::contour_of_grid;
 use super::notes::{
     cut_at_antimeridian, far_places, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
@@ -260,9 +260,11 @@ impl Files<'_> {
     ) -> Result<OutlineSource, LoadError> {
         if coordinates.is_land {
             let shapes = self.loading.shapes(file, bounds)?;
-            let (source, notes) = sea_of_land(file, &shapes, bounds, coordinates)?;
+            let RegionCoordinates { sea_at, assumed, .. } = *coordinates;
+            let sea = sea_of_land(file, &shapes, bounds, sea_at, assumed)?;
+            let notes = sea_notes(file, &sea, bounds.is_some());
             notes.into_iter().for_each(|note| LayerData::note(self, note));
-            return Ok(source);
+            return Ok(sea.source);
         }
         let outline = match RasterFormat::of(file) {
             Ok(format) => {

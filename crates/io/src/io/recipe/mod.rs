@@ -25,6 +25,7 @@ use super::settings::SavedSettings;
 use super::{Flaw, KeyFault, ReadError};
 use crate::io::disk::{self, File};
 pub use export::RecipeFiles;
+pub use file_frame::{OutlineSource, SeaSource, sea_of_land};
 pub use files::{LoadError, Loaded, Loading};
 pub use open::{OpenedRecipe, open};
 use text::RecipeText;
