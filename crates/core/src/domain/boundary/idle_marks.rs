@@ -15,7 +15,8 @@ impl BoundaryPieces {
         Some(format!(
             "There is no open boundary: no rectangle seems to have cut the outline off, and no piece is of the type open. \
              The longest piece is “{}”. If the sea goes on somewhere, say where: --open, `open` in the table [domain] of a \
-             recipe or in Python, or the types of the boundary's pieces.",
+             recipe or in Python, or the types of the boundary's pieces. If the polygons are land, --land (`land` in a recipe, \
+             “Sea around this land” in the window, Domain.sea in Python) meshes the sea around them.",
             longest.name
         ))
     }
