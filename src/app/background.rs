@@ -26,7 +26,7 @@ pub enum Outcome {
         /// The document.
         opened: Opened,
         /// The command that says something about it.
-        note: Option<Command>,
+        note: Option<Box<Command>>,
     },
     /// A file was read that becomes a part of the document.
     Read {

@@ -252,7 +252,7 @@ impl App {
         match outcome {
             Outcome::Opened { path, opened, note } => {
                 let show = Command::File(FileCommand::Show(opened));
-                self.finish_reading(path, [show].into_iter().chain(note).collect());
+                self.finish_reading(path, [show].into_iter().chain(note.map(|note| *note)).collect());
             }
             Outcome::Read { path, commands } => self.finish_reading(path, commands),
             Outcome::PartRead(commands) => {

@@ -64,10 +64,13 @@ fn type_path(window: &mut Window, file: &Path) {
     type_into(window, "Path", &file.display().to_string());
 }
 
+/// Does what a person does to open a file.
+type Opening = Box<dyn Fn(&mut Window)>;
+
 #[test]
 fn every_way_to_open_a_coast_in_degrees_asks_and_proposes_metres() {
     let file = written("ways", "coast.geojson", COAST);
-    let mut ways: Vec<(&str, &str, Box<dyn Fn(&mut Window)>)> = Vec::new();
+    let mut ways: Vec<(&str, &str, Opening)> = Vec::new();
     let path = file.clone();
     ways.push((
         "New…, Coast…",
