@@ -185,7 +185,9 @@ fn fact_rows(ui: &mut Ui, file: &DataFile) {
         None => ["the domain's", "the domain's"].map(String::from),
     };
     for (name, extent) in ["x", "y"].iter().zip(&extents) {
-        ValueRow::new(name, extent).help("The extent of the file, in its own coordinates.").show(ui);
+        ValueRow::new(name, extent)
+            .help("The extent of the file, in its own coordinates, or in the plane of the document.")
+            .show(ui);
     }
     let Some(RasterFacts { values, missing, size: [columns, rows] }) = file.raster() else { return };
     let values =

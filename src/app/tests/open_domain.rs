@@ -27,9 +27,6 @@ const UTM: &str = r#"{"type": "Polygon", "crs": {"type": "name", "properties": {
 const PLAIN: &str =
     r#"{"type": "Polygon", "coordinates": [[[0, 0], [900, 0], [900, 700], [0, 700], [0, 0]]]}"#;
 
-/// A way to open a file: its name, the button that answers the question, and what a person does.
-type Way = (&'static str, &'static str, Box<dyn Fn(&mut Window)>);
-
 fn written(test: &str, name: &str, text: &str) -> PathBuf {
     let file = folder("open-domain", test).join(name);
     std::fs::write(&file, text).unwrap();
@@ -68,10 +65,13 @@ fn type_path(window: &mut Window, file: &Path) {
     type_into(window, "Path", &file.display().to_string());
 }
 
+/// Does what a person does to open a file.
+type Opening = Box<dyn Fn(&mut Window)>;
+
 #[test]
 fn every_way_to_open_a_coast_in_degrees_asks_and_proposes_metres() {
     let file = written("ways", "coast.geojson", COAST);
-    let mut ways: Vec<Way> = Vec::new();
+    let mut ways: Vec<(&str, &str, Opening)> = Vec::new();
     let path = file.clone();
     ways.push((
         "New…, Coast…",

@@ -146,6 +146,11 @@ impl Settings {
         let outside = OutlineError::Outside { outline: raster.bounds(), document: before.bounds };
         let bounds = bounds.ok_or(outside)?;
         let domain = Domain::of_stored_polygons(polygons, bounds, &self.outline_on_earth())?;
+        // Beyond the sides of a grid that was projected there are no values, and the sea goes on.
+        let domain = match before.open_frame() {
+            Some(frame) => domain.within(frame),
+            None => domain,
+        };
         let changed = Self { domain: domain.clone(), ..self.clone() };
         changed.lattice().map_err(OutlineError::TooLarge)?;
         Ok(Setting::Outline { domain, boundary_marks: self.boundary_marks.clone() })

@@ -222,6 +222,22 @@ impl Domain {
         Self { shape, ..self }
     }
 
+    /// Returns the region, if the domain is given by polygons all of whose sides are open: a frame around
+    /// data, such as a box of degrees in a plane.
+    pub(crate) fn open_frame(&self) -> Option<&Arc<Region>> {
+        self.region().filter(|region| region.sides().iter().flatten().all(Option::is_some))
+    }
+
+    /// Returns the part of a domain that lies in a frame, whose sides are open there; the domain itself
+    /// where nothing does, and where no polygons give it.
+    pub(crate) fn within(self, frame: &Region) -> Self {
+        let within = self.region().map(|region| region.within(frame));
+        match within.filter(|region| !region.is_empty()) {
+            Some(region) => Self { shape: DomainShape::Region(Arc::new(region)), ..self },
+            None => self,
+        }
+    }
+
     /// Returns the region, if the domain is given by polygons.
     pub fn region(&self) -> Option<&Arc<Region>> {
         match &self.shape {

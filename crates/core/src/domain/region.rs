@@ -232,6 +232,13 @@ impl Region {
         self.combined(rings, OverlayOperation::FIRST_ONLY)
     }
 
+    /// Returns the part within another region, whose open sides stay open.
+    pub(super) fn within(&self, other: &Self) -> Self {
+        let grid = Grid::over(&self.frame);
+        let both = overlay(&grid.contours_of(self), &grid.contours_of(other), OverlayOperation::BOTH);
+        grid.region(both).cut_by(other.cuts.clone())
+    }
+
     fn combined(&self, rings: &[Ring], rule: OverlayOperation) -> Self {
         let grid = Grid::over(&self.frame);
         let frame = [grid.contour(&corners(&self.frame))];

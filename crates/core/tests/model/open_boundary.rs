@@ -235,6 +235,10 @@ fn parts_are_opened_where_they_lie() {
     assert_eq!(island.boundary_type(), BoundaryType::Land);
     let split = opened.list().iter().flat_map(|piece| [piece.points[0], *piece.points.last().unwrap()]);
     assert!(split.into_iter().any(|p| (p.y - 0.4).abs() < 1e-9), "where it begins");
+    let sides = |pieces: &BoundaryPieces| {
+        pieces.list().iter().filter(|piece| piece.kind == BoundaryKind::Open).count()
+    };
+    assert_eq!(sides(&opened), sides(&pieces), "open sides stay whole");
     assert!(pieces.opened(&none, |p| p.y > 2.0).is_none());
     assert!(opened.idle_marks(&marks).is_empty(), "{:?}", opened.idle_marks(&marks));
     // A ring that is closed, at two places.

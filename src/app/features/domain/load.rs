@@ -10,7 +10,7 @@ use crate::app::kit::seen_shapes;
 use crate::app::session::Session;
 use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
-use meshbrush_core::domain::{BoundaryMarks, DepthContour, OutlineOnEarth};
+use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
 use meshbrush_core::layers::{LayerId, LayerKind};
 use meshbrush_core::raster::Raster;
@@ -196,7 +196,8 @@ pub fn load_contour(session: &Session, background: &mut Background, layer: Layer
             1 => " One pixel without a value in it counts as land.".to_owned(),
             count => format!(" {} pixels without a value in it count as land.", format::count(count)),
         };
-        Ok((setting, format!("is the contour of {}.{land}", depths.source().name)))
+        let closed = if is_closed_by(settings, &setting) { NOTHING_OPEN } else { "" };
+        Ok((setting, format!("is the contour of {}.{land}{closed}", depths.source().name)))
     };
     find_outline(background, settings, name, find);
 }
@@ -211,6 +212,20 @@ pub fn load_area_of_values(session: &Session, background: &mut Background, layer
         Ok((setting, format!("is the area in which {} has values.", source.name)))
     };
     find_outline(background, settings, layer.name, find);
+}
+
+/// What is said where a domain has no open side any more.
+const NOTHING_OPEN: &str =
+    " Nothing of its boundary is open: the section Boundary of the tab Domain opens parts of it.";
+
+/// Returns whether something of the boundary is open before a change, and nothing after it.
+fn is_closed_by(settings: &Settings, change: &Setting) -> bool {
+    let Setting::Outline { domain, boundary_marks } = change else { return false };
+    let has_open = |domain, marks| {
+        let pieces = BoundaryPieces::of_domain(domain, marks);
+        pieces.is_none_or(|pieces| pieces.list().iter().any(|piece| piece.boundary_type().is_open()))
+    };
+    has_open(&settings.domain, &settings.boundary_marks) && !has_open(domain, boundary_marks)
 }
 
 /// Returns how many pixels with their centres in an area have no value.

@@ -13,8 +13,8 @@ const HALVINGS: u32 = 40;
 
 impl BoundaryPieces {
     /// Returns the marks with which the parts of the boundary are open where `is_open` holds, but for
-    /// islands; `None` where it holds nowhere. Parts shorter than a two-thousandth of the extent of the
-    /// boundary can be missed.
+    /// islands; `None` where it holds nowhere. Pieces that are open already stay whole. Parts shorter than a
+    /// two-thousandth of the extent of the boundary can be missed.
     pub fn opened(&self, marks: &BoundaryMarks, is_open: impl Fn(DVec2) -> bool) -> Option<BoundaryMarks> {
         let points = self.list().iter().flat_map(|piece| &piece.points);
         let extent = points.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b))?;
@@ -27,9 +27,12 @@ impl BoundaryPieces {
             }
             let parts = parts(piece, step, &is_open);
             is_met |= parts.iter().any(|part| part.is_open);
+            if piece.boundary_type().is_open() {
+                // It stays in one piece.
+                continue;
+            }
             if parts.iter().all(|part| part.is_open == parts[0].is_open) {
-                let is_new = parts[0].is_open && !piece.boundary_type().is_open();
-                if is_new {
+                if parts[0].is_open {
                     opened = self.retyped(&opened, number, Some(BoundaryType::Open));
                 }
                 continue;

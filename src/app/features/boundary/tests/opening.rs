@@ -155,3 +155,19 @@ fn a_domain_by_a_formula_says_how_its_boundary_is_opened() {
     choose_in_palette(&mut window, "Open the boundary along the frame");
     assert!(wait_for_notice(&mut window).contains("“Type” in the tab Domain"), "{}", notice(&window));
 }
+
+#[test]
+fn sides_that_are_open_already_are_not_split() {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| dvec2(x, y)).to_vec();
+    let mut settings = Settings::for_domain("sea".into(), Domain::of_polygons(&[vec![corners]]).unwrap());
+    let kind = depths();
+    settings.layers.push(Layer::new(LayerId(100), kind.name(), kind));
+    let mut window = window_of(SIZE);
+    send(&mut window, show(settings));
+    key(&mut window, Modifiers::NONE, Key::N);
+    let before = open(&window);
+    assert_eq!(before.len(), 4, "all sides of a square are open");
+    choose_in_palette(&mut window, "Open the boundary deeper than 50 m");
+    wait_for_news(&mut window, "is open already");
+    assert_eq!((open(&window), entries(&window)), (before, 0));
+}

@@ -98,7 +98,7 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     let domain = |window: &Window| settings(window).domain.clone();
     let before = domain(&window);
     click_button(&mut window, "Use the contour as the domain");
-    wait_until(&mut window, |window| domain(window) != before);
+    step_until(&mut window, |window| domain(window) != before);
     let found = domain(&window);
     let rings: Vec<_> = found.region().unwrap().rings().collect();
     assert_eq!((rings.len(), found.bounds), (2, Rect::new(DVec2::ZERO, DVec2::ONE)));

@@ -8,10 +8,11 @@ use glam::dvec2;
 
 use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
-    TALL, Window, active, folder, notice, send, settings, step_until, triangles, wait_for_notice, wait_until,
-    window_of,
+    TALL, Window, active, click_button, folder, notice, send, settings, step_until, triangles,
+    wait_for_notice, wait_until, window_of,
 };
 use meshbrush_core::document::Setting;
+use meshbrush_core::domain::BoundaryPieces;
 use meshbrush_core::layers::{DepthRule, LayerKind};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
@@ -143,4 +144,43 @@ fn the_way_to_metres_that_an_error_names_is_in_the_window() {
     let titles: Vec<&str> = titles.collect();
     assert!(titles.contains(&"Domain in metres") && titles.contains(&"Depth of water"), "{titles:?}");
     assert!(window.query_by_label_contains("need a document in metres").is_none());
+}
+
+/// Returns the pieces of the boundary once the contour of the selected layer is the domain.
+fn pieces_of_contour(window: &mut Window) -> BoundaryPieces {
+    let before = settings(window).domain.clone();
+    click_button(window, "Use the contour as the domain");
+    step_until(window, |window| settings(window).domain != before);
+    assert!(!notice(window).contains("Nothing of its boundary"), "{}", notice(window));
+    let settings = settings(window);
+    BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks).unwrap()
+}
+
+#[test]
+fn the_sea_of_a_grid_in_degrees_stays_open_in_metres() {
+    for (test, place) in
+        [("contour", [-6.0, 48.0]), ("contour-north", [10.0, 74.0]), ("contour-south", [60.0, -70.0])]
+    {
+        let (mut window, _) = begun_with(LayerCommand::OpenDepth(grid(test, place, 2.0, Some(LONLAT))));
+        let pieces = pieces_of_contour(&mut window);
+        let names: Vec<&str> = pieces.list().iter().map(|piece| piece.name.as_str()).collect();
+        assert_eq!(names, ["open south", "open east", "open north", "mainland"], "{test}");
+        // The shore is between the first columns.
+        let plane = settings(&window).domain.projection.unwrap();
+        let shore = plane.geographic_from_plane(pieces.list()[3].middle());
+        assert!((shore.x - place[0] - 0.1).abs() < 0.06, "{test}: {shore}");
+    }
+}
+
+#[test]
+fn a_contour_without_an_open_side_is_told() {
+    let file = grid("lake", [0.0, 0.0], 1.0, None);
+    let rows = ["9 9 9 9 9", "9 9 -5 9 9", "9 -5 -5 -5 9", "9 9 -5 9 9", "9 9 9 9 9"];
+    let header = "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 0.2\n";
+    fs::write(&file, header.to_owned() + &rows.join("\n")).unwrap();
+    let mut window = window_of(TALL);
+    send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
+    wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
+    click_button(&mut window, "Use the contour as the domain");
+    step_until(&mut window, |window| notice(window).contains("Nothing of its boundary is open"));
 }
