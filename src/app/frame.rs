@@ -270,7 +270,11 @@ impl App {
     fn draw_dialogs(&mut self, ctx: &Context, commands: &mut Vec<Command>) {
         if self.dialogs.asks_for_file() {
             let reads: Vec<_> = self.background.rows(true).into_iter().filter(|row| row.reads).collect();
-            let facts = FileFacts { triangles: self.session.triangle_count(), reads: &reads };
+            let facts = FileFacts {
+                triangles: self.session.triangle_count(),
+                settings: self.session.document().settings(),
+                reads: &reads,
+            };
             self.dialogs.show_file(ctx, &facts, commands);
         }
         let state = self.state(None);

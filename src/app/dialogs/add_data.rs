@@ -48,7 +48,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
         file: file.clone(),
         texture: texture(ctx, &file.preview),
         sea_texture: file.sea.as_ref().ok().map(|sea| texture(ctx, sea)),
-        chosen: roles.iter().find(|(_, refusal)| refusal.is_none()).map(|(role, _)| role.title),
+        chosen: proposed(&roles),
     });
     let shown = dialog(ctx, "add data", |ui| question.contents(ui, state, &roles));
     let chosen = roles.iter().find(|(role, _)| Some(role.title) == question.chosen).map(|(role, _)| *role);
@@ -74,6 +74,13 @@ fn roles(state: &FrameState<'_>, file: &DataFile) -> Vec<(&'static DataRole, Opt
     let mut roles: Vec<_> = all.filter(|role| (role.is_for)(&file.contents)).filter(is_offered).collect();
     roles.sort_by_key(|role| role.place);
     roles.into_iter().map(|role| (role, (role.refusal)(file, state))).collect()
+}
+
+/// Returns the title of the role that is proposed: the first possible one. Most shapes are no land.
+fn proposed(roles: &[(&'static DataRole, Option<String>)]) -> Option<&'static str> {
+    let possible = || roles.iter().filter(|(_, refusal)| refusal.is_none()).map(|(role, _)| *role);
+    let proposed = possible().find(|role| !role.kind.is_of_sea).or_else(|| possible().next());
+    proposed.map(|role| role.title)
 }
 
 fn texture(ctx: &Context, preview: &Preview) -> TextureHandle {

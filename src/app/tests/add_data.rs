@@ -247,7 +247,7 @@ fn a_line_can_only_be_measured_to_and_the_reason_is_told() {
     let mut window = window();
     drop_and_wait(&mut window, &file);
     let (possible, chosen) = roles(&window);
-    assert_eq!(possible, ["Shapes to measure the distance to"]);
+    assert_eq!(possible, ["Sea around this land", "Shapes to measure the distance to"]);
     assert_eq!(chosen.as_deref(), Some("Shapes to measure the distance to"));
     assert!(window.query_all_by_label_contains("has no polygons").count() > 0);
     key(&mut window, Modifiers::NONE, Key::Enter);

@@ -264,6 +264,26 @@ fn a_project_is_saved_under_the_name_of_the_document() {
 }
 
 #[test]
+fn an_export_says_what_its_coordinates_are() {
+    let mut window = window();
+    let says = |window: &mut Window, text: &str| {
+        key(window, Modifiers::COMMAND, Key::E);
+        let is_said = window.query_by_label_contains(text).is_some();
+        key(window, Modifiers::NONE, Key::Escape);
+        is_said
+    };
+    assert!(!says(&mut window, "Coordinates are"), "the document has no unit");
+    for (example, sentence) in [
+        (Example::Aegean, "Coordinates are in degrees."),
+        (Example::CelticSea, "Coordinates are longitudes and latitudes in degrees."),
+        (Example::Terrain, "Coordinates are in kilometres."),
+    ] {
+        send(&mut window, Command::File(FileCommand::OpenExample(example)));
+        assert!(says(&mut window, sentence), "{}", example.name());
+    }
+}
+
+#[test]
 fn a_new_project_is_saved_beside_the_file_that_it_was_made_from() {
     let folder = folder("beside");
     let mut window = window();

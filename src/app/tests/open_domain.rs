@@ -238,11 +238,10 @@ fn a_line_of_coast_is_asked_about_and_has_no_domain_of_its_own() {
     let mut window = window();
     send(&mut window, Command::Domain(DomainCommand::Choose(file)));
     wait_until(&mut window, is_asked);
-    let nodes = window.query_all_by_role(Role::RadioButton);
-    let possible = nodes.filter(|node| !node.accesskit_node().data().is_disabled());
-    let possible: Vec<String> =
-        possible.filter_map(|node| node.accesskit_node().data().label().map(str::to_owned)).collect();
-    assert_eq!(possible, ["Sea around this land"]);
+    let radio =
+        |title| window.get_by_role_and_label(Role::RadioButton, title).accesskit_node().data().clone();
+    assert!(radio("Domain in metres").is_disabled() && radio("Domain of a new document").is_disabled());
+    assert_eq!(radio("Sea around this land").toggled(), Some(Toggled::True));
     click_button(&mut window, "Open");
     wait_until(&mut window, |window| settings(window).name == "line");
     let domain = settings(&window).domain.clone();

@@ -16,7 +16,10 @@ use crate::app::widgets::{
     ActionButton, ButtonKind, FileRow, Icon, TextError, TextRow, ToolButton, bytes_row, dialog, dialog_title,
     dropdown_row, format,
 };
+use meshbrush_core::document::Settings;
 use meshbrush_io::io::FolderEntry;
+use meshbrush_io::io::ThirdCoordinate;
+use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::{ExportFormat, Look};
 
 const WIDTH: f32 = 600.0;
@@ -27,6 +30,8 @@ const LIST: f32 = 264.0;
 pub struct FileFacts<'a> {
     /// Triangles that an export writes.
     pub triangles: usize,
+    /// The settings of the document.
+    pub settings: &'a Settings,
     /// Files that are being read.
     pub reads: &'a [Row],
 }
@@ -86,7 +91,7 @@ impl FileDialog {
             ui.add_space(8.0);
             let entered = self.text_row(ui, &rows);
             if self.request == &EXPORT_MESH {
-                self.format_rows(ui, facts.triangles);
+                self.format_rows(ui, facts);
             }
             clicked.or(entered)
         });
@@ -248,7 +253,7 @@ impl FileDialog {
     }
 
     /// The format of an export, and what will be written.
-    fn format_rows(&mut self, ui: &mut Ui, triangles: usize) {
+    fn format_rows(&mut self, ui: &mut Ui, facts: &FileFacts<'_>) {
         let names: Vec<(ExportFormat, String)> = ExportFormat::all()
             .map(|format| (format, format!(".{}   {}", format.ending(), format.purpose())))
             .collect();
@@ -257,7 +262,8 @@ impl FileDialog {
         if dropdown_row(ui, "Format", &mut self.format, &choices).changed() {
             self.follow_format();
         }
-        let written = written(self.format, triangles, &self.path());
+        let written = written(self.format, facts.triangles, &self.path());
+        let written = format!("{written}{}", coordinates_in(self.format, facts.settings));
         ui.horizontal(|ui| {
             ui.add_space(metrics::LABEL_WIDTH);
             ui.label(RichText::new(written).font(font::caption()).color(tokens(ui).label));
@@ -297,6 +303,22 @@ fn written(format: ExportFormat, triangles: usize, path: &Path) -> String {
     match format.approximate_bytes(triangles).map(about) {
         Some(bytes) => format!("{count} triangles, about {}{files}.", format::file_size(bytes)),
         None => format!("{count} triangles as a picture, {} pixels wide.", format::count(Look::WIDTH.into())),
+    }
+}
+
+/// Says what the coordinates in an export of a document are, in a sentence after a space; nothing where they
+/// have no unit, and about a picture.
+fn coordinates_in(format: ExportFormat, settings: &Settings) -> &'static str {
+    let is_model =
+        format.third_coordinate() == ThirdCoordinate::Model && settings.surfaces().next().is_some();
+    match (settings.domain.projection.is_some(), settings.unit) {
+        _ if matches!(format, ExportFormat::Svg | ExportFormat::Png) => "",
+        (true, _) if !is_model => " Coordinates are longitudes and latitudes in degrees.",
+        (true, _) => " Coordinates are metres in the plane of the document.",
+        (false, LengthUnit::Degree) => " Coordinates are in degrees.",
+        (false, LengthUnit::Metre) => " Coordinates are in metres.",
+        (false, LengthUnit::Kilometre) => " Coordinates are in kilometres.",
+        (false, LengthUnit::None) => "",
     }
 }
 

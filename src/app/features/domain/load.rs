@@ -12,7 +12,7 @@ use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
-use meshbrush_core::layers::{LayerId, LayerKind};
+use meshbrush_core::layers::{LayerId, LayerKind, Mask};
 use meshbrush_core::raster::Raster;
 use meshbrush_io::io::geojson::Outline;
 use meshbrush_io::io::recipe::{self, OutlineSource};
@@ -190,7 +190,7 @@ pub fn load_contour(session: &Session, background: &mut Background, layer: Layer
     let (LayerKind::Depth(depths), name) = (layer.kind, layer.name) else { return };
     let find = move |settings: &Settings| {
         let setting = settings.with_contour(&depths, &contour)?;
-        let unknown = unknown_in(depths.source().raster.raster(), settings.domain.bounds);
+        let unknown = unknown_in(depths.source().raster.raster(), settings);
         let land = match unknown {
             0 => String::new(),
             1 => " One pixel without a value in it counts as land.".to_owned(),
@@ -228,10 +228,18 @@ fn is_closed_by(settings: &Settings, change: &Setting) -> bool {
     has_open(&settings.domain, &settings.boundary_marks) && !has_open(domain, boundary_marks)
 }
 
-/// Returns how many pixels with their centres in an area have no value.
-fn unknown_in(raster: &Raster, area: Rect) -> u64 {
+/// Returns how many pixels with their centres in the bounds of a document have no value: those in its frame,
+/// where it has one that is open all around.
+fn unknown_in(raster: &Raster, settings: &Settings) -> u64 {
     let ([columns, rows], centers) = (raster.size(), raster.pixel_centers());
-    let is_unknown = |x: u32, y: u32| raster.get(x, y).is_nan() && area.contains(centers(x, y));
+    let pieces = BoundaryPieces::of_domain(&settings.domain, &BoundaryMarks::default());
+    let is_frame =
+        pieces.is_some_and(|pieces| pieces.list().iter().all(|piece| piece.boundary_type().is_open()));
+    let frame =
+        settings.domain.region().filter(|_| is_frame).and_then(|region| Mask::new(region.polygons()).ok());
+    let bounds = settings.domain.bounds;
+    let is_in = |at| bounds.contains(at) && frame.as_ref().is_none_or(|frame| frame.contains(at));
+    let is_unknown = |x: u32, y: u32| raster.get(x, y).is_nan() && is_in(centers(x, y));
     (0..rows).map(|y| (0..columns).filter(|&x| is_unknown(x, y)).count() as u64).sum()
 }
 

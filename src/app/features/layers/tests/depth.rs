@@ -85,6 +85,12 @@ fn sizes_need_a_document_in_metres() {
     assert_eq!(remarks, 1);
 }
 
+/// Clicks the button that makes the contour the domain, for one frame: while the mesh follows, news fades.
+pub fn begin_contour(window: &mut Window) {
+    window.get_by_role_and_label(Role::Button, "Use the contour as the domain").click();
+    window.step();
+}
+
 #[test]
 fn the_contour_of_a_layer_becomes_the_domain() {
     let file = folder("app-layer-contour", "contour").join("bay.asc");
@@ -97,7 +103,7 @@ fn the_contour_of_a_layer_becomes_the_domain() {
     wait_until(&mut window, |window| active(window).name == "bay.asc");
     let domain = |window: &Window| settings(window).domain.clone();
     let before = domain(&window);
-    click_button(&mut window, "Use the contour as the domain");
+    begin_contour(&mut window);
     step_until(&mut window, |window| domain(window) != before);
     let found = domain(&window);
     let rings: Vec<_> = found.region().unwrap().rings().collect();
@@ -123,7 +129,7 @@ fn pixels_without_a_value_that_become_land_are_told() {
     let mut window = window_of(TALL);
     send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| active(window).name == "bay.asc");
-    click_button(&mut window, "Use the contour as the domain");
+    begin_contour(&mut window);
     step_until(&mut window, |window| notice(window).contains("was replaced"));
     assert!(
         notice(&window).ends_with("2 pixels without a value in it count as land."),

@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
+use super::depth::begin_contour;
 use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
-    TALL, Window, active, click_button, folder, notice, send, settings, step_until, triangles,
-    wait_for_notice, wait_until, window_of,
+    TALL, Window, active, folder, notice, send, settings, step_until, triangles, wait_for_notice, wait_until,
+    window_of,
 };
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
@@ -46,7 +47,9 @@ fn rule(window: &Window) -> DepthRule {
 fn begun_with(command: LayerCommand) -> (Window, String) {
     let mut window = window_of(TALL);
     send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Layer(command));
+    // For one frame: while the mesh follows, news fades.
+    window.state_mut().send(Command::Layer(command));
+    window.step();
     step_until(&mut window, |window| !notice(window).is_empty());
     let said = notice(&window);
     wait_until(&mut window, |window| active(window).name == "depths.asc");
@@ -149,9 +152,9 @@ fn the_way_to_metres_that_an_error_names_is_in_the_window() {
 /// Returns the pieces of the boundary once the contour of the selected layer is the domain.
 fn pieces_of_contour(window: &mut Window) -> BoundaryPieces {
     let before = settings(window).domain.clone();
-    click_button(window, "Use the contour as the domain");
+    begin_contour(window);
     step_until(window, |window| settings(window).domain != before);
-    assert!(!notice(window).contains("Nothing of its boundary"), "{}", notice(window));
+    assert_eq!(notice(window), "The domain was replaced: it is the contour of depths.asc.");
     let settings = settings(window);
     BoundaryPieces::of_domain(&settings.domain, &settings.boundary_marks).unwrap()
 }
@@ -181,6 +184,6 @@ fn a_contour_without_an_open_side_is_told() {
     let mut window = window_of(TALL);
     send(&mut window, Command::Layer(LayerCommand::OpenDepth(file)));
     wait_until(&mut window, |window| matches!(active(window).kind, LayerKind::Depth(_)));
-    click_button(&mut window, "Use the contour as the domain");
+    begin_contour(&mut window);
     step_until(&mut window, |window| notice(window).contains("Nothing of its boundary is open"));
 }
