@@ -660,7 +660,7 @@ def test_the_sea_beside_land() -> None:
     for land in (polygon, [island], shapely.LineString(island)):
         document = mb.Document(mb.Domain.sea(land, bounds=frame), spacing=0.25)
         assert abs(area(document.mesh()) - 7) < 1e-9
-        assert document.settings["bounds"] == frame
+        assert document.options["bounds"] == frame
     coast = np.array([[-4.0, 46.0], [-4.0, 50.0]])
     for place in ((-5, 48), (-3, 48)):
         document = mb.Document(mb.Domain.sea(coast, bounds=frame, place=place), spacing=0.25)
@@ -676,7 +676,7 @@ def test_values_of_python_are_taken_or_refused_with_a_sentence() -> None:
     document = square()
     assert document.mesh().locate([]).triangle.size == 0
     document.set(max_triangles=1e6)
-    assert document.settings["max_triangles"] == 1_000_000
+    assert document.options["max_triangles"] == 1_000_000
     layer = document.layers.formula(0.05)
     with pytest.raises(AttributeError):
         layer.visibel = False  # type: ignore[attr-defined]

@@ -48,6 +48,7 @@ LAYERS = [
     f'kind = "raster"\nfile = "risk.asc"\nas = "risk"\nmask = {SQUARE}',
     'kind = "band"\nfile = "heights.asc"\nbetween = [100, 200]\ndiameter = 0.1',
     'kind = "band"\nfile = "heights.asc"\nbetween = [0, 100]\ndiameter = 50',
+    'kind = "band"\nfile = "depths.asc"\nbetween = [0, 5]\ndiameter = 0.1',
     'kind = "band"\nfile = "far.asc"\nbetween = [0, 1]\ndiameter = 0.1',
     'kind = "depth"\nfile = "heights.asc"\nsize = "wavelength"\nperiod = 1\ntriangles = 10',
     'kind = "depth"\nfile = "far.asc"\nsize = "wavelength"\nperiod = 1\ntriangles = 10',

@@ -3,7 +3,7 @@
 use super::engine::CompiledLayer;
 use super::engine::cells::Cells;
 use super::size_field::SizeField;
-use super::{DepthRule, Layer, LayerId, LayerKind, PaintLayers};
+use super::{DepthRule, Layer, LayerId, LayerKind, PaintLayers, Quantity};
 use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 
@@ -31,10 +31,14 @@ impl SizeField {
             self.spec().layers.iter().filter(is_asked).map(|layer| layer.id).collect();
         let layers =
             self.compiled().iter().filter(|layer| layer.is_plain() && candidates.contains(&layer.id));
-        // A layer may say the limit itself, and what no mesh can meet is an error.
-        let exceeds_limit = |layer: &CompiledLayer| layer.diameter_at(paint, place) > largest;
+        // A diameter may say the limit itself, and what no mesh can meet is an error.
+        let says_limit = |layer: &CompiledLayer| {
+            let diameter = layer.diameter_at(paint, place);
+            let is_diameter = self.spec().layers.iter().any(|one| one.id == layer.id && is_diameter(one));
+            diameter.is_nan() || diameter <= 0.0 || (is_diameter && diameter <= largest)
+        };
         let is_idle = |layer: &&CompiledLayer| {
-            exceeds_limit(layer)
+            !says_limit(layer)
                 && !coarse_triangles(&lattice).any(|corners| {
                     let (triangle, limit) =
                         (Octagon::triangle(corners), self.edge_lengths().limit(corners, level));
@@ -53,6 +57,11 @@ fn asks_for_diameters(layer: &Layer) -> bool {
         LayerKind::Depth(depths) => depths.sizes().rule != DepthRule::Nothing,
         _ => true,
     }
+}
+
+/// Returns whether a layer is a formula for the diameter itself.
+fn is_diameter(layer: &Layer) -> bool {
+    matches!(layer.kind, LayerKind::Formula { quantity: Quantity::Diameter, .. })
 }
 
 /// Returns triangles that cover the squares of the coarse grid.
