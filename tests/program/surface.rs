@@ -318,13 +318,23 @@ fn what_cannot_be_met_is_said() {
         ("--max-error 1", &["--surface"]),
         ("--surface x+ --max-error 1", &["--surface x+", "^"]),
         ("--surface none.asc --max-error 1", &["none.asc"]),
-        ("--domain 0,0,8,8 --spacing 1 --surface heights.asc --at-most 60", &["at most 60 triangles", "128"]),
     ] {
         let ran = folder.run(format!("mesh {options}"));
         let said = &ran.err;
         assert!(ran.status != 0, "{options}");
         assert!(parts.iter().all(|part| said.contains(part)), "{options}: {said}");
     }
+    // The mesh that the coarse grid needs is made all the same, as in Python and in the window.
+    let input = "--domain 0,0,8,8 --spacing 1 --surface heights.asc --json --at-most";
+    let [more, enough] = [60, 128].map(|most| folder.run(format!("mesh {input} {most}")));
+    assert_eq!(
+        (more.status, more.json()["triangles"].as_u64(), &more.json()["hash"]),
+        (0, Some(128), &enough.json()["hash"])
+    );
+    let says = |ran: &crate::folder::Ran| {
+        ["at most 60 triangles", "128 already"].iter().all(|part| ran.err.contains(part))
+    };
+    assert!(says(&more) && !enough.err.contains("cannot be made"), "{}", more.err);
     // One pixel has no slope, and a jump ends: the program says where.
     let one = folder.run("mesh --surface pixel.asc --max-error 1 --json");
     assert_eq!(one.json()["max_error"], 0.0);
