@@ -303,6 +303,24 @@ fn samples_without_a_value_are_counted_and_can_be_left_out() {
     }
 }
 
+/// What is known of a raster ends at its outermost centres: so does its domain, and in one that goes on to the
+/// sides of the pixels, the surface goes on as it is.
+#[test]
+fn the_border_of_a_raster_takes_no_more_triangles_than_its_inside() {
+    let folder = Folder::new("surface-border");
+    let surface =
+        |x: f64, y: f64| (7.0 * x / 203.0).sin() * (5.0 * y / 203.0).cos() + 0.3 * (x * y / 2000.0).sin();
+    folder.file("heights.asc", Grid::new([203, 167], surface).text());
+    let mesh =
+        |more: &str| folder.run(format!("mesh --surface heights.asc --max-error 0.3 --json {more}")).json();
+    let [free, to_sides] = [mesh(""), mesh("--domain 0,0,203,167 --spacing 8")];
+    let number = |summary: &serde_json::Value, key: &str| summary[key].as_f64().unwrap();
+    assert!((number(&free, "area") - 202.0 * 166.0).abs() < 1e-6, "{}", free["area"]);
+    let [inside, all] =
+        [&free, &to_sides].map(|summary| number(summary, "triangles") / number(summary, "area"));
+    assert!(all < 1.05 * inside, "{all} triangles by area with the border, {inside} without");
+}
+
 #[test]
 fn what_cannot_be_met_is_said() {
     let folder = Folder::new("surface-refused");
