@@ -91,7 +91,7 @@ fn mesh_in(folder: &Folder) -> (Vec<Point>, Vec<[usize; 3]>) {
         text.lines().skip(1).filter(|line| !line.starts_with('#')).map(numbers).collect()
     };
     let nodes = rows("node").iter().map(|row| [row[1], row[2]]).collect();
-    let corners = |row: &Vec<f64>| [1, 2, 3].map(|n| row[n] as usize);
+    let corners = |row: &Vec<f64>| [1, 2, 3].map(|n| row[n] as usize - 1);
     (nodes, rows("ele").iter().map(corners).collect())
 }
 
