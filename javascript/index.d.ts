@@ -23,7 +23,7 @@ export type Domain =
   | {
       /** The rectangle that the coarse grid covers; left out, that of the polygons. */
       bounds?: Bounds;
-      /** A formula in `x`, `y`, `r` and `theta`; the domain is where it is not 0. */
+      /** A formula in `x`, `y`, `r` and `theta`: the domain is made of the coarse triangles at whose three corners it is not 0. */
       inside?: string;
       /** The domain. The names of its coasts come from the property `name` of features. */
       polygons?: Shapes;

@@ -123,8 +123,8 @@ class Document:
         open: Any = None,
         contour: float | None = None,
         positive: str | None = None,
-        smallest_island: float | None = None,
-        smallest_inlet: float | None = None,
+        smallest_island: float | str | None = None,
+        smallest_inlet: Length | None = None,
         outside_nodata: bool | None = None,
         rule: str | None = None,
         max_triangles: int | None = None,
@@ -196,10 +196,12 @@ class Document:
             with self._lock:
                 if self._mesh is not None and self._mesh[0] == revision and not fresh:
                     return self._mesh[1]
-            mesh = Mesh(self._core.mesh(watch, fresh))
+            made = self._core.mesh(watch, fresh)
+            mesh = Mesh(made)
             with self._lock:
                 self._mesh = (revision, mesh)
-            return mesh
+        _warn(made.notes())
+        return mesh
 
     def update(self, *, progress: Progress = None, threads: int | None = None) -> _core.Change:
         """Brings the mesh up to date where it is, as the window does, and says what that changed."""

@@ -80,7 +80,11 @@ class Domain:
 
     @classmethod
     def formula(cls, inside: str, bounds: Sequence[float]) -> Domain:
-        """Returns where a formula in `x`, `y`, `r` and `theta` is not 0, in the rectangle x0, y0, x1, y1."""
+        """Returns where a formula in `x`, `y`, `r` and `theta` is not 0, in the rectangle x0, y0, x1, y1.
+
+        It is made of the coarse triangles at whose three corners the formula is not 0: `spacing` decides how near its
+        boundary is.
+        """
         return cls._of(bounds=[float(side) for side in bounds], inside=inside)
 
     def __repr__(self) -> str:

@@ -235,6 +235,11 @@ impl Mesh {
         Ok(all)
     }
 
+    /// Sentences about what the mesh does not keep.
+    fn notes(&self) -> Vec<String> {
+        self.0.finished.surface_note().into_iter().collect()
+    }
+
     #[getter]
     fn fingerprint(&self) -> String {
         self.0.finished.mesh().fingerprint().to_string()

@@ -63,6 +63,14 @@ def test_files_of_every_program_for_maps_are_read() -> None:
         mb.Document(mb.Domain(files / "two.gpkg"))
 
 
+def test_a_surface_that_asks_for_too_few_triangles_warns() -> None:
+    document = mb.Document(mb.Domain.rectangle(0, 0, 8, 8), spacing=1)
+    document.layers.surface(formula="x*y", at_most=60)
+    with pytest.warns(mb.MeshbrushWarning, match="at most 60 triangles.*128 already"):
+        mesh = document.mesh()
+    assert len(mesh.triangles) == 128
+
+
 def test_every_kind_of_layer_can_be_added(tmp_path: Path) -> None:
     document = mb.Document(bay(1000.0), h_min=20, h_max=300, unit="m")
     grid = np.linspace(-50, 0, 200).reshape(10, 20)

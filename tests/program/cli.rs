@@ -100,7 +100,7 @@ fn every_ending_is_written_and_the_files_agree() {
         folder.read("named.csv").lines().next().unwrap().ends_with("depth1,depth2,depth3,two1,two2,two3")
     );
     assert!(folder.read("m.ele").starts_with("9560 3 1\n"));
-    assert!(folder.read("m.NODE").starts_with("4821 2 2 1\n0 -10 -10 20 100 1\n"));
+    assert!(folder.read("m.NODE").starts_with("4821 2 2 1\n1 -10 -10 20 100 1\n"));
     assert!(folder.read("m.msh").contains("$Nodes\n1 4821 1 4821\n"));
     assert_eq!(folder.read("m.obj").lines().filter(|l| l.starts_with("f ")).count(), 9560);
     assert!(folder.read("m.svg").contains("<title>9560 triangles, 4821 nodes</title>"));
@@ -412,8 +412,8 @@ fn points_in_a_region_are_found_in_the_triangles_of_its_files() {
     for row in &found[..5] {
         let number = |column: usize| row[column].parse::<f64>().unwrap();
         let element = &elements[number(3) as usize];
-        assert_eq!(element[0], number(3));
-        let (corners, listed) = ([5, 6, 7].map(number), [1, 2, 3].map(|i| element[i]));
+        assert_eq!(element[0], number(3) + 1.0, "numbers of these files start at one");
+        let (corners, listed) = ([5, 6, 7].map(number), [1, 2, 3].map(|i| element[i] - 1.0));
         assert_eq!(
             (corners, number(4)),
             (listed, element[4]),

@@ -82,8 +82,7 @@ fn mesh_in(folder: &Folder, name: &str) -> (Vec<[f64; 2]>, Vec<[usize; 3]>) {
         text.lines().skip(1).filter(|line| !line.starts_with('#')).map(numbers).collect()
     };
     let nodes = rows("node").iter().map(|row| [row[1], row[2]]).collect();
-    let triangles =
-        rows("ele").iter().map(|row| [row[1] as usize, row[2] as usize, row[3] as usize]).collect();
+    let triangles = rows("ele").iter().map(|row| [1, 2, 3].map(|n| row[n] as usize - 1)).collect();
     (nodes, triangles)
 }
 

@@ -52,6 +52,71 @@ fn a_proof_narrows_the_interval() {
     assert!(ran.out.starts_with("cost ") && ran.out.contains("of the best"), "{}", ran.out);
 }
 
+/// Risks by pixel, the upper row first, and the heights at which a path begins at the left and ends at the right.
+struct Risks {
+    rows: Vec<Vec<f64>>,
+    ends: [f64; 2],
+}
+
+impl Risks {
+    fn random(seed: u64) -> Self {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let side = random.usize(5..7);
+        let risk = |random: &mut fastrand::Rng| [0.0, 0.0, 1.0, random.f64()][random.usize(..4)];
+        let rows = (0..side).map(|_| (0..side).map(|_| risk(&mut random)).collect()).collect();
+        let ends = [(); 2].map(|()| (0.1 + 0.8 * random.f64()) * side as f64);
+        Self { rows, ends }
+    }
+
+    /// A raster whose cheapest path runs along sides of pixels with the risk 1: its upper bound counts them.
+    fn along_sides() -> Self {
+        let rows = [
+            [0.0, 0.26, 0.76, 0.0, 0.0, 0.89, 0.0],
+            [1.0, 0.0, 0.0, 0.0, 0.0, 0.94, 0.69],
+            [0.0, 0.76, 1.0, 0.0, 1.0, 0.93, 0.0],
+            [1.0, 1.0, 0.9, 0.0, 0.3, 0.85, 0.0],
+            [0.48, 0.0, 1.0, 0.0, 0.78, 0.0, 1.0],
+            [0.7, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+            [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.94],
+        ];
+        Self { rows: rows.map(Vec::from).to_vec(), ends: [3.4156, 2.698] }
+    }
+
+    fn path(&self, folder: &Folder, more: &str) -> Value {
+        let side = self.rows.len();
+        let row = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+        let rows: Vec<String> = self.rows.iter().map(row).collect();
+        let header = format!("ncols {side}\nnrows {side}\nxllcorner 0\nyllcorner 0\ncellsize 1\n");
+        folder.file("risk.asc", header + &rows.join("\n"));
+        let ([from, to], right) = (self.ends, side as f64 - 0.3);
+        let options = format!(
+            "--domain 0,0,{side},{side} --spacing 1 --h-min 1 --risk-raster risk.asc --from 0.3,{from} --to {right},{to} \
+             --length-weight 0.2 --risk-weight 1 {more}"
+        );
+        folder.json("path", options)
+    }
+}
+
+/// Along sides of pixels the bounds of a path are far apart, so that the path with the least upper bound is
+/// not always the cheapest one.
+#[test]
+fn a_proof_never_makes_a_path_dearer() {
+    let folder = Folder::new("proof-rasters");
+    let number = |answer: &Value, name: &str| answer[name].as_f64().unwrap();
+    let compared = |risks: &Risks| {
+        let [without, within] = ["", "--within 10%"].map(|more| risks.path(&folder, more));
+        let [first, proved] = [&without, &within].map(|answer| number(answer, "cost"));
+        assert!(proved <= first, "{:?}: {proved} within, {first} without", risks.rows);
+        let [lower, upper] = ["lower", "upper"].map(|name| number(&within, name));
+        assert!(lower <= proved && proved <= upper && upper <= number(&without, "upper"), "{within}");
+        [without, within]
+    };
+    let [without, within] = compared(&Risks::along_sides());
+    assert_eq!(without["points"], within["points"]);
+    assert!(number(&within, "upper") < 0.6 * number(&without, "upper"), "{within}");
+    crate::runs::seeds(2).for_each(|seed| drop(compared(&Risks::random(seed))));
+}
+
 #[test]
 fn a_path_without_a_proof_is_written_all_the_same() {
     let folder = Folder::new("no-proof");

@@ -91,7 +91,7 @@ fn mesh_in(folder: &Folder) -> (Vec<Point>, Vec<[usize; 3]>) {
         text.lines().skip(1).filter(|line| !line.starts_with('#')).map(numbers).collect()
     };
     let nodes = rows("node").iter().map(|row| [row[1], row[2]]).collect();
-    let corners = |row: &Vec<f64>| [1, 2, 3].map(|n| row[n] as usize);
+    let corners = |row: &Vec<f64>| [1, 2, 3].map(|n| row[n] as usize - 1);
     (nodes, rows("ele").iter().map(corners).collect())
 }
 
@@ -202,6 +202,22 @@ fn straits_that_are_too_narrow_are_listed() {
         assert!(width(place) < 5.0 * 0.4 && from_channel < width(place), "{place}");
         assert!(place["triangles"].as_u64().unwrap() < 4);
     }
+    let narrowest = &coarse["straits"]["narrowest"];
+    assert!(
+        (width(narrowest) - 0.1).abs() < 1e-3 && narrowest["triangles"].as_u64().unwrap() < 4,
+        "{narrowest}"
+    );
+    let [x, y] = [0, 1].map(|n| narrowest["at"][n].as_f64().unwrap());
+    assert!((4.0..=6.0).contains(&x) && (y - 2.0).abs() < 0.01, "{narrowest}");
+    for (h_min, sentence) in [("0.01", None), ("0.4", Some("The narrowest strait is 0.1 wide, at x = "))] {
+        let input = "--region basins.geojson --spacing 1 --boundary-diameter 0.5 --h-max 1 --straits 4";
+        let ran = folder.run(format!("mesh {input} --h-min {h_min}"));
+        let said = ran
+            .err
+            .contains("have fewer than 4 triangles across: the smallest target diameter, 0.4, is kept");
+        assert_eq!((ran.status, said), (0, sentence.is_some()), "{}", ran.err);
+        assert!(sentence.is_none_or(|sentence| ran.err.contains(sentence)), "{}", ran.err);
+    }
     for (options, sentence) in [
         ("--straits 4 --region basins.geojson", "--h-min <LENGTH>"),
         ("--straits 4 --region basins.geojson --h-min 0.1", "--widest-strait, or --h-max"),
@@ -211,5 +227,33 @@ fn straits_that_are_too_narrow_are_listed() {
     ] {
         let ran = folder.run(format!("mesh {options}"));
         assert!(ran.status != 0 && ran.err.contains(sentence), "{options}: {}", ran.err);
+    }
+}
+
+/// A coast with two narrow places, of which one is open: its piece asks for no triangles, by name or by type.
+#[test]
+fn straits_are_not_looked_for_along_pieces_that_a_person_opened() {
+    let folder = Folder::new("straits-open");
+    let ring = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+    let island = |x: f64, y: f64| [[x, y], [x, y + 2.0], [x + 2.0, y + 2.0], [x + 2.0, y], [x, y]];
+    let rings = serde_json::json!([ring, island(2.0, 4.0), island(4.2, 4.0), island(6.5, 4.0)]);
+    let text = serde_json::json!({ "type": "Polygon", "coordinates": rings }).to_string();
+    folder.file("islands.geojson", text);
+    let narrowest = |domain: &str| {
+        let recipe = format!(
+            "[domain]\nregion = \"islands.geojson\"\nboundary_diameter = 0.5\n{domain}\n[mesh]\nspacing = 1\n\
+             [limits]\nh_min = 0.05\nh_max = 1\n[[layer]]\nkind = \"straits\"\nacross = 3\nwidth_from = 0.01\n\
+             width_to = 1\n"
+        );
+        folder.file("sea.toml", recipe);
+        folder.json("mesh", "sea.toml".to_owned())["straits"]["narrowest"].clone()
+    };
+    let width = |place: &serde_json::Value| place["width"].as_f64().unwrap();
+    assert!((width(&narrowest("")) - 0.2).abs() < 1e-6);
+    for opened in
+        ["types = [{ at = [2, 5], type = \"open\" }]", "names = [{ at = [2, 5], name = \"open west\" }]"]
+    {
+        let place = narrowest(opened);
+        assert!((width(&place) - 0.3).abs() < 1e-6, "{opened}: {place}");
     }
 }

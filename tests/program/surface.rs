@@ -303,6 +303,24 @@ fn samples_without_a_value_are_counted_and_can_be_left_out() {
     }
 }
 
+/// What is known of a raster ends at its outermost centres: so does its domain, and in one that goes on to the
+/// sides of the pixels, the surface goes on as it is.
+#[test]
+fn the_border_of_a_raster_takes_no_more_triangles_than_its_inside() {
+    let folder = Folder::new("surface-border");
+    let surface =
+        |x: f64, y: f64| (7.0 * x / 203.0).sin() * (5.0 * y / 203.0).cos() + 0.3 * (x * y / 2000.0).sin();
+    folder.file("heights.asc", Grid::new([203, 167], surface).text());
+    let mesh =
+        |more: &str| folder.run(format!("mesh --surface heights.asc --max-error 0.3 --json {more}")).json();
+    let [free, to_sides] = [mesh(""), mesh("--domain 0,0,203,167 --spacing 8")];
+    let number = |summary: &serde_json::Value, key: &str| summary[key].as_f64().unwrap();
+    assert!((number(&free, "area") - 202.0 * 166.0).abs() < 1e-6, "{}", free["area"]);
+    let [inside, all] =
+        [&free, &to_sides].map(|summary| number(summary, "triangles") / number(summary, "area"));
+    assert!(all < 1.05 * inside, "{all} triangles by area with the border, {inside} without");
+}
+
 #[test]
 fn what_cannot_be_met_is_said() {
     let folder = Folder::new("surface-refused");
@@ -318,13 +336,23 @@ fn what_cannot_be_met_is_said() {
         ("--max-error 1", &["--surface"]),
         ("--surface x+ --max-error 1", &["--surface x+", "^"]),
         ("--surface none.asc --max-error 1", &["none.asc"]),
-        ("--domain 0,0,8,8 --spacing 1 --surface heights.asc --at-most 60", &["at most 60 triangles", "128"]),
     ] {
         let ran = folder.run(format!("mesh {options}"));
         let said = &ran.err;
         assert!(ran.status != 0, "{options}");
         assert!(parts.iter().all(|part| said.contains(part)), "{options}: {said}");
     }
+    // The mesh that the coarse grid needs is made all the same, as in Python and in the window.
+    let input = "--domain 0,0,8,8 --spacing 1 --surface heights.asc --json --at-most";
+    let [more, enough] = [60, 128].map(|most| folder.run(format!("mesh {input} {most}")));
+    assert_eq!(
+        (more.status, more.json()["triangles"].as_u64(), &more.json()["hash"]),
+        (0, Some(128), &enough.json()["hash"])
+    );
+    let says = |ran: &crate::folder::Ran| {
+        ["at most 60 triangles", "128 already"].iter().all(|part| ran.err.contains(part))
+    };
+    assert!(says(&more) && !enough.err.contains("cannot be made"), "{}", more.err);
     // One pixel has no slope, and a jump ends: the program says where.
     let one = folder.run("mesh --surface pixel.asc --max-error 1 --json");
     assert_eq!(one.json()["max_error"], 0.0);

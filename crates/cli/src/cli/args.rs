@@ -71,8 +71,9 @@ pub enum Command {
     Mesh(MeshArguments),
     /// Build a mesh and find the triangle that contains each of a list of points
     ///
-    /// Numbers of triangles and vertices, and the order of the vertices (anticlockwise, first the ends of the
-    /// bisection edge), are those of the .node and .ele files that `mesh` writes from the same options.
+    /// Numbers of triangles and vertices start at 0, and the order of the vertices is anticlockwise, first
+    /// the ends of the bisection edge: as in the .csv file that `mesh` writes from the same options. In .node
+    /// and .ele files numbers are one higher.
     #[command(after_help = LOCATE_EXAMPLES)]
     Locate(LocateArguments),
     /// Build a mesh and say why the triangle at a point is there

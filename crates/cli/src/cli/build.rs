@@ -201,6 +201,17 @@ impl FinishedMesh {
         self.built.field.edge_lengths()
     }
 
+    /// Returns a sentence where a surface asks for fewer triangles than coarse grid and sizes need.
+    pub fn surface_note(&self) -> Option<String> {
+        let most = self.built.surface.as_ref()?.exceeded_count()?;
+        Some(format!(
+            "A mesh of at most {} triangles, as the surface asks for, cannot be made: without the surface it has {} already. \
+             Ask for more, take a larger spacing, or ask for larger triangles elsewhere.",
+            Grouped(most),
+            Grouped(self.built.mesh.triangles().count())
+        ))
+    }
+
     /// Returns the layers of the size field, from the bottom to the top.
     pub fn layers(&self) -> &[Layer] {
         &self.built.field.spec().layers
@@ -234,23 +245,13 @@ pub fn build_from(read: ToMesh, terminal: &mut Terminal) -> Result<FinishedMesh,
     terminal.clear();
     let (refinement, capped) = (refinement?, builder.capped());
     let built = builder.finish();
-    check_surface(&built)?;
     let derive = || DerivedMesh::new(&built.mesh, &built.domain, &origin.spec.cleaning);
     let derived = terminal.while_working("fitting the mesh to its domain", derive);
-    Ok(FinishedMesh::new(built, derived, origin, refinement, capped)?)
-}
-
-/// Checks that the mesh has no more triangles than the surfaces allow, which coarse grid and sizes may need.
-fn check_surface(built: &BuiltMesh) -> Result<(), Failure> {
-    match built.surface.as_ref().and_then(|rule| rule.exceeded_count()) {
-        None => Ok(()),
-        Some(most) => Err(Failure::Work(format!(
-            "A mesh of at most {} triangles cannot be made: without the surface it has {} already. Ask for more, take a \
-             larger spacing, or ask for larger triangles elsewhere.",
-            Grouped(most),
-            Grouped(built.mesh.triangles().count())
-        ))),
+    let finished = FinishedMesh::new(built, derived, origin, refinement, capped)?;
+    if let Some(note) = finished.surface_note() {
+        terminal.note(&note);
     }
+    Ok(finished)
 }
 
 impl ToMesh {

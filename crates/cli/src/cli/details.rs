@@ -11,6 +11,7 @@ use meshbrush_core::layers::{CourantFit, DepthFit, Layer, LayerKind, NoDepth, No
 use meshbrush_core::surface::{SampleCount, SurfaceFit};
 use meshbrush_io::io::{MeshSource, Provenance};
 use meshbrush_mesh::mesh::Extract;
+use meshbrush_mesh::text::{Grouped, digits};
 
 /// The boundary in named pieces, the parts, and where the mesh comes from.
 pub struct MeshDetails {
@@ -231,15 +232,19 @@ pub struct StraitSummary {
     pub crossings: usize,
     /// The number of places with fewer triangles.
     pub below: usize,
+    /// The narrowest passage between two shores, with wider water on both sides.
+    pub narrowest: Option<NarrowStrait>,
     /// Up to a thousand of these places, the narrowest first.
     pub places: Vec<NarrowStrait>,
 }
 
-/// A place of a strait with too few triangles.
+/// A place of a strait.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct NarrowStrait {
     /// The middle of the strait.
     pub at: [f64; 2],
+    /// The points of both coasts that are nearest to the middle.
+    pub shores: [[f64; 2]; 2],
     /// Its width in world units, with a projection in metres on the ellipsoid.
     pub width: f64,
     /// Triangles across it.
@@ -251,25 +256,60 @@ const MOST_STRAITS: usize = 1000;
 
 impl StraitSummary {
     /// Counts triangles for the uppermost visible layer that asks for them.
-    fn of(layers: &[Layer], extract: &Extract, domain: &Domain) -> Option<Self> {
+    pub fn of(layers: &[Layer], extract: &Extract, domain: &Domain) -> Option<Self> {
         let straits =
             layers.iter().rev().filter(|layer| layer.visible).find_map(|layer| match &layer.kind {
                 LayerKind::Straits(straits) => Some(straits),
                 _ => None,
             })?;
-        let counts = StraitCount::of(straits, extract.view());
+        let narrowest = straits.found.narrowest(domain);
+        let counts = StraitCount::of(straits, narrowest.as_ref(), extract.view());
         let is_below = |count: &&StraitCount| (count.triangles as f64) < straits.across;
         let place = |count: &StraitCount| NarrowStrait {
             at: count.disc.center.into(),
+            shores: count.disc.shores.map(Into::into),
             width: domain.on_earth(count.disc.width, count.disc.center),
             triangles: count.triangles,
         };
+        let (of_narrowest, of_discs) = counts.split_at(usize::from(narrowest.is_some()));
         Some(Self {
             across: straits.across,
-            crossings: counts.len(),
-            below: counts.iter().filter(is_below).count(),
-            places: counts.iter().filter(is_below).take(MOST_STRAITS).map(place).collect(),
+            crossings: of_discs.len(),
+            below: of_discs.iter().filter(is_below).count(),
+            narrowest: of_narrowest.first().map(place),
+            places: of_discs.iter().filter(is_below).take(MOST_STRAITS).map(place).collect(),
         })
+    }
+
+    /// Returns a sentence about the places with fewer triangles than asked for, if there are any. `h_min` is
+    /// the smallest target diameter.
+    pub fn sentence(&self, h_min: f64) -> Option<String> {
+        if self.below == 0 {
+            return None;
+        }
+        let Self { across, crossings, below, narrowest, .. } = self;
+        let counted = format!(
+            "{} of {} places in straits have fewer than {across} triangles across",
+            Grouped(*below),
+            Grouped(*crossings)
+        );
+        let narrowest =
+            narrowest.map_or_else(String::new, |NarrowStrait { at: [x, y], width, triangles, .. }| {
+                let width = digits(width, 4);
+                format!(" The narrowest strait is {width} wide, at x = {x}, y = {y}, and has {triangles} across it.")
+            });
+        // One more is asked for, since a mesh can end short of the coast.
+        let is_held = self.places.first().is_some_and(|place| place.width < (across + 1.0) * h_min);
+        let reason = match is_held {
+            true => format!(
+                ": the smallest target diameter, {h_min}, is kept where they would have to be smaller.{narrowest} A smaller \
+                 --h-min makes room for them."
+            ),
+            false => format!(
+                ", as the outline leaves them no room.{narrowest} A smaller --boundary-diameter helps."
+            ),
+        };
+        Some(counted + &reason)
     }
 }
 

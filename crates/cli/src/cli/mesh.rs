@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::args::MeshArguments;
 use super::build::{FinishedMesh, build};
-use super::details::{DetailUses, MeshDetails, provenance};
+use super::details::{DetailUses, MeshDetails, StraitSummary, provenance};
 use super::earth_args::OutputCoordinates;
 use super::failure::Failure;
 use super::input::Input;
@@ -64,11 +64,7 @@ pub fn run(
     if !typed.json {
         terminal.say(&summary.for_people());
     }
-    note_capped(&finished, terminal);
-    note_filled(details.as_ref(), terminal);
-    note_courant(details.as_ref(), terminal);
-    note_far_from_surface(&finished, &extract, details.as_ref(), terminal);
-    note_idle_marks(&input, &finished, &extract, terminal);
+    note_shortcomings(&input, &finished, &extract, details.as_ref(), terminal);
     if let Some(details) = details.as_ref().filter(|_| writes) {
         write_files(&files, &finished, &extract, details, coordinates, terminal)?;
     }
@@ -85,6 +81,22 @@ pub fn run(
         ))),
         _ => Ok(()),
     }
+}
+
+/// Tells the user what the mesh does not keep.
+fn note_shortcomings(
+    input: &Input,
+    finished: &FinishedMesh,
+    extract: &Extract,
+    details: Option<&MeshDetails>,
+    terminal: &mut Terminal,
+) {
+    note_capped(finished, terminal);
+    note_filled(details, terminal);
+    note_courant(details, terminal);
+    note_straits(finished, extract, details, terminal);
+    note_far_from_surface(finished, extract, details, terminal);
+    note_idle_marks(input, finished, extract, terminal);
 }
 
 /// Tells the user when triangles are coarser than asked for, because of the level cap.
@@ -122,6 +134,21 @@ fn note_courant(details: Option<&MeshDetails>, terminal: &mut Terminal) {
         at.y,
         time_step * limit / largest,
     ));
+}
+
+/// Tells the user that straits have fewer triangles than a layer asks for.
+fn note_straits(
+    finished: &FinishedMesh,
+    extract: &Extract,
+    details: Option<&MeshDetails>,
+    terminal: &mut Terminal,
+) {
+    let counted = details.and_then(|details| details.straits.clone());
+    let counted = counted.or_else(|| StraitSummary::of(finished.layers(), extract, finished.domain()));
+    let h_min = finished.spec().field.transfer.h_min;
+    if let Some(sentence) = counted.and_then(|counted| counted.sentence(h_min)) {
+        terminal.note(&sentence);
+    }
 }
 
 /// Share by which sums of the same numbers may differ.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, ValueEnum};
 
 use meshbrush_io::io::layers::{SavedCombine, SavedDepthSize, SavedKind, SavedLayer, SavedPositive};
-use meshbrush_mesh::text::Length;
+use meshbrush_mesh::text::{Length, LengthUnit, area};
 
 /// The period of the semidiurnal lunar tide (M2), in seconds.
 const TIDE: f64 = 44_712.0;
@@ -23,16 +23,17 @@ pub struct WaterArguments {
     /// Area of the smallest island, and of the smallest water, of --contour; smaller ones are left out
     /// [default: none are]
     ///
-    /// In square metres where the grid is in longitudes and latitudes, otherwise in its unit.
-    #[arg(long, value_name = "AREA", requires = "grid_region", allow_hyphen_values = true)]
+    /// As in 20000, "2 km²" or "5 ha": without a unit in square metres where the grid is in longitudes and
+    /// latitudes, otherwise in its unit.
+    #[arg(long, value_name = "AREA", requires = "grid_region", allow_hyphen_values = true, value_parser = area_on_ground)]
     pub smallest_island: Option<f64>,
 
     /// Width of the narrowest inlet of --contour; narrower ones are closed [default: none are]
     ///
     /// Water stays where a disc of this diameter and one pixel, around the centre of a pixel, has no centre
-    /// of a pixel of land in it. In metres where the grid is in longitudes and latitudes, otherwise in its
-    /// unit.
-    #[arg(long, value_name = "WIDTH", requires = "grid_region", allow_hyphen_values = true)]
+    /// of a pixel of land in it. As in 300, "300 m" or "0.2 nmi": without a unit in metres where the grid is
+    /// in longitudes and latitudes, otherwise in its unit.
+    #[arg(long, value_name = "WIDTH", requires = "grid_region", allow_hyphen_values = true, value_parser = width_on_ground)]
     pub smallest_inlet: Option<f64>,
 
     /// The domain is where the grid of --region has values, or that of --surface where there is no region
@@ -125,6 +126,14 @@ pub enum PositiveArgument {
     Up,
     /// Depths.
     Down,
+}
+
+fn width_on_ground(text: &str) -> Result<f64, String> {
+    Length::on_ground(text, LengthUnit::Metre)
+}
+
+fn area_on_ground(text: &str) -> Result<f64, String> {
+    area(text, LengthUnit::Metre)
 }
 
 impl WaterArguments {

@@ -31,6 +31,7 @@ mod sampled;
 mod settled;
 mod size_field;
 mod strait_count;
+mod strait_passage;
 mod strait_search;
 mod straits;
 mod surface;

@@ -22,8 +22,8 @@ pub struct StraitCount {
 }
 
 impl StraitCount {
-    /// Counts the triangles of a mesh across each strait.
-    pub fn of(straits: &Straits, mesh: MeshView) -> Vec<Self> {
+    /// Counts the triangles of a mesh across a passage, if one is given, and then across each strait.
+    pub fn of(straits: &Straits, passage: Option<&StraitDisc>, mesh: MeshView) -> Vec<Self> {
         let lattice = mesh.lattice();
         let nodes: Vec<DVec2> =
             mesh.nodes().par_iter().map(|&node| lattice.world_from_lattice(node)).collect();
@@ -43,7 +43,8 @@ impl StraitCount {
             });
             Self { disc: *disc, triangles }
         };
-        straits.found.discs().par_iter().map(count).collect()
+        let first = passage.map(count);
+        first.into_iter().chain(straits.found.discs().par_iter().map(count).collect::<Vec<_>>()).collect()
     }
 }
 

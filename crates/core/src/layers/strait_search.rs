@@ -77,6 +77,7 @@ struct Finder {
 #[derive(Clone, Copy)]
 struct Shore {
     at: DVec2,
+    edge: u32,
     ring: u32,
     /// The length of the ring up to the point.
     along: f64,
@@ -98,7 +99,7 @@ impl Finder {
         let mut found = Vec::new();
         let mut place = 0.0;
         for _ in 0..MOST_POINTS {
-            let shore = Shore { at: from + place * direction, ring, along: along + place };
+            let shore = Shore { at: from + place * direction, edge: edge as u32, ring, along: along + place };
             let disc = self.disc(shore, normal);
             found.extend(disc);
             if place >= length {
@@ -113,7 +114,7 @@ impl Finder {
             let turn = libm::atan2(direction.perp_dot(next_direction), direction.dot(next_direction));
             // The water is on the left: at a right turn, the land is a corner that points into it.
             let steps = (-turn / CENTERS).ceil().max(0.0) as u32;
-            let shore = Shore { at: to, ring, along: along + length };
+            let shore = Shore { at: to, edge: edge as u32, ring, along: along + length };
             let angles = (1..steps).map(|n| turn * f64::from(n) / f64::from(steps));
             let normals = angles.map(|angle| DVec2::new(libm::cos(angle), libm::sin(angle)).rotate(normal));
             found.extend(normals.filter_map(|normal| self.disc(shore, normal)));
@@ -149,18 +150,24 @@ impl Finder {
         let on = |edge: u32| nearest_on_segment(point, self.coasts.edges[edge as usize].ends);
         let (edge, _) = self.tree.nearest(point, |edge| point.distance_squared(on(edge)))?;
         let (CoastEdge { ends, ring, along, .. }, at) = (self.coasts.edges[edge as usize], on(edge));
-        Some((Shore { at, ring, along: along + at.distance(ends[0]) }, at.distance(point)))
+        Some((Shore { at, edge, ring, along: along + at.distance(ends[0]) }, at.distance(point)))
     }
 
     fn is_crossing(&self, a: Shore, b: Shore) -> bool {
         let length = a.at.distance(b.at);
         // Closer points are one point, but for rounding.
-        if length <= NARROWEST * self.between[0] {
+        if length <= NARROWEST * self.between[0] || self.is_corner(a.edge, b.edge) {
             return false;
         }
         let whole = self.coasts.lengths[a.ring as usize];
         let apart = (a.along - b.along).rem_euclid(whole);
         a.ring != b.ring || apart.min(whole - apart) >= LAMBDA * length
+    }
+
+    /// Returns whether two edges meet: the water between them is that of a corner.
+    fn is_corner(&self, a: u32, b: u32) -> bool {
+        let [a, b] = [a, b].map(|edge| self.coasts.edges[edge as usize].ends);
+        a.iter().any(|end| b.contains(end))
     }
 }
 

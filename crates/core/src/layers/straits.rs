@@ -17,10 +17,11 @@
 //! ```
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
+use super::strait_passage::narrowest_passage;
 use super::strait_search::StraitSearch;
 use crate::domain::{BoundaryMarks, Domain, Region};
 use crate::field::Bounds;
@@ -92,6 +93,8 @@ struct Indexed {
     tree: BoxTree,
     /// The least width in each group of the tree, by level.
     least: Vec<Vec<f64>>,
+    /// The narrowest passage, once somebody has asked for it.
+    narrowest: OnceLock<Option<StraitDisc>>,
 }
 
 impl PartialEq for StraitDiscs {
@@ -124,7 +127,8 @@ impl StraitDiscs {
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
         let middles = discs.iter().map(|disc| Rect::new(disc.center, disc.center));
         let middles = middles.reduce(|all, one| all.union(&one));
-        Self(Arc::new(Indexed { region, marks, between, in_plane, discs, middles, tree, least }))
+        let narrowest = OnceLock::new();
+        Self(Arc::new(Indexed { region, marks, between, in_plane, discs, middles, tree, least, narrowest }))
     }
 
     /// Returns straits that were not looked for yet: there are none.
@@ -146,6 +150,13 @@ impl StraitDiscs {
     /// Returns the places of straits, the narrowest first. Places between them are covered by them.
     pub fn discs(&self) -> &[StraitDisc] {
         &self.0.discs
+    }
+
+    /// Returns the narrowest passage between two shores of the domain that they were found for, with wider
+    /// water on both sides; nothing if there is none. Corners and dead ends are no passages.
+    pub fn narrowest(&self, domain: &Domain) -> Option<StraitDisc> {
+        let Indexed { marks, discs, narrowest, .. } = &*self.0;
+        *narrowest.get_or_init(|| narrowest_passage(domain, marks, discs))
     }
 
     /// Returns the least and the greatest width that are asked for, in world units, or in metres on the

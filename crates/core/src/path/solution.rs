@@ -70,13 +70,20 @@ impl Solution {
         self.lower = self.lower.max(lower).min(self.upper);
     }
 
-    /// Takes what a certificate found out: a better path between the same stops, or a greater lower bound.
-    /// Returns whether the path is another one.
+    /// Takes what a certificate found out: a cheaper path between the same stops, a lesser upper or a greater
+    /// lower bound. Returns whether the path is another one.
+    ///
+    /// Along jumps of the cost, bounds are far apart, and the path with the least upper bound can be dearer
+    /// than this one: then its bound counts, since this path costs less, and this path stays.
     pub fn take(&mut self, proved: Self) -> bool {
-        let is_other = proved.upper < self.upper && proved.points != self.points;
-        let lower = self.lower.max(proved.lower);
-        if proved.upper < self.upper {
+        let [lower, upper] = [self.lower.max(proved.lower), self.upper.min(proved.upper)];
+        let is_cheaper = proved.upper < self.upper && proved.cost < self.cost;
+        let is_other = is_cheaper && proved.points != self.points;
+        if is_cheaper {
             *self = proved;
+        }
+        if self.cost <= upper {
+            self.upper = upper;
         }
         self.tighten(lower);
         is_other

@@ -41,7 +41,34 @@ impl Raster {
         let at = self.pixel_from_world(point);
         let last = DVec2::from(self.size().map(f64::from));
         let is_within = at.cmpge(DVec2::ZERO).all() && at.cmple(last).all();
-        is_within.then(|| linear(at.min(last.map(f64::next_down)), |x, y| self.known(x, y))).flatten()
+        is_within.then(|| self.linear_in(at.min(last.map(f64::next_down)))).flatten()
+    }
+
+    /// Returns what [`Self::linear_at`] does, but beyond the outermost centres, where there is half a pixel
+    /// left, the value goes on as it does before them: flat, a surface would have a kink there.
+    pub(crate) fn continued_at(&self, point: DVec2) -> Option<f64> {
+        let at = self.pixel_from_world(point);
+        let last = DVec2::from(self.size().map(f64::from));
+        if !(at.cmpge(DVec2::ZERO).all() && at.cmple(last).all()) {
+            return None;
+        }
+        let at = at.min(last.map(f64::next_down));
+        let inner = at.clamp(DVec2::splat(0.5), last - 0.5);
+        let mirrored = 2.0 * inner - at;
+        let beyond =
+            |at: f64, inner: f64, mirrored: f64, value: &dyn Fn(f64) -> Option<f64>| match at == inner {
+                true => value(at),
+                false => Some(2.0 * value(inner)? - value(mirrored)?),
+            };
+        let along = |y| beyond(at.x, inner.x, mirrored.x, &|x| self.linear_in(DVec2::new(x, y)));
+        let continued = beyond(at.y, inner.y, mirrored.y, &along);
+        // Only the pixel at the point must have a value.
+        self.linear_in(at).map(|flat| continued.unwrap_or(flat))
+    }
+
+    /// Returns the value at a place in pixels within the raster.
+    fn linear_in(&self, at: DVec2) -> Option<f64> {
+        linear(at, |x, y| self.known(x, y))
     }
 }
 
@@ -69,6 +96,33 @@ mod tests {
         ] {
             assert_eq!(raster.linear_at(dvec2(x, y)), value, "{x}, {y}");
         }
+    }
+
+    #[test]
+    fn a_plane_goes_on_to_the_sides_of_a_raster() {
+        let mut random = fastrand::Rng::with_seed(36);
+        let plane = |at: DVec2| 3.0 + 2.0 * at.x - 5.0 * at.y;
+        for size in [[2, 2], [5, 3], [9, 7]] {
+            let last = DVec2::from(size.map(f64::from));
+            let mut raster = Raster::filled(Rect::new(DVec2::ZERO, last), size, 0.0);
+            for (x, y) in raster.all().pixels() {
+                raster.set(x, y, plane(raster.pixel_center(x, y)) as f32);
+            }
+            for _ in 0..500 {
+                let at = dvec2(random.f64(), random.f64()) * last;
+                let found = raster.continued_at(at).unwrap();
+                assert!((found - plane(at)).abs() < 1e-12, "{found} at {at}");
+                let inner = at.clamp(DVec2::splat(0.5), last - 0.5);
+                assert_eq!(raster.continued_at(inner), raster.linear_at(inner), "the same between centres");
+            }
+            assert_eq!(raster.continued_at(last + 0.1), None);
+            // Beside a pixel without a value it is flat, and on that pixel there is nothing.
+            raster.set(1, 0, f32::NAN);
+            assert_eq!(raster.continued_at(dvec2(0.1, 0.5)), raster.linear_at(dvec2(0.1, 0.5)));
+            assert_eq!(raster.continued_at(dvec2(1.5, 0.1)), None);
+        }
+        let one = Raster::filled(Rect::UNIT, [1, 1], 4.0);
+        assert_eq!(one.continued_at(dvec2(0.1, 0.9)), Some(4.0));
     }
 
     /// The sum over all pixels with a value, each with the weight of a tent around its centre.

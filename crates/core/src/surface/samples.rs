@@ -183,7 +183,9 @@ impl SurfaceSource {
     /// Returns the height at a point in world units; `None` where there is none.
     pub fn height_at(&self, point: DVec2) -> Option<f64> {
         match self {
-            Self::Raster(source) => source.raster.raster().linear_at(point).filter(|value| value.is_finite()),
+            Self::Raster(source) => {
+                source.raster.raster().continued_at(point).filter(|value| value.is_finite())
+            }
             Self::Formula(formula) => Some(formula.eval(point.x, point.y)).filter(|value| value.is_finite()),
         }
     }

@@ -101,13 +101,13 @@ impl Referee {
     }
 }
 
-/// Values between the centres of pixels that all have one.
+/// Values between the centres of pixels that all have one; beyond the outermost ones, those of the cell of
+/// centres beside them go on.
 fn bilinear(values: Vec<f32>, size: [usize; 2], bounds: Rect) -> Box<dyn Fn(DVec2) -> f64> {
     Box::new(move |point| {
         let steps = dvec2(size[0] as f64, size[1] as f64);
         let at = (point - bounds.min) / bounds.size() * steps - 0.5;
-        let at = at.clamp(DVec2::ZERO, steps - 1.0);
-        let cell = at.floor().min((steps - 2.0).max(DVec2::ZERO));
+        let cell = at.floor().clamp(DVec2::ZERO, (steps - 2.0).max(DVec2::ZERO));
         let (x, y, share) = (cell.x as usize, cell.y as usize, at - cell);
         let value = |x: usize, y: usize| f64::from(values[y.min(size[1] - 1) * size[0] + x.min(size[0] - 1)]);
         let along = |y| value(x, y) * (1.0 - share.x) + value(x + 1, y) * share.x;

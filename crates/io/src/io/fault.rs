@@ -130,6 +130,15 @@ impl KeyFault {
         Self::here("this must be one of the words of this key, in quotation marks.")
     }
 
+    /// Returns the fault of a key that is none of those of its table.
+    pub(super) fn unknown_key(key: &str, known: &[&str]) -> Self {
+        let advice = match nearest_word(key, known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the keys here are {}.", known.join(", ")),
+        };
+        Self::here(format!("there is no key `{}` here; {advice}", excerpt(40, key)))
+    }
+
     /// Returns the fault of a value of another type than `expected`, a noun phrase.
     pub(super) fn not_a(expected: impl Display, given: Unexpected) -> Self {
         Self::here(format!("this must be {expected}, not {}.", Given(given)))
@@ -163,11 +172,7 @@ impl Error for KeyFault {
     }
 
     fn unknown_field(key: &str, known: &'static [&'static str]) -> Self {
-        let advice = match nearest_word(key, known) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("the keys here are {}.", known.join(", ")),
-        };
-        Self::here(format!("there is no key `{}` here; {advice}", excerpt(40, key)))
+        Self::unknown_key(key, known)
     }
 
     fn missing_field(key: &'static str) -> Self {

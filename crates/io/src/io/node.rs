@@ -1,8 +1,9 @@
 //! `.node`, `.ele`, `.neigh` and `.edge`: the formats of Shewchuk's Triangle, four files that belong
 //! together.
 //!
-//! Numbers start at zero. Node attributes are h̄ and then the quantities. The attribute of an element is its
-//! level. Neighbour i is opposite corner i; −1 is the boundary. `.edge` has all edges.
+//! Numbers start at one: Triangle takes both counts, solvers such as SWAN only this one. Node attributes are
+//! h̄ and then the quantities. The attribute of an element is its level. Neighbour i is opposite corner i; −1
+//! is the boundary. `.edge` has all edges.
 //!
 //! The boundary marker of edges and nodes is the marker of the piece of the boundary, the lower one for a
 //! node in which pieces meet, and 0 inside. The format has no place for names. Comments at the end of each
@@ -13,6 +14,9 @@ use std::io::{self, Write};
 use super::triangle_pieces::TrianglePieces;
 use super::{FormatSpec, MeshData, Number, ThirdCoordinate, TypicalSize, write_rows};
 use meshbrush_mesh::mesh::{Extract, NodeId, TriangleId};
+
+/// The number of the first node, triangle and edge.
+const FIRST: usize = 1;
 
 /// Triangle's four files: nodes, elements, neighbours and edges.
 pub static FORMAT: FormatSpec = FormatSpec {
@@ -41,7 +45,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
     writeln!(out, "{} 2 {} 1", mesh.nodes().len(), data.node_values().count())?;
     write_rows(out, mesh.nodes().len(), |out, id| {
         let p = mesh.world(NodeId::from_index(id));
-        write!(out, "{id} {} {}", Number(p.x), Number(p.y))?;
+        write!(out, "{} {} {}", id + FIRST, Number(p.x), Number(p.y))?;
         for (_, values) in data.node_values() {
             write!(out, " {}", Number(values[id]))?;
         }
@@ -58,8 +62,8 @@ pub fn write_elements(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> 
     writeln!(out, "{} 3 1", mesh.triangles().len())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
         let cell = mesh.cell(TriangleId::from_index(id));
-        let [a, b, c] = cell.corners;
-        writeln!(out, "{id} {a} {b} {c} {}", cell.level)
+        let [a, b, c] = cell.corners.map(|node| node + FIRST);
+        writeln!(out, "{} {a} {b} {c} {}", id + FIRST, cell.level)
     })?;
     data.write_comments(out)
 }
@@ -72,8 +76,8 @@ pub fn write_neighbours(out: &mut impl Write, mesh: &Extract, data: &MeshData) -
     writeln!(out, "{} 3", mesh.triangles().len())?;
     write_rows(out, mesh.triangles().len(), |out, id| {
         let across = mesh.cell(TriangleId::from_index(id)).opposite;
-        let [a, b, c] = across.map(|across| across.map_or(-1, |t| t as i64));
-        writeln!(out, "{id} {a} {b} {c}")
+        let [a, b, c] = across.map(|across| across.map_or(-1, |t| (t + FIRST) as i64));
+        writeln!(out, "{} {a} {b} {c}", id + FIRST)
     })?;
     data.write_comments(out)
 }
@@ -96,9 +100,9 @@ pub fn write_edges(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io:
         let mut pieces = pieces.of(triangle);
         let edges = mesh.first_edges_of(TriangleId::from_index(triangle));
         for (id, edge) in (first_ids[triangle]..).zip(edges) {
-            let [from, to] = edge.ends;
+            let [from, to] = edge.ends.map(|node| node + FIRST);
             let piece = if edge.on_boundary { pieces.next() } else { None };
-            writeln!(out, "{id} {from} {to} {}", piece.map_or(0, |piece| piece + 1))?;
+            writeln!(out, "{} {from} {to} {}", id + FIRST, piece.map_or(0, |piece| piece + 1))?;
         }
         Ok(())
     })?;

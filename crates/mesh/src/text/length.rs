@@ -33,6 +33,21 @@ impl Length {
         text.parse().ok().filter(Self::has_unit)
     }
 
+    /// Returns the number of a length that is never in degrees: with a unit in metres, or in kilometres where
+    /// lengths of the document are.
+    ///
+    /// # Errors
+    /// Fails with a sentence where the text is no such length.
+    pub fn on_ground(text: &str, of_document: LengthUnit) -> Result<f64, String> {
+        let length: Self = text.parse()?;
+        match length.unit {
+            LengthUnit::Degree => Err(format!(
+                "“{text}” is an angle; this is a length on the ground, as in \"300 m\" or \"0.2 km\"."
+            )),
+            _ => Ok(length.in_document(of_document).value),
+        }
+    }
+
     /// Returns the unit of the number: metres or degrees, or none.
     pub fn unit(&self) -> LengthUnit {
         self.unit
@@ -89,6 +104,17 @@ impl fmt::Display for Length {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_length_on_the_ground_is_no_angle() {
+        let on_ground = |text| Length::on_ground(text, LengthUnit::Degree);
+        assert_eq!(
+            [on_ground("300 m"), on_ground("0.5 nmi"), on_ground("7")],
+            [Ok(300.0), Ok(926.0), Ok(7.0)]
+        );
+        assert_eq!(Length::on_ground("300 m", LengthUnit::Kilometre), Ok(0.3));
+        assert!(on_ground("0.1°").is_err() && on_ground("wide").is_err());
+    }
 
     #[test]
     fn lengths_are_written_as_people_like() {

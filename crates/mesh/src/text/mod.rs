@@ -1,5 +1,6 @@
 //! Parts of messages for a person: counts, lengths and their unit, sizes in bytes, excerpts of files.
 
+mod area;
 mod bytes;
 pub mod decimal;
 mod digits;
@@ -12,6 +13,7 @@ pub mod typed;
 mod unit;
 mod xml;
 
+pub use area::area;
 pub use bytes::Bytes;
 pub use digits::{digits, fixed, percent_above, rounded, significant, with_unit};
 pub use excerpt::{abridged, excerpt, printable, short_name};

@@ -384,6 +384,47 @@ fn the_triangle_found_contains_the_point_in_the_world_as_well() {
     }
 }
 
+/// What docs/locate.md says: in world coordinates only edges along a diagonal have a band of rounding.
+#[test]
+fn in_the_coordinates_given_edges_along_an_axis_are_exact() {
+    let (mut beside, mut on) = (0, 0);
+    for (name, subject) in subjects() {
+        let mesh = &subject.mesh;
+        let bounds = mesh.lattice().bounds();
+        let rounding = 4.0 * f64::EPSILON * bounds.min.abs().max(bounds.max.abs()).max_element();
+        let locator = Locator::new(mesh);
+        let mut random = Rng::with_seed(31);
+        for _ in 0..20_000 {
+            let world = hostile(mesh, &mut random);
+            let found = locator.locate(world);
+            let Some(id) = found.triangle() else { continue };
+            let c = mesh.triangle(id).edge_nodes().map(|(from, _)| mesh.world(from));
+            for j in 0..3 {
+                let (from, to, opposite) = (c[j], c[(j + 1) % 3], c[(j + 2) % 3]);
+                let is_on = matches!(found, Location::OnEdge { edge, .. } if edge == j);
+                let [way, inner] = match (from.x == to.x, from.y == to.y) {
+                    (true, false) => [world.x, opposite.x].map(|x| x.compare(from.x)),
+                    (false, true) => [world.y, opposite.y].map(|y| y.compare(from.y)),
+                    _ => {
+                        let edge = to - from;
+                        let distance = edge.perp_dot(world - from).abs() / edge.length();
+                        assert!(
+                            !is_on || distance <= rounding,
+                            "{name}: {world} is {distance:e} from edge {j}"
+                        );
+                        continue;
+                    }
+                };
+                let is_corner = matches!(found, Location::OnVertex { .. });
+                let expected = if is_on { way.is_eq() } else { way == inner || (is_corner && way.is_eq()) };
+                assert!(expected, "{name}: {world:?} is {found:?}, and {way:?} of edge {j}");
+                (beside, on) = (beside + usize::from(way == inner), on + usize::from(is_on));
+            }
+        }
+    }
+    assert!(beside > 50_000 && on > 2_000, "{beside} {on}");
+}
+
 #[test]
 fn barycentric_coordinates_sum_to_one_and_reproduce_linear_functions() {
     for (name, subject) in subjects() {

@@ -336,7 +336,7 @@ fn node_ele_and_neigh_read_back() {
         assert_eq!(numbers::<usize>(nodes.lines().next().unwrap())[1..], [2, 2, 1]);
         for (n, line) in nodes.lines().skip(1).enumerate() {
             let row = numbers::<f64>(line);
-            assert_eq!((row[0], row.len()), (n as f64, 6));
+            assert_eq!((row[0], row.len()), ((n + 1) as f64, 6), "numbers start at one");
             found.nodes.push(dvec2(row[1], row[2]));
             found.targets.push(row[3]);
             assert_eq!(row[4], sample.quantities[0].values[n]);
@@ -346,9 +346,10 @@ fn node_ele_and_neigh_read_back() {
             numbers::<usize>(elements.lines().next().unwrap()),
             [sample.mesh.raw_triangle_count(), 3, 1]
         );
-        for line in elements.lines().skip(1) {
+        for (n, line) in elements.lines().skip(1).enumerate() {
             let row = numbers::<usize>(line);
-            found.triangles.push([row[1], row[2], row[3]]);
+            assert_eq!(row[0], n + 1);
+            found.triangles.push([row[1] - 1, row[2] - 1, row[3] - 1]);
             found.levels.push(row[4] as u32);
         }
         sample.assert_same(&found);
@@ -356,7 +357,7 @@ fn node_ele_and_neigh_read_back() {
             .lines()
             .skip(1)
             .map(|line| numbers::<i64>(line)[1..].to_vec())
-            .map(|row| [row[0], row[1], row[2]].map(|n| usize::try_from(n).ok()))
+            .map(|row| [row[0], row[1], row[2]].map(|n| usize::try_from(n - 1).ok()))
             .collect();
         // Neighbour i lies opposite corner i.
         let opposite = |t: [usize; 3]| [[t[1], t[2]], [t[2], t[0]], [t[0], t[1]]];
@@ -366,7 +367,8 @@ fn node_ele_and_neigh_read_back() {
         let edges = text(sample.written(node::write_edges));
         assert_eq!(numbers::<usize>(edges.lines().next().unwrap()), [sample.mesh.edges().count(), 1]);
         let rows: Vec<Vec<usize>> = edges.lines().skip(1).map(numbers).collect();
-        assert!(rows.iter().enumerate().all(|(n, row)| row[0] == n && row.len() == 4));
+        assert!(rows.iter().enumerate().all(|(n, row)| row[0] == n + 1 && row.len() == 4));
+        let rows: Vec<_> = rows.iter().map(|row| [row[0], row[1] - 1, row[2] - 1, row[3]]).collect();
         let listed: Vec<_> =
             rows.iter().map(|row| (NodeId::from_index(row[1]), NodeId::from_index(row[2]))).collect();
         assert_eq!(listed, sample.mesh.edges().collect::<Vec<_>>());

@@ -177,7 +177,8 @@ fn formula_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     } else {
         "everywhere; or x^2 + y^2 < 1"
     };
-    let help = "The part of the rectangle where this formula is true is the domain.";
+    let help = "The domain is made of the coarse triangles at whose three corners this formula is true: a staircase of coarse cells, \
+                nearer to the shape with a smaller spacing.";
     let row = FormulaRow { label: "Domain where", hint, help };
     if let Some(inside) = row.show(ui, state, domain.formula()) {
         let shape = inside.map_or(DomainShape::Whole, DomainShape::Formula);

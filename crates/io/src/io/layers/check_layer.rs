@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::checks::{number_where, point, points, positive_length, rect_of, rings};
+use super::keys::kinds_with;
 use super::{RasterFile, SavedKind, SavedLayer, SavedPolygon, SavedQuantity, SavedShape, SavedThreat};
 use crate::io::{KeyFault, RasterFormat};
 use meshbrush_core::domain::{PieceChoice, Polygon};
@@ -79,10 +80,12 @@ impl SavedLayer {
     pub fn checked(&self, stored: Stored) -> Result<CheckedKind, KeyFault> {
         let kind = self.kind;
         if let Some(key) = self.given().find(|key| !kind.keys().contains(key)) {
-            let (word, keys) = (kind.word(), kind.keys().join(", "));
+            let (word, keys, others) = (kind.word(), kind.keys().join(", "), kinds_with(key).join(", "));
             return Err(KeyFault::key(
                 key,
-                format!("a layer of the kind \"{word}\" has no `{key}`; its own keys are {keys}."),
+                format!(
+                    "a layer of the kind \"{word}\" has no `{key}`; its own keys are {keys}. Kinds with `{key}`: {others}."
+                ),
             ));
         }
         self.mask_in_place()?;

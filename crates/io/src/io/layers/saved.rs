@@ -389,6 +389,7 @@ impl SavedLayer {
             ("width_to", self.width_to.is_some()),
             ("within", self.within.is_some()),
             ("at_most", self.at_most.is_some()),
+            ("norm", self.norm.is_some()),
         ];
         given.into_iter().filter_map(|(key, is_given)| is_given.then_some(key))
     }

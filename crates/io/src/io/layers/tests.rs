@@ -85,6 +85,10 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
             r#"{ "kind": "paint", "quantity": "risk", "slope": 1 }"#,
             "slope: a layer of the kind \"paint\" has no `slope`",
         ),
+        (
+            r#"{ "kind": "formula", "quantity": "risk", "formula": "x", "norm": "l2" }"#,
+            "norm: a layer of the kind \"formula\" has no `norm`; its own keys are quantity, formula. Kinds with `norm`: surface.",
+        ),
         (r#"{ "kind": "formula", "quantity": "risk", "formula": "sqr(x)" }"#, "formula: There is no `sqr`"),
         (r#"{ "kind": "raster", "file": "a.jpg", "as": "risk" }"#, "file: a raster ends in .png"),
         (
@@ -179,7 +183,8 @@ fn values_that_cannot_be_used_are_named_with_their_key() {
 #[test]
 fn the_kinds_and_their_keys_agree() {
     use super::SavedKind::*;
-    let all = [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits, FeatureSize];
+    let all =
+        [Paint, Formula, Raster, Threats, Distance, Corridor, Band, Depth, Straits, FeatureSize, Surface];
     let value = |key: &str| match key {
         "quantity" | "as" => r#""risk""#,
         "formula" => r#""x""#,
@@ -190,6 +195,7 @@ fn the_kinds_and_their_keys_agree() {
         "between" => "[0, 1]",
         "positive" => r#""up""#,
         "size" => r#""slope""#,
+        "norm" => r#""l2""#,
         "file" | "layer" => r#""a""#,
         "pieces" => r#"["a"]"#,
         "types" => r#"["land"]"#,

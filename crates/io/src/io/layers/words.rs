@@ -201,6 +201,21 @@ impl From<SavedDistanceTo> for DistanceTo {
 }
 
 impl SavedKind {
+    /// All kinds.
+    pub const ALL: [Self; 11] = [
+        Self::Paint,
+        Self::Formula,
+        Self::Raster,
+        Self::Threats,
+        Self::Distance,
+        Self::Corridor,
+        Self::Band,
+        Self::Depth,
+        Self::Straits,
+        Self::FeatureSize,
+        Self::Surface,
+    ];
+
     /// Returns the word.
     pub fn word(self) -> &'static str {
         match self {
@@ -246,7 +261,7 @@ impl SavedKind {
             Self::Corridor => &["file", "shapes", "width", "at_zero", "slope", "range"],
             Self::Band => &["file", "bounds", "between", "diameter"],
             Self::Straits | Self::FeatureSize => &["across", "width_from", "width_to"],
-            Self::Surface => &["file", "bounds", "formula", "within", "at_most"],
+            Self::Surface => &["file", "bounds", "formula", "within", "at_most", "norm"],
             Self::Depth => &[
                 "file",
                 "bounds",

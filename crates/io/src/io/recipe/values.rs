@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::super::layers::{SavedKind, SavedLayer};
+use super::super::layers::{SavedKind, SavedLayer, check_keys, check_keys_of_all};
 use super::super::settings::{SavedOutput, SavedSettings, WrittenLengths};
 use super::super::{Given, KeyFault, TextValue};
 use super::files::Files;
@@ -74,6 +74,7 @@ impl SavedSettings {
 
     /// Returns the settings that tables state, with numbers in the place of lengths with units.
     pub(super) fn of_tables(mut tables: TextValue, unit: Option<LengthUnit>) -> Result<Self, KeyFault> {
+        check_keys_of_all(&tables)?;
         let lengths = WrittenLengths::take(&mut tables, unit)?;
         Ok(Self::deserialize(&tables)?.with_lengths(lengths))
     }
@@ -104,6 +105,7 @@ impl SavedLayer {
     /// # Errors
     /// Fails for the first key or value that no layer has, and for files that are not there.
     pub fn of_value(table: &TextValue, others: &BesideLayer, given: &Given) -> Result<Self, KeyFault> {
+        check_keys(table)?;
         let mut table = table.clone();
         let lengths = WrittenLengths::take(&mut table, Some(others.unit))?;
         lengths.check(others.unit)?;

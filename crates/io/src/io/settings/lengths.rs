@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use super::SavedSettings;
 use crate::io::{KeyFault, Step, TextValue};
-use meshbrush_mesh::text::{Length, LengthUnit, excerpt};
+use meshbrush_mesh::text::{Length, LengthUnit, area, excerpt};
 
 /// The keys with a length, in whichever table they are.
 const KEYS: [&str; 13] = [
@@ -22,6 +22,12 @@ const KEYS: [&str; 13] = [
     "width_to",
     "clearance",
 ];
+
+/// A way to read a number in metres or square metres, or in kilometres where lengths of the document are.
+type OnGround = fn(&str, LengthUnit) -> Result<f64, String>;
+
+/// The keys that are in metres, or in square metres, also where coordinates are degrees: they need no plane.
+const ON_GROUND: [(&str, OnGround); 2] = [("smallest_inlet", Length::on_ground), ("smallest_island", area)];
 
 /// The projection for lengths in metres: the plane of the region's own coordinates where they are in metres.
 pub const METRES: &str = "metres";
@@ -73,6 +79,9 @@ impl WrittenLengths {
                     match value {
                         TextValue::Text(text) if KEYS.contains(&&**key) => {
                             *value = TextValue::Number(self.number(text, path, unit)?);
+                        }
+                        TextValue::Text(text) if ON_GROUND.iter().any(|(name, _)| name == key) => {
+                            *value = TextValue::Number(on_ground(key, text, path, unit)?);
                         }
                         TextValue::Text(text) if key == "formula" && is_size => {
                             if Length::with_unit(text).is_some() {
@@ -152,6 +161,15 @@ impl WrittenLengths {
             None => fault,
         }
     }
+}
+
+/// Returns the number of a length or an area on the ground.
+fn on_ground(key: &str, text: &str, path: &[Step], unit: LengthUnit) -> Result<f64, KeyFault> {
+    let read = ON_GROUND
+        .iter()
+        .find(|(name, _)| *name == key)
+        .map_or(Length::on_ground as OnGround, |(_, read)| *read);
+    read(text, unit).map_err(|sentence| KeyFault { path: path.to_owned(), ..KeyFault::here(sentence) })
 }
 
 fn cannot_be_used(length: &Length) -> String {
@@ -275,6 +293,31 @@ mod tests {
         let of_kilometres = parsed(&written.replace("unit = \"m\"", "unit = \"km\"")).unwrap().settings;
         assert_eq!((of_kilometres.mesh.spacing, of_kilometres.limits.h_risk), (Some(40.0), Some(0.926)));
         assert_eq!(of_kilometres.lengths.check(LengthUnit::Kilometre), Ok(()));
+    }
+
+    #[test]
+    fn widths_and_areas_on_the_ground_may_have_a_unit_and_need_no_plane() {
+        let domain = |unit: &str, inlet: &str, island: &str| {
+            parsed(&format!(
+                "[domain]\nregion = \"depth.asc\"\n{unit}smallest_inlet = {inlet}\nsmallest_island = {island}"
+            ))
+        };
+        let read = |unit: &str, inlet: &str, island: &str| {
+            let settings = domain(unit, inlet, island).unwrap().settings;
+            assert!(settings.domain.projection.is_none() && !settings.lengths.are_metric());
+            [settings.domain.smallest_inlet, settings.domain.smallest_island].map(Option::unwrap)
+        };
+        assert_eq!(read("", "300", "5000"), [300.0, 5000.0]);
+        assert_eq!(read("", "\"0.3 km\"", "\"2 km²\""), [300.0, 2e6]);
+        assert_eq!(read("unit = \"km\"\n", "\"300 m\"", "\"5 ha\""), [0.3, 0.05]);
+        for (inlet, island, sentence) in [
+            ("\"0.1°\"", "1", "line 3, column 18: “0.1°” is an angle"),
+            ("1", "\"2 km\"", "line 4, column 19: “2 km” is no area: write a number"),
+            ("\"-1 m\"", "1", "smallest inlet"),
+        ] {
+            let message = domain("", inlet, island).expect_err(inlet);
+            assert!(message.contains(sentence), "{message}");
+        }
     }
 
     #[test]

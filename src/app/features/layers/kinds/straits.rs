@@ -3,11 +3,12 @@
 use eframe::egui::Ui;
 
 use super::water::{ChangedWater, WaterRows};
-use crate::app::command::Command;
-use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, set_kind_once};
+use crate::app::command::{Command, ViewCommand};
+use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, remark, set_kind_once};
 use crate::app::widgets::{Icon, ValueRow, format};
 use meshbrush_core::document::Settings;
-use meshbrush_core::layers::{Layer, LayerKind, StraitDiscs, Straits};
+use meshbrush_core::domain::Domain;
+use meshbrush_core::layers::{Layer, LayerKind, StraitDisc, StraitDiscs, Straits};
 
 /// Triangles across straits.
 pub static STRAITS: LayerKindRow = LayerKindRow {
@@ -32,15 +33,34 @@ fn parameters(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut
         to_help: "Wider water is no strait.",
     };
     let changed = rows.show(ui, state);
-    let Settings { domain, boundary_marks: marks, .. } = state.session.document().settings();
-    let narrowest = found.discs().first().map(|disc| domain.on_earth(disc.width, disc.center));
-    let narrowest =
-        narrowest.map_or("none".to_owned(), |width| state.unit().after(&format::digits(width, 4)));
-    ValueRow::new("Narrowest strait", &narrowest)
-        .help("Width of the narrowest strait of the domain.")
-        .show(ui);
+    let Settings { domain, boundary_marks: marks, transfer, .. } = state.session.document().settings();
+    show_narrowest(ui, state, (domain, found.narrowest(domain)), commands);
+    if let Some(width) = found.narrowest(domain).map(|passage| domain.on_earth(passage.width, passage.center))
+        && width < (across + 1.0) * transfer.h_min
+    {
+        remark(ui, "The smallest diameter leaves fewer triangles across the narrowest strait.");
+    }
     if let Some(ChangedWater { across, between }) = changed {
         let found = between.map_or_else(|| found.clone(), |between| StraitDiscs::of(domain, marks, between));
         set_kind_once(layer, LayerKind::Straits(Straits { across, found }), commands);
+    }
+}
+
+fn show_narrowest(
+    ui: &mut Ui,
+    state: &FrameState<'_>,
+    (domain, narrowest): (&Domain, Option<StraitDisc>),
+    commands: &mut Vec<Command>,
+) {
+    let Some(StraitDisc { center, width, .. }) = narrowest else {
+        let help = "No passage between two shores has wider water on both sides.";
+        ValueRow::new("Narrowest strait", "none").help(help).show(ui);
+        return;
+    };
+    let width = domain.on_earth(width, center);
+    let text = state.unit().after(&format::digits(width, 4));
+    let help = "Width of the narrowest passage between two shores, with wider water on both sides. A click goes there.";
+    if ValueRow::new("Narrowest strait", &text).help(help).link().show(ui).clicked() {
+        commands.push(Command::View(ViewCommand::LookAt(center)));
     }
 }

@@ -147,7 +147,7 @@ fn straits_are_found_again_when_the_outline_changes() {
     click_button(&mut window, "Add layer");
     click_button(&mut window, "straits of the domain");
     wait_until(&mut window, |window| triangles(window) > before);
-    assert_ne!(value_of(&window, Role::Definition, "Narrowest strait"), "none");
+    assert_ne!(value_of(&window, Role::Button, "Narrowest strait"), "none");
     let found = |window: &Window| match &active(window).kind {
         LayerKind::Straits(Straits { found, .. }) => found.clone(),
         other => panic!("straits: {other:?}"),
