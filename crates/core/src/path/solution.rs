@@ -264,6 +264,25 @@ mod tests {
     use crate::layers::RiskField;
     use crate::path::FormulaCost;
 
+    fn found(cost: f64, [lower, upper]: [f64; 2], y: f64) -> Solution {
+        let points = vec![DVec2::ZERO, dvec2(0.5, y), DVec2::X];
+        Solution { cost, lower, upper, points, ..Solution::default() }
+    }
+
+    #[test]
+    fn a_proof_never_makes_a_path_dearer() {
+        // Beside a jump of the cost, the bound of the cheaper path is far above its cost.
+        let mut kept = found(2.0, [1.0, 5.0], 0.0);
+        assert!(!kept.take(found(2.5, [1.5, 2.75], 1.0)));
+        assert_eq!(kept, found(2.0, [1.5, 2.75], 0.0));
+        assert!(kept.take(found(1.75, [1.5, 2.25], 1.0)));
+        assert_eq!(kept, found(1.75, [1.5, 2.25], 1.0));
+        // A bound that is below the cost is one of another path.
+        let mut other = found(3.0, [1.0, 5.0], 0.0);
+        assert!(!other.take(found(3.0, [2.0, 2.9], 0.0)));
+        assert_eq!(other, found(3.0, [2.0, 5.0], 0.0));
+    }
+
     #[test]
     fn a_profile_goes_over_points_that_are_there_twice() {
         let cost = FormulaCost { formula: CostFormula::parse("1").unwrap(), risk: RiskField::default() };
