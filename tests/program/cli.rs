@@ -582,8 +582,8 @@ fn impossible_targets_fail_with_their_place() {
             "--target 0.001 --max-memory 1MB --max-triangles 900",
             "more than 900 triangles, which is the limit",
         ),
-        ("--target 1 --quantity 1/x -o new.vtu", "The quantity is inf at x = 0, y = 0"),
-        ("--target 1 --quantity depth=1/x -o new.vtu", "The quantity depth is inf at x = 0, y = 0"),
+        ("--target 0.05 --quantity 1/x -o new.vtu", "The quantity is inf at x = 0, y = 0"),
+        ("--target 0.05 --quantity depth=1/x -o new.vtu", "The quantity depth is inf at x = 0, y = 0"),
     ] {
         folder.file("old.vtu", "old");
         assert_fails(&folder, &format!("mesh {options} -o old.vtu --json"), 1, sentence);
