@@ -80,8 +80,7 @@ pub static ROLES: [DataRole; 4] = [
     DataRole {
         place: 11,
         title: "Sea around this land",
-        sentence: "A new document opens. Its domain is the water around the land or beside the lines of coast, in metres \
-                   where the file says where on the Earth it is.",
+        sentence: "A new document opens. Its domain is the water around the land, or beside lines of coast.",
         kind: &OPEN_SEA,
         is_for: |contents| matches!(contents, DataContents::Shapes { .. }),
         refusal: |file, _| file.sea.as_ref().err().cloned(),
