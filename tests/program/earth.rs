@@ -480,3 +480,20 @@ fn bounds_are_in_the_coordinates_of_the_file() {
     refused("[domain]\nland = \"land.geojson\"\ninside = \"x\"\n", "by `land` or by `inside`, not by both");
     refused("[domain]\nsea = [1, 2]\n", "this is a place in the sea beside land");
 }
+
+/// A grid of longitudes and latitudes that makes the domain gives its unit, so that sizes in metres are
+/// refused.
+#[test]
+fn a_domain_from_grids_has_their_unit() {
+    let folder = Folder::new("earth-grid-unit");
+    let grid = "ncols 3\nnrows 2\nxllcorner 5\nyllcorner 50\ncellsize 0.5\n-10 -20 -30\n-10 -20 -30\n";
+    let degrees = r#"GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],UNIT["degree",0.0174532925199433]]"#;
+    folder.file("plain.asc", grid);
+    folder.file("degrees.asc", grid);
+    folder.file("degrees.prj", degrees);
+    let unit = |options: &str| folder.json("mesh", options)["unit"].clone();
+    assert_eq!(unit("--surface degrees.asc --max-error 5"), "degrees");
+    assert_ne!(unit("--surface plain.asc --max-error 5"), "degrees");
+    let ran = folder.run("mesh --depth degrees.asc --per-wavelength 20 --period 600");
+    assert!(ran.status != 0 && ran.err.contains("lengths of the domain are in degrees"), "{}", ran.err);
+}

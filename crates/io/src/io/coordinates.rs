@@ -46,6 +46,14 @@ impl FileCoordinates {
         }
     }
 
+    /// Returns the unit of coordinates where the file names their system.
+    pub fn stated_unit(&self) -> LengthUnit {
+        match self {
+            Self::Unstated { .. } => LengthUnit::None,
+            Self::Known(_) | Self::Foreign(_) => self.unit(),
+        }
+    }
+
     /// Returns the same, where the coordinates of a file that does not name a known system are `assumed`.
     pub(super) fn assuming(self, assumed: Option<Coordinates>) -> Self {
         self.on_earth(assumed).map_or(self, Self::Known)

@@ -13,7 +13,7 @@ use meshbrush_core::layers::{ShapeList, Threat};
 use meshbrush_core::raster::{Raster, RasterValues};
 use meshbrush_io::io::layers::{LoadedRaster, RasterFile, RasterFrame, RasterLoader};
 use meshbrush_io::io::shapes::ShapeFile;
-use meshbrush_io::io::{self, DocumentPlane, FileCoordinates, Meter, RasterFormat, recipe};
+use meshbrush_io::io::{self, DocumentPlane, Meter, RasterFormat, recipe};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
@@ -115,8 +115,7 @@ fn raster(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<Seen, Strin
     let preview = Preview::of_raster(raster, facts.values);
     let unit = match (&frame.plane, coordinates) {
         (Some(_), _) => LengthUnit::Metre,
-        (None, Some(stated @ (FileCoordinates::Known(_) | FileCoordinates::Foreign(_)))) => stated.unit(),
-        (None, _) => LengthUnit::None,
+        (None, coordinates) => coordinates.map_or(LengthUnit::None, |own| own.stated_unit()),
     };
     Ok(Seen { contents, extent, is_on_earth: false, unit, preview, sea: no_sea() })
 }

@@ -36,7 +36,7 @@ pub use check_layer::{CheckedKind, CheckedShapes, FindFile, Growth, Stored, comp
 pub use checks::{point, points, positive_length, rect_of, rings};
 pub use fill::{LayerData, TextError, in_direction};
 pub use keys::{check_keys, check_keys_of_all, kinds_with};
-pub use rasters::{LoadedRaster, RasterError, RasterFile, RasterFrame, RasterLoader};
+pub use rasters::{LoadedRaster, OwnPlace, RasterError, RasterFile, RasterFrame, RasterLoader};
 pub use saved::{SavedLayer, SavedPolygon, SavedShape, SavedThreat};
 pub use saved_lists::saved_polygon;
 pub use words::{

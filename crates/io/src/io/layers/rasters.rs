@@ -13,6 +13,7 @@ use super::super::{
 use meshbrush_core::field::{Transfer, f32_not_below};
 use meshbrush_core::raster::{Raster, RasterPyramid, RasterValues, check_values, projected_raster};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::text::LengthUnit;
 
 /// Why a raster cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -97,6 +98,22 @@ impl RasterFrame {
     }
 }
 
+/// Where a file itself says that it lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnPlace {
+    /// The rectangle that it covers.
+    pub rect: Rect,
+    /// What its coordinates are.
+    pub coordinates: Option<FileCoordinates>,
+}
+
+impl OwnPlace {
+    /// Returns the unit that the file states.
+    pub fn unit(&self) -> LengthUnit {
+        self.coordinates.map_or(LengthUnit::None, |coordinates| coordinates.stated_unit())
+    }
+}
+
 /// Reads rasters and checks their values. Layers that read the same file share its pixels.
 #[derive(Debug)]
 pub struct RasterLoader {
@@ -122,15 +139,17 @@ impl RasterLoader {
     ///
     /// # Errors
     /// Fails when the file is of no use.
-    pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<Rect>, ReadError> {
+    pub fn own_place(&mut self, file: &RasterFile) -> Result<Option<OwnPlace>, ReadError> {
         if let Some(grid) = self.given.grid(&file.path) {
-            return Ok(file.bounds.is_none().then(|| grid.raster.raster().bounds()));
+            let place =
+                || OwnPlace { rect: grid.raster.raster().bounds(), coordinates: Some(grid.coordinates) };
+            return Ok(file.bounds.is_none().then(place));
         }
         match (file.format.read(), file.bounds) {
             (ReadRaster::Grid(read), None) => {
                 let read = |meter: &Meter| Ok(read(&file.path, &GridPlace::default(), meter)?.into());
                 let loaded = self.read_once::<ReadError>((file.path.clone(), false), read)?;
-                Ok(Some(loaded.raster.raster().bounds()))
+                Ok(Some(OwnPlace { rect: loaded.raster.raster().bounds(), coordinates: loaded.coordinates }))
             }
             (ReadRaster::Grid(_), Some(_)) | (ReadRaster::Array(_) | ReadRaster::Image(_), _) => Ok(None),
         }

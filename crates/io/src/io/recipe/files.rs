@@ -321,12 +321,16 @@ impl Storage for Files<'_> {
         Ok(ReadRegion { domain, marks, unit: LengthUnit::Metre })
     }
 
-    fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<Rect>, LoadError> {
-        let mut extent: Option<Rect> = None;
+    fn extent(&mut self, layers: &[SavedLayer]) -> Result<Option<(Rect, LengthUnit)>, LoadError> {
+        let mut extent: Option<(Rect, LengthUnit)> = None;
         let of_rasters = layers.iter().filter(|layer| layer.visible && layer.raster_values().is_some());
         for layer in of_rasters {
             let place = self.rasters.own_place(&layer.raster_file()?)?;
-            extent = place.into_iter().chain(extent).reduce(|a, b| a.union(&b));
+            let place = place.map(|place| (place.rect, place.unit()));
+            let both = |(a, of_a): (Rect, LengthUnit), (b, of_b)| {
+                (a.union(&b), if of_a == of_b { of_a } else { LengthUnit::None })
+            };
+            extent = place.into_iter().chain(extent).reduce(both);
         }
         Ok(extent)
     }

@@ -95,11 +95,12 @@ pub trait Storage {
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, Self::Error>;
 
-    /// Returns the rectangle of the rasters of layers, in world units: the domain where no key says it.
+    /// Returns the rectangle of the rasters of layers, in world units, and the unit that they state: the
+    /// domain where no key says it.
     ///
     /// # Errors
     /// Fails when they cannot be read.
-    fn extent(&mut self, layers: &[Self::Layer]) -> Result<Option<Rect>, Self::Error>;
+    fn extent(&mut self, layers: &[Self::Layer]) -> Result<Option<(Rect, LengthUnit)>, Self::Error>;
 
     /// Returns the layer with its data, or `None` where it is left out. `number` counts the layers from 0.
     ///
@@ -200,12 +201,12 @@ impl<L> SavedSettings<L> {
         if let Some(file) = self.domain.outline_file() {
             return storage.region(file, bounds, &self.domain.coordinates()?);
         }
-        let bounds = match bounds {
-            Some(bounds) => bounds,
-            None => storage.extent(&self.layer)?.unwrap_or(Rect::UNIT),
+        let (bounds, unit) = match bounds {
+            Some(bounds) => (bounds, LengthUnit::None),
+            None => storage.extent(&self.layer)?.unwrap_or((Rect::UNIT, LengthUnit::None)),
         };
         let shape = self.domain.formula()?.map_or(DomainShape::Whole, DomainShape::Formula);
-        let (marks, unit) = (BoundaryMarks::default(), LengthUnit::None);
+        let marks = BoundaryMarks::default();
         Ok(ReadRegion { domain: Domain { bounds, shape, projection: None }, marks, unit })
     }
 
