@@ -8,7 +8,7 @@ use crate::field::Transfer;
 use crate::geometry::{Lattice, LatticePoint, Octagon};
 
 /// Most squares of the coarse grid that layers are asked about.
-const MOST_SQUARES: u64 = 50_000;
+const MOST_SQUARES: u64 = 10_000;
 
 impl SizeField {
     /// Returns the visible layers that change nothing: nowhere do they ask for less than the diameter of the

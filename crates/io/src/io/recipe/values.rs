@@ -13,7 +13,7 @@ use super::notes::notes_on;
 use super::{LoadError, Loaded, Loading, Recipe, found_in};
 use meshbrush_core::document::{Document, Settings};
 use meshbrush_core::earth::Coordinates;
-use meshbrush_core::layers::{Layer, LayerId, PaintLayers};
+use meshbrush_core::layers::{Layer, LayerId, LayerKind, PaintLayers};
 use meshbrush_core::raster::TiledRaster;
 use meshbrush_mesh::text::{LengthUnit, abridged};
 
@@ -145,8 +145,9 @@ impl SavedLayer {
         loading: &Loading,
     ) -> Result<LoadedLayer, LoadError> {
         let loaded = Files::for_document(settings, assumed, loading).one_layer(self, id)?;
-        // A formula uses the depths of other layers.
-        let others = settings.layers.iter().filter(|layer| layer.id != id).cloned();
+        // A formula uses the depths of other layers; the rest would be asked again with every layer.
+        let gives_depths = |layer: &&Layer| layer.id != id && matches!(layer.kind, LayerKind::Depth(_));
+        let others = settings.layers.iter().filter(gives_depths).cloned();
         let layers = others.chain([loaded.layer.clone()]).collect();
         let with_layer = Settings { layers, ..settings.clone() };
         let notes = notes_on(&with_layer, PaintLayers::blank(), true, |layer| layer.id == id);
