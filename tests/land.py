@@ -59,7 +59,7 @@ def wrapped(at):
 
 def split_at_antimeridian(polygon):
     """Returns the parts on both sides of 180°, as RFC 7946 has them."""
-    for turn in (0, 360):
+    for turn in (-360, 0, 360):
         moved = affinity.translate(polygon.intersection(box(-180 + turn, -90, 180 + turn, 90)), -turn)
         yield from (part for part in getattr(moved, "geoms", [moved]) if part.area > 0)
 
@@ -116,6 +116,13 @@ def check(folder, rng, number):
     assert code == 0, told
     answer = json.loads(out)
     assert close(answer["region_area"], sea.area), f"{told}\n{answer['region_area']} for {sea.area}"
+    # The same part of a larger sea.
+    around = affinity.scale(frame, 3, 2).intersection(box(-400, -90, 400, 90)).difference(unary_union(land))
+    parts = [part for polygon in getattr(around, "geoms", [around]) for part in split_at_antimeridian(polygon)]
+    (folder / "sea.geojson").write_text(json.dumps({"type": "GeometryCollection", "geometries": [mapping(part) for part in parts]}))
+    code, out, error = mesh(folder, "--region", "sea.geojson", *options[2:])
+    assert code == 0, f"{told}\n{error}"
+    assert close(json.loads(out)["region_area"], sea.area), f"{told}\nas a region: {json.loads(out)['region_area']} for {sea.area}"
     boundary = unary_union([sea.boundary])
     on_frame = boundary.intersection(frame.boundary.buffer(1e-9 * width)).length
     lengths = {kind: sum(piece["length"] for piece in answer["boundary"] if piece["type"] == kind) for kind in ("open", "land", "island")}
@@ -145,6 +152,9 @@ def check_sentences(folder):
         (folder / "land.geojson").write_text(json.dumps(shape))
         code, _, error = mesh(folder, "--land", "land.geojson", *box_of)
         assert (code != 0 and expected.lower() in error.lower()) or (expected.startswith("name a") and code == 0), f"{code} {error}"
+    (folder / "plane.geojson").write_text(json.dumps(mapping(box(0, 0, 900, 700))))
+    code, _, error = mesh(folder, "--region", "plane.geojson", "--bounds=100,0,50,10", "--spacing", "5")
+    assert code != 0 and "the east of the bounds, 50, is less than their west, 100" in error, f"{code} {error}"
     code, out, _ = mesh(folder, "--land", "land.geojson", *box_of, "--sea", "0.5,0.5")
     assert code != 0, out
 

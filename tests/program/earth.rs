@@ -497,3 +497,28 @@ fn a_domain_from_grids_has_their_unit() {
     let ran = folder.run("mesh --depth degrees.asc --per-wavelength 20 --period 600");
     assert!(ran.status != 0 && ran.err.contains("lengths of the domain are in degrees"), "{}", ran.err);
 }
+
+/// Bounds beside a grid of longitudes and latitudes may also be metres in the plane of a projection.
+#[test]
+fn bounds_of_a_contour_may_be_in_the_plane_of_the_mesh() {
+    let folder = Folder::new("earth-contour-bounds");
+    let row = "-10 -20 -30 -40\n";
+    folder.file(
+        "sea.asc",
+        format!("ncols 4\nnrows 4\nxllcorner 5\nyllcorner 50\ncellsize 0.5\n{}", row.repeat(4)),
+    );
+    let plane = "+proj=merc +lon_0=6 +ellps=WGS84 +units=m";
+    let recipe = |bounds: &str| {
+        let domain =
+            format!("region = \"sea.asc\"\ncontour = 0\ncrs = \"lonlat\"\nprojection = \"{plane}\"\n");
+        folder.file("r.toml", format!("[domain]\n{domain}bounds = {bounds}\n[mesh]\nspacing = \"10 km\"\n"));
+        folder.json("mesh", "r.toml")["region_area"].as_f64().unwrap()
+    };
+    // At 50.5° N, a length in this plane is 1.571 times that on the ellipsoid.
+    let in_plane = recipe("[-20000, 6480000, 20000, 6520000]");
+    assert!((in_plane / 1.6e9 * 1.571 * 1.571 - 1.0).abs() < 1e-2, "{in_plane}");
+    let width = on_the_ellipsoid([5.5, 51.0], [6.5, 51.0]);
+    let height = on_the_ellipsoid([5.5, 50.5], [5.5, 51.5]);
+    let in_degrees = recipe("[5.5, 50.5, 6.5, 51.5]");
+    assert!((in_degrees / (width * height) - 1.0).abs() < 1e-2, "{in_degrees}");
+}

@@ -208,7 +208,7 @@ fn differences(
         }
         let corners =
             triangle.vertices.map(|node| mesh.lattice().world_from_lattice(mesh.nodes()[node.index()]));
-        let around = corners.map(|at| Rect::new(at, at)).into_iter().reduce(|a, b| a.union(&b))?;
+        let around = Rect::holding(corners)?;
         if around.intersection(&bounds).is_none() {
             continue;
         }

@@ -182,7 +182,7 @@ impl Input {
         // Without a memory budget, the mesh may take what its triangles take.
         let usual = Usual { most_coarse, max_triangles: USUAL_BUDGET, max_memory: usize::MAX };
         let loading =
-            Loading { usual, with_hidden: false, read_outline, read_shapes, ..Loading::for_document(meter) };
+            Loading { usual, with_hidden: false, read_outline, read_land, ..Loading::for_document(meter) };
         Ok(terminal.while_metered("reading", meter, || self.settings.load_files("", &loading))?)
     }
 }
@@ -263,7 +263,7 @@ fn read_outline(path: &Path, meter: &Meter) -> Result<Outline, ReadError> {
 }
 
 /// Reads land, from standard input where the file is `-`.
-fn read_shapes(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<ShapeFile, ReadError> {
+fn read_land(path: &Path, wanted: Option<Rect>, meter: &Meter) -> Result<ShapeFile, ReadError> {
     match is_standard_stream(path) {
         true => shapes::read_from(stdin().lock(), Path::new("standard input")),
         false => shape_format::read_own_shapes(path, wanted, meter),

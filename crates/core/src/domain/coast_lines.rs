@@ -71,11 +71,14 @@ impl CoastLines {
 /// side.
 fn place_on_frame(at: DVec2, frame: &Rect) -> f64 {
     let share = (at - frame.min) / frame.size();
-    match () {
-        () if at.y == frame.min.y => share.x,
-        () if at.x == frame.max.x => 1.0 + share.y,
-        () if at.y == frame.max.y => 3.0 - share.x,
-        () => (4.0 - share.y).rem_euclid(4.0),
+    if at.y == frame.min.y {
+        share.x
+    } else if at.x == frame.max.x {
+        1.0 + share.y
+    } else if at.y == frame.max.y {
+        3.0 - share.x
+    } else {
+        (4.0 - share.y).rem_euclid(4.0)
     }
 }
 

@@ -193,7 +193,7 @@ fn inner(frame: &CutFrame) -> Option<Rect> {
     let along = |from: DVec2, to: DVec2| {
         let share = |n: u32| f64::from(n) / f64::from(POINTS_OF_SIDE);
         let places = (0..=POINTS_OF_SIDE).map(move |n| frame.world(from.lerp(to, share(n))));
-        places.map(|at| Rect::new(at, at)).reduce(|a, b| a.union(&b)).expect("a side has points")
+        Rect::holding(places).expect("a side has points")
     };
     let [low, high] = [DVec2::new(max.x, min.y), DVec2::new(min.x, max.y)];
     let [south, east, north, west] = [along(min, low), along(low, max), along(high, max), along(min, high)];

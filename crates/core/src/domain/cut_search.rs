@@ -145,7 +145,7 @@ impl Local {
     fn frame(&self, eastward: DVec2) -> Option<CutFrame> {
         let turn = DVec2::new(eastward.x, -eastward.y);
         let places = self.rings.iter().flatten().map(|&at| turn.rotate(at));
-        let rect = places.map(|at| Rect::new(at, at)).reduce(|a, b| a.union(&b))?;
+        let rect = Rect::holding(places)?;
         rect.is_proper().then_some(CutFrame { coordinates: self.system, eastward, rect })
     }
 
@@ -251,7 +251,7 @@ fn longest_parts(local: &Local, sides: &[Vec<Option<FrameSide>>]) -> [f64; 2] {
 
 /// Returns the straight parts of a ring: the numbers of the first corner and of the last one.
 fn straight_parts(ring: &Ring) -> Vec<(usize, usize)> {
-    let bounds = ring.iter().map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b));
+    let bounds = Rect::holding(ring.iter().copied());
     let tolerance = STRAIGHT * bounds.map_or(0.0, |bounds| bounds.size().max_element());
     let goes_on = |start: usize, end: usize| {
         let chord = at(ring, end + 1) - at(ring, start);

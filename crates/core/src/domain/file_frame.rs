@@ -3,6 +3,8 @@
 //! Longitudes go round the Earth: a shape counts wherever it is in the frame after whole turns, so that a
 //! frame from 170° to 190° meets shapes on both sides of the antimeridian.
 
+use std::borrow::Cow;
+
 use glam::DVec2;
 
 use super::boundary::NamedPolygon;
@@ -39,7 +41,7 @@ impl FileFrame {
                 let GeographicExtent { west, width, south, north, .. } = GeographicExtent::of_rings(rings)?;
                 Rect::new(DVec2::new(west, south), DVec2::new(west + width, north))
             }
-            false => rings.flatten().map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b))?,
+            false => Rect::holding(rings.flatten().copied())?,
         };
         let margin = if has_margin { MARGIN * rect.size().max_element() } else { 0.0 };
         let mut grown = Rect::new(rect.min - margin, rect.max + margin);
@@ -86,18 +88,13 @@ impl FileFrame {
         let surroundings = self.surroundings();
         let mut within = Vec::new();
         for rings in polygons {
-            let Some(extent) = rings.first().and_then(|ring| extent_of(ring)) else { continue };
-            // Most polygons of a large file are far away.
-            if !self.in_degrees && extent.intersection(&self.rect).is_none() {
-                continue;
-            }
-            let rings: Vec<Ring> = rings.iter().map(|ring| self.in_one_piece(ring)).collect();
-            for turn in self.turns(&rings[0]) {
-                let moved = rings.iter().map(|ring| clipped_to(&moved(ring, turn), &surroundings));
-                let mut moved: Polygon = moved.collect();
-                if moved[0].len() > 2 {
-                    moved.retain(|ring| ring.len() > 2);
-                    within.push(moved);
+            let Some(outer) = rings.first() else { continue };
+            for turn in self.turns(&self.in_one_piece(outer)) {
+                let part = |ring: &Ring| clipped_to(&moved(&self.in_one_piece(ring), turn), &surroundings);
+                let mut parts: Polygon = rings.iter().map(part).collect();
+                if parts[0].len() > 2 {
+                    parts.retain(|ring| ring.len() > 2);
+                    within.push(parts);
                 }
             }
         }
@@ -108,10 +105,7 @@ impl FileFrame {
     pub(super) fn lines_within(&self, lines: &[Vec<DVec2>]) -> Vec<Vec<DVec2>> {
         let mut within = Vec::new();
         for line in lines {
-            let line = match self.in_degrees {
-                true => without_jumps(line),
-                false => line.clone(),
-            };
+            let line = if self.in_degrees { Cow::Owned(without_jumps(line)) } else { Cow::Borrowed(&**line) };
             within.extend(self.turns(&line).map(|turn| moved(&line, turn)));
         }
         within
@@ -119,7 +113,7 @@ impl FileFrame {
 
     /// Returns the longitudes by which a shape is moved to meet the frame.
     fn turns(&self, points: &[DVec2]) -> impl Iterator<Item = f64> {
-        let extent = extent_of(points);
+        let extent = Rect::holding(points.iter().copied());
         let is_met = move |extent: Rect, turn: f64| {
             let offset = DVec2::new(turn, 0.0);
             Rect::new(extent.min + offset, extent.max + offset).intersection(&self.rect).is_some()
@@ -137,14 +131,11 @@ impl FileFrame {
 
     /// Returns a ring of longitudes and latitudes without jumps from one side of the antimeridian to the
     /// other. A ring around a pole stays as it is: files cut it along the antimeridian.
-    fn in_one_piece(&self, ring: &[DVec2]) -> Ring {
-        if !self.in_degrees {
-            return ring.to_vec();
-        }
-        let joined = without_jumps(ring);
+    fn in_one_piece<'a>(&self, ring: &'a [DVec2]) -> Cow<'a, [DVec2]> {
+        let joined = if self.in_degrees { without_jumps(ring) } else { Vec::new() };
         match (joined.first(), joined.last()) {
-            (Some(first), Some(last)) if !is_jump(*last, *first) => joined,
-            _ => ring.to_vec(),
+            (Some(first), Some(last)) if !is_jump(*last, *first) => Cow::Owned(joined),
+            _ => Cow::Borrowed(ring),
         }
     }
 
@@ -177,10 +168,6 @@ fn without_jumps(points: &[DVec2]) -> Vec<DVec2> {
 
 fn moved(points: &[DVec2], turn: f64) -> Vec<DVec2> {
     points.iter().map(|&at| DVec2::new(at.x + turn, at.y)).collect()
-}
-
-fn extent_of(points: &[DVec2]) -> Option<Rect> {
-    points.iter().map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b))
 }
 
 /// Returns a ring clipped to a rectangle, side by side (Sutherland and Hodgman): parts of it can run along

@@ -150,8 +150,8 @@ impl Domain {
         polygons: &[Polygon],
         on_earth: &OutlineOnEarth,
     ) -> Result<Self, RegionError> {
-        let points = polygons.iter().flatten().flatten().map(|&p| Rect::new(p, p));
-        let bounds = points.reduce(|a, b| a.union(&b)).ok_or(RegionError::NoArea)?;
+        let corners = polygons.iter().flatten().flatten().copied();
+        let bounds = Rect::holding(corners).ok_or(RegionError::NoArea)?;
         if !bounds.is_proper() {
             let is_flat = bounds.size().min_element() == 0.0;
             return Err(if is_flat { RegionError::NoArea } else { RegionError::Extent });

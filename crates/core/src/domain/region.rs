@@ -101,8 +101,7 @@ impl Region {
     /// Returns the region with the rectangles that cut it: its frame, if that was chosen and is not just the
     /// bounding rectangle; and the one by which its outline was cut before.
     pub(super) fn on_earth(self, on_earth: &OutlineOnEarth) -> Self {
-        let points = self.rings().flatten();
-        let bounds = points.map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
+        let bounds = Rect::holding(self.rings().flatten().copied());
         let chosen = (bounds != Some(self.frame)).then(|| CutFrame::of_world(self.frame));
         if on_earth.frame.is_some() {
             let known = CutFrame::of_region(&self, on_earth);

@@ -19,7 +19,7 @@ use super::complexity::check_complexity;
 use super::file_frame::FileFrame;
 use super::region::corners;
 use super::{Polygon, Region, RegionError, Ring};
-use crate::geometry::{NumberSet, signed_area};
+use crate::geometry::{NumberSet, is_around, signed_area};
 use crate::text::{Grouped, Number};
 
 /// The share of the length of lines that agrees, at least, on which side is the sea.
@@ -163,14 +163,14 @@ impl FileFrame {
         if covered.is_empty() && lines.is_empty() {
             return Err(SeaError::NoLand { frame: *self });
         }
+        let whole = Region::new(&[vec![corners(&self.rect)]], self.rect);
         let mut decided = None;
         if !lines.is_empty() {
-            let (beside_lines, side) = self.land_beside(&lines, land.sea_at)?;
+            let (beside_lines, side) = self.land_beside(&lines, land.sea_at, &whole)?;
             (covered, decided) = ([covered, beside_lines].concat(), side);
             covered = Region::covered(&covered, self.rect);
         }
         let rings: Vec<Ring> = covered.into_iter().flatten().collect();
-        let whole = Region::new(&[vec![corners(&self.rect)]], self.rect);
         let sea = whole.overlaid(&rings, OverlayRule::Difference, FillRule::NonZero);
         match sea.is_empty() {
             true => Err(SeaError::NoSea),
@@ -178,11 +178,12 @@ impl FileFrame {
         }
     }
 
-    /// Returns the land beside lines, and how their sides were told apart.
+    /// Returns the land beside lines in the `whole` frame, and how their sides were told apart.
     fn land_beside(
         &self,
         lines: &CoastLines,
         sea_at: Option<DVec2>,
+        whole: &Region,
     ) -> Result<(Vec<Polygon>, Option<WaterSide>), SeaError> {
         if !lines.loose_ends.is_empty() {
             return Err(SeaError::LooseEnds { ends: lines.loose_ends.clone() });
@@ -192,7 +193,6 @@ impl FileFrame {
         let crossing: Vec<Ring> = lines.closed_along_frame(&self.rect).iter().map(snapped).collect();
         let rings = [closed.clone(), crossing].concat();
         check_complexity(&rings.iter().map(|ring| vec![ring.clone()]).collect::<Vec<_>>(), &self.rect)?;
-        let whole = Region::new(&[vec![corners(&self.rect)]], self.rect);
         let odd = whole.overlaid(&rings, OverlayRule::Intersect, FillRule::EvenOdd);
         let sides = Sides::of(&odd);
         let (odd_is_land, side) = match sea_at {
@@ -217,11 +217,7 @@ impl FileFrame {
 
 /// Returns whether rings enclose a point an odd number of times.
 fn is_odd(rings: &[Ring], at: DVec2) -> bool {
-    let edges = rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-    let crossings = edges.filter(|&(&a, &b)| {
-        (a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    });
-    crossings.count() % 2 == 1
+    rings.iter().filter(|ring| is_around(ring, at)).count() % 2 == 1
 }
 
 /// The edges of a region, with the region to their left.

@@ -62,8 +62,7 @@ impl GeographicExtent {
         if coordinates.are_degrees() {
             return Self::of_rings(rings);
         }
-        let corners = rings.flatten().map(|&at| Rect::new(at, at));
-        Self::of_rectangle(coordinates, corners.reduce(|a, b| a.union(&b))?)
+        Self::of_rectangle(coordinates, Rect::holding(rings.flatten().copied())?)
     }
 
     /// Returns the extent of a rectangle of coordinates.

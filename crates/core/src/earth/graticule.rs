@@ -54,8 +54,7 @@ fn extent(plane: EarthPlane, area: Rect) -> Option<Rect> {
         (0..=SAMPLES).flat_map(|row| (0..=SAMPLES).map(move |column| dvec2(share(column), share(row))));
     let geographic = places.map(|share| projection.geographic_from_plane(area.min + share * area.size()));
     let unwrapped = geographic.map(|at| dvec2(middle + wrapped(at.x - middle), at.y));
-    let known = unwrapped.filter(|at| at.is_finite()).map(|at| Rect::new(at, at));
-    known.reduce(|a, b| a.union(&b))
+    Rect::holding(unwrapped.filter(|at| at.is_finite()))
 }
 
 /// Returns the multiples of a round step in a range of degrees, in minutes of arc, and the step.

@@ -49,8 +49,8 @@ impl Reprojection {
         let sides = (0..=POINTS_OF_SIDE).map(share).flat_map(|s| {
             [dvec2(s, 0.0), dvec2(s, 1.0), dvec2(0.0, s), dvec2(1.0, s)].map(|share| area.min + share * size)
         });
-        let places = sides.map(|at| self.from_plane(at)).map(|at| Rect::new(at, at));
-        let around = places.reduce(|a, b| a.union(&b)).filter(|around| around.size().is_finite())?;
+        let places = sides.map(|at| self.from_plane(at));
+        let around = Rect::holding(places).filter(|around| around.size().is_finite())?;
         // The sides bulge between their points.
         let margin = around.size() / f64::from(POINTS_OF_SIDE);
         Some(Rect::new(around.min - margin, around.max + margin))

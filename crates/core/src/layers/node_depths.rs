@@ -145,7 +145,7 @@ impl DepthSurface<'_> {
     /// Compares a triangle with the pixels whose centres are in it.
     fn compare(&self, corners: [DVec2; 3], values: [f64; 3]) -> Sums {
         let mut sums = Sums::default();
-        let bounds = corners.map(|at| Rect::new(at, at)).into_iter().reduce(|a, b| a.union(&b));
+        let bounds = Rect::holding(corners);
         let Some(bounds) = bounds else { return sums };
         for (place, (layer, depths)) in self.0.iter().enumerate() {
             let raster = depths.source().raster.raster();

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use glam::DVec2;
 
 use super::straits::StraitDisc;
-use crate::domain::{BoundaryMarks, Coasts, Domain};
+use crate::domain::{BoundaryMarks, Coasts, Domain, corners};
 use crate::geometry::{BoxTree, Rect, nearest_on_segment};
 
 /// The length of a crossing, at least, as a share of the width of the disc that touches its ends.
@@ -87,7 +87,10 @@ impl Water {
         }
         let boundary: Vec<[DVec2; 2]> = match domain.region() {
             Some(region) => region.edges().collect(),
-            None => sides(domain.bounds).to_vec(),
+            None => {
+                let corners = corners(&domain.bounds);
+                corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| [a, b]).collect()
+            }
         };
         let coast_tree = tree_of(coasts.edges.iter().map(|edge| edge.ends));
         let boundary_tree = tree_of(boundary.iter().copied());
@@ -200,12 +203,6 @@ impl Water {
 
 fn tree_of(edges: impl Iterator<Item = [DVec2; 2]>) -> BoxTree {
     BoxTree::new(&edges.map(|[a, b]| Rect::spanning(a, b)).collect::<Vec<Rect>>())
-}
-
-fn sides(rect: Rect) -> [[DVec2; 2]; 4] {
-    let (min, max) = (rect.min, rect.max);
-    let corners = [min, DVec2::new(max.x, min.y), max, DVec2::new(min.x, max.y)];
-    [0, 1, 2, 3].map(|n| [corners[n], corners[(n + 1) % 4]])
 }
 
 fn length([from, to]: [DVec2; 2]) -> f64 {

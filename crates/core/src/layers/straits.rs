@@ -125,8 +125,7 @@ impl StraitDiscs {
             discs.iter().map(|disc| Rect::around(disc.center, reach(disc, in_plane))).collect();
         let tree = BoxTree::new(&boxes);
         let least = tree.all_joined(|disc| discs[disc as usize].width, (f64::INFINITY, f64::min));
-        let middles = discs.iter().map(|disc| Rect::new(disc.center, disc.center));
-        let middles = middles.reduce(|all, one| all.union(&one));
+        let middles = Rect::holding(discs.iter().map(|disc| disc.center));
         let narrowest = OnceLock::new();
         Self(Arc::new(Indexed { region, marks, between, in_plane, discs, middles, tree, least, narrowest }))
     }

@@ -214,7 +214,7 @@ impl PathMesh {
 
     /// Returns the rectangle around all nodes.
     pub(super) fn extent(&self) -> Option<Rect> {
-        self.nodes.iter().map(|&p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
+        Rect::holding(self.nodes.iter().copied())
     }
 
     /// Forgets what was derived from the triangles, after they changed.

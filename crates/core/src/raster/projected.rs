@@ -183,9 +183,8 @@ impl Source<'_> {
         let samples = || (0..SAMPLES * SAMPLES).map(|n| dvec2(share(n % SAMPLES), share(n / SAMPLES)));
         let Rect { min, max } = self.bounds;
         let in_plane = samples().map(|share| self.reprojection.in_plane(min + share * (max - min)));
-        let in_plane = in_plane.filter(|at| at.is_finite()).map(|at| Rect::new(at, at));
         // The samples of a curved side do not reach its bulge.
-        let covered = in_plane.reduce(|a, b| a.union(&b))?;
+        let covered = Rect::holding(in_plane.filter(|at| at.is_finite()))?;
         let margin = DVec2::splat(covered.size().max_element() / f64::from(SAMPLES - 1));
         let covered = Rect::new(covered.min - margin, covered.max + margin);
         let bounds = covered.intersection(&area).filter(Rect::is_proper)?;
@@ -237,7 +236,7 @@ mod tests {
         let share = |n: u32| f64::from(n) / 20.0;
         let at = |n: u32| dvec2(west + share(n % 21) * width, south + share(n / 21) * (north - south));
         let places = (0..441).map(|n| projection.plane_from_geographic(at(n)));
-        places.map(|at| Rect::new(at, at)).reduce(|a, b| a.union(&b)).unwrap()
+        Rect::holding(places).unwrap()
     }
 
     fn linear(at: DVec2) -> f64 {

@@ -79,7 +79,7 @@ pub fn write(out: &mut impl Write, mesh: &Extract, data: &MeshData) -> io::Resul
 
 impl Model {
     fn new(mesh: &Extract, data: &MeshData) -> Self {
-        let bounds = mesh.world_nodes().map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b));
+        let bounds = Rect::holding(mesh.world_nodes());
         let middle = bounds.map_or(DVec2::ZERO, |bounds| bounds.center());
         let heights = (0..mesh.nodes().len()).map(|node| data.height(node));
         let [lowest, highest] =

@@ -236,7 +236,7 @@ impl Curve {
             let nodes = edges.iter().flat_map(|edge| edge.ends);
             let heights = height_range(data, nodes.clone());
             let points = nodes.map(|node| mesh.world(NodeId::from_index(node)));
-            let bounds = points.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))?;
+            let bounds = Rect::holding(points)?;
             Some(Self { piece, edges, bounds, heights })
         };
         edges.into_iter().enumerate().filter_map(curve).collect()

@@ -17,7 +17,7 @@ use super::shape_format::ShapeFormatSpec;
 use super::shapes::{self, ShapeFile};
 use meshbrush_core::domain::{NamedPolygon, Polygon, Ring, signed_area};
 use meshbrush_core::layers::ShapeList;
-use meshbrush_mesh::geometry::Rect;
+use meshbrush_mesh::geometry::{Rect, is_around};
 use meshbrush_mesh::text::Grouped;
 
 /// The format, for the list of all formats of shapes.
@@ -325,15 +325,6 @@ fn point_inside(ring: &[DVec2]) -> DVec2 {
     crossings.sort_by(f64::total_cmp);
     let within = crossings.chunks_exact(2).max_by(|a, b| gap(a).total_cmp(&gap(b)));
     within.map_or(ring[0], |pair| dvec2(0.5 * (pair[0] + pair[1]), y))
-}
-
-/// Returns whether a ring runs around a point, counting the edges to the right of it.
-fn is_around(ring: &[DVec2], point: DVec2) -> bool {
-    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
-    let crossed = edges.filter(|(a, b)| {
-        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    });
-    crossed.count() % 2 == 1
 }
 
 #[cfg(test)]

@@ -26,6 +26,6 @@ pub use number_map::{NumberMap, NumberSet};
 pub use octagon::Octagon;
 pub use predicates::{Side, exact_sum_sign, side_of_edge, side_of_line, side_of_points};
 pub use rect::Rect;
-pub use ring::signed_area;
+pub use ring::{is_around, signed_area};
 pub use segment::{nearest_on_segment, nearest_share};
 pub use z_order::{interleaved, z_order};

@@ -31,6 +31,11 @@ impl Rect {
         Self::new(a.min(b), a.max(b))
     }
 
+    /// Returns the smallest rectangle that holds all points; `None` without points.
+    pub fn holding(points: impl IntoIterator<Item = DVec2>) -> Option<Self> {
+        points.into_iter().map(|point| Self::new(point, point)).reduce(|a, b| a.union(&b))
+    }
+
     /// Returns the square of half side `radius` about `centre`.
     pub fn around(centre: DVec2, radius: f64) -> Self {
         Self::new(centre - DVec2::splat(radius), centre + DVec2::splat(radius))

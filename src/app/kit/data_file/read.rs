@@ -42,37 +42,12 @@ fn read(path: &Path, frame: &RasterFrame, meter: &Meter) -> Result<DataFile, Str
         Err(_) if is_table => table(path, meter)?,
         Err(_) => shapes(path, frame.plane.as_ref(), meter)?,
     };
-    let Seen { contents, extent, is_on_earth, unit, preview, sea } = seen;
-    Ok(DataFile {
-        path: path.to_owned(),
-        bytes: io::disk::bytes_of(path),
-        contents,
-        extent,
-        is_on_earth,
-        unit,
-        preview,
-        sea,
-        is_opened: false,
-    })
+    Ok(seen.of_file(path, false))
 }
 
 /// Returns shapes that were read, to ask how the document is to be that opens with them.
 pub fn seen_shapes(path: &Path, file: &ShapeFile) -> DataFile {
-    let ShapeList { points, lines, polygons } = &file.shapes;
-    let contents =
-        DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
-    let Seen { contents, extent, unit, preview, .. } = drawn(contents, &file.shapes, file.coordinates.unit());
-    DataFile {
-        path: path.to_owned(),
-        bytes: io::disk::bytes_of(path),
-        contents,
-        extent,
-        is_on_earth: file.coordinates.on_earth(None).is_some(),
-        unit,
-        preview,
-        sea: drawn_sea(path, file),
-        is_opened: true,
-    }
+    shapes_of(path, file).of_file(path, true)
 }
 
 /// What was seen of a file.
@@ -85,6 +60,14 @@ struct Seen {
     sea: Result<Preview, String>,
 }
 
+impl Seen {
+    fn of_file(self, path: &Path, is_opened: bool) -> DataFile {
+        let Self { contents, extent, is_on_earth, unit, preview, sea } = self;
+        let (path, bytes) = (path.to_owned(), io::disk::bytes_of(path));
+        DataFile { path, bytes, contents, extent, is_on_earth, unit, preview, sea, is_opened }
+    }
+}
+
 /// Why nothing but shapes leaves a sea.
 fn no_sea() -> Result<Preview, String> {
     Err("The file has neither polygons of land nor lines of coast.".into())
@@ -94,8 +77,7 @@ fn no_sea() -> Result<Preview, String> {
 fn drawn_sea(path: &Path, file: &ShapeFile) -> Result<Preview, String> {
     let sea = recipe::sea_of_land(path, file, None, None, None).map_err(|error| error.to_string())?;
     let polygons: Vec<_> = sea.source.outline.polygons.into_iter().map(|named| named.polygon).collect();
-    let corners = polygons.iter().flatten().flatten().map(|&at| Rect::new(at, at));
-    let extent = corners.reduce(|a, b| a.union(&b)).unwrap_or(Rect::UNIT);
+    let extent = Rect::holding(polygons.iter().flatten().flatten().copied()).unwrap_or(Rect::UNIT);
     Ok(Preview::of_shapes(&ShapeList { polygons, ..ShapeList::default() }, extent))
 }
 
@@ -132,12 +114,15 @@ fn facts(raster: &Raster) -> RasterFacts {
 
 fn shapes(path: &Path, plane: Option<&DocumentPlane>, meter: &Meter) -> Result<Seen, String> {
     let file = io::shape_format::read_shapes(path, plane, meter).map_err(|error| error.to_string())?;
+    Ok(shapes_of(path, &file))
+}
+
+fn shapes_of(path: &Path, file: &ShapeFile) -> Seen {
     let ShapeList { points, lines, polygons } = &file.shapes;
     let contents =
         DataContents::Shapes { points: points.len(), lines: lines.len(), polygons: polygons.len() };
     let is_on_earth = file.coordinates.on_earth(None).is_some();
-    let sea = drawn_sea(path, &file);
-    Ok(Seen { is_on_earth, sea, ..drawn(contents, &file.shapes, file.coordinates.unit()) })
+    Seen { is_on_earth, sea: drawn_sea(path, file), ..drawn(contents, &file.shapes, file.coordinates.unit()) }
 }
 
 /// A table of threats, or else of points.
@@ -169,8 +154,7 @@ fn circles(threats: &[Threat]) -> ShapeList {
 
 fn drawn(contents: DataContents, shapes: &ShapeList, unit: LengthUnit) -> Seen {
     let rings = shapes.lines.iter().chain(shapes.polygons.iter().flatten()).flatten();
-    let all = shapes.points.iter().chain(rings);
-    let extent = all.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b));
+    let extent = Rect::holding(shapes.points.iter().chain(rings).copied());
     let preview = Preview::of_shapes(shapes, extent.unwrap_or(Rect::UNIT));
     Seen { contents, extent, is_on_earth: false, unit, preview, sea: no_sea() }
 }

@@ -17,7 +17,7 @@ impl BoundaryPieces {
     /// two-thousandth of the extent of the boundary can be missed.
     pub fn opened(&self, marks: &BoundaryMarks, is_open: impl Fn(DVec2) -> bool) -> Option<BoundaryMarks> {
         let points = self.list().iter().flat_map(|piece| &piece.points);
-        let extent = points.map(|&at| Rect::new(at, at)).reduce(|a, b| a.union(&b))?;
+        let extent = Rect::holding(points.copied())?;
         let step = STEP * extent.size().max_element();
         let mut opened = marks.clone();
         let (mut types, mut is_met) = (Vec::new(), false);

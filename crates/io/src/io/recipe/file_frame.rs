@@ -23,8 +23,9 @@ pub struct OutlineSource {
     pub frame: Option<FileFrame>,
 }
 
-/// Returns the part of polygons in `bounds`, where these are in the coordinates of the file and that is not
-/// the plane of the mesh: there, the bounds of the domain clip the polygons without moving a corner.
+/// Returns the part of polygons in `bounds`, where these are in the coordinates of the file and the domain
+/// cannot clip to them: where the mesh is in another plane, and beyond 180°, where polygons count after whole
+/// turns. Otherwise the domain clips the polygons, and moves no corner.
 ///
 /// # Errors
 /// Fails when nothing is in the bounds.
@@ -34,20 +35,42 @@ pub fn part_in_bounds(
     bounds: Option<Rect>,
     region: &RegionCoordinates,
 ) -> Result<OutlineSource, LoadError> {
-    let moves = region.projection.filter(|&choice| outline.own_plane(choice, region.assumed).is_none());
-    let (Some(rect), Some(_)) = (bounds, moves) else { return Ok(OutlineSource { outline, frame: None }) };
-    let in_degrees = outline.coordinates.assuming(region.assumed).unit() == LengthUnit::Degree;
-    if in_degrees && !is_on_earth(&rect) {
-        // They are in the plane of the mesh.
-        return Ok(OutlineSource { outline, frame: None });
-    }
-    let frame = FileFrame { rect, in_degrees };
+    let moves = region.projection.is_some_and(|choice| outline.own_plane(choice, region.assumed).is_none());
+    let unit = outline.coordinates.assuming(region.assumed).unit();
+    // Bounds that are no longitudes and latitudes are in the plane of the mesh.
+    let frame = bounds.and_then(|rect| frame_of(rect, unit));
+    let frame = frame.filter(|frame| moves || (frame.in_degrees && is_beyond_180(&frame.rect)));
+    let Some(frame) = frame else { return Ok(OutlineSource { outline, frame: None }) };
     let polygons = frame.clipped(&outline.polygons).map_err(|error| in_file(file, &error.to_string()))?;
     if polygons.is_empty() {
-        let problem = format!("none of its polygons lies in the bounds {}", places(&rect));
+        let problem = format!("none of its polygons lies in the bounds {}", places(&frame.rect));
         return Err(in_file(file, &format!("{problem}. They are in the coordinates of the file.")));
     }
     Ok(OutlineSource { outline: Outline { polygons, ..outline }, frame: Some(frame) })
+}
+
+/// Checks that only bounds of longitudes have an east that is less than their west.
+///
+/// # Errors
+/// Fails for bounds in other coordinates.
+pub fn check_east(
+    file: &Path,
+    outline: &Outline,
+    bounds: Option<Rect>,
+    region: &RegionCoordinates,
+) -> Result<(), LoadError> {
+    let is_degree = outline.coordinates.assuming(region.assumed).unit() == LengthUnit::Degree;
+    match bounds {
+        Some(Rect { min, max }) if region.east_is_less && !is_degree => {
+            let (west, east) = (Number(min.x), Number(max.x - 360.0));
+            let rule = "and only longitudes go round. Write west, south, east and north";
+            Err(in_file(
+                file,
+                &format!("the east of the bounds, {east}, is less than their west, {west}, {rule}."),
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The water beside the land of a file.
@@ -75,7 +98,7 @@ pub fn sea_of_land(
     let land = Land { polygons, lines, sea_at };
     let unit = read.coordinates.assuming(assumed).unit();
     let frame = match bounds {
-        Some(rect) => Some(frame_of(file, rect, unit)?),
+        Some(rect) => Some(frame_of(rect, unit).ok_or_else(|| in_file(file, &no_longitudes(&rect)))?),
         None => land.frame_around(unit == LengthUnit::Degree),
     };
     let none = || in_file(file, "the file has neither polygons of land nor lines of coast.");
@@ -111,21 +134,27 @@ fn side_note(decided: Option<WaterSide>) -> Option<String> {
     ))
 }
 
-/// Returns the frame of bounds in the coordinates of a file.
-fn frame_of(file: &Path, rect: Rect, unit: LengthUnit) -> Result<FileFrame, LoadError> {
+/// Returns the frame of bounds in the coordinates of a file; `None` where these are degrees, and the bounds
+/// are no longitudes and latitudes.
+fn frame_of(rect: Rect, unit: LengthUnit) -> Option<FileFrame> {
     let in_degrees = unit == LengthUnit::Degree;
-    if in_degrees && !is_on_earth(&rect) {
-        let problem = "are no longitudes and latitudes, and bounds are in the coordinates of the file";
-        let rule = "They are west, south, east and north, in degrees";
-        return Err(in_file(file, &format!("the bounds {} {problem}. {rule}.", places(&rect))));
-    }
-    Ok(FileFrame { rect, in_degrees })
+    (!in_degrees || is_on_earth(&rect)).then_some(FileFrame { rect, in_degrees })
+}
+
+fn no_longitudes(rect: &Rect) -> String {
+    let problem = "are no longitudes and latitudes, and bounds are in the coordinates of the file";
+    format!("the bounds {} {problem}. They are west, south, east and north, in degrees.", places(rect))
 }
 
 /// Returns whether a rectangle is one of longitudes and latitudes.
-fn is_on_earth(Rect { min, max }: &Rect) -> bool {
+pub fn is_on_earth(Rect { min, max }: &Rect) -> bool {
     let is_near = min.x.abs().max(max.x.abs()) <= 720.0 && max.x - min.x <= 360.0;
     is_near && min.y >= -90.0 && max.y <= 90.0
+}
+
+/// Returns whether a rectangle of longitudes is on both sides of the antimeridian, or beyond it.
+pub fn is_beyond_180(Rect { min, max }: &Rect) -> bool {
+    min.x < -180.0 || max.x > 180.0
 }
 
 fn places(Rect { min, max }: &Rect) -> String {

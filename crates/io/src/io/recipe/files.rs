@@ -14,7 +14,7 @@ use super::super::{
     DocumentPlane, Given, KeyFault, Meter, RasterFormat, ReadError, project, shape_format, shapes, threats,
 };
 use super::LoadedLayer;
-use super::file_frame::{OutlineSource, part_in_bounds, sea_notes, sea_of_land};
+use super::file_frame::{OutlineSource, check_east, part_in_bounds, sea_notes, sea_of_land};
 use super::grid_region::contour_of_grid;
 use super::notes::{
     cut_at_antimeridian, far_places, in_the_plane, mark_notes, no_open_boundary, notes, places_in_degrees,
@@ -58,8 +58,8 @@ pub struct Loading<'a> {
     pub with_hidden: bool,
     /// Reads the polygons of the domain.
     pub read_outline: fn(&Path, &Meter) -> Result<Outline, ReadError>,
-    /// Reads shapes, in their own coordinates, or only those that can meet a rectangle.
-    pub read_shapes: fn(&Path, Option<Rect>, &Meter) -> Result<ShapeFile, ReadError>,
+    /// Reads the land beside the domain, or only what can meet a rectangle.
+    pub read_land: fn(&Path, Option<Rect>, &Meter) -> Result<ShapeFile, ReadError>,
     /// Data in memory, in place of files of their names.
     pub given: Given,
     /// Counts the bytes of each file.
@@ -73,7 +73,7 @@ impl<'a> Loading<'a> {
             usual: Usual::DOCUMENT,
             with_hidden: true,
             read_outline: shape_format::read_outline,
-            read_shapes: shape_format::read_own_shapes,
+            read_land: shape_format::read_own_shapes,
             given: Given::default(),
             meter,
         }
@@ -87,13 +87,14 @@ impl<'a> Loading<'a> {
         }
     }
 
-    /// Returns the shapes of a file, or of data in memory of this name: those that can meet a rectangle,
-    /// where one is `wanted`.
-    fn shapes(&self, file: &Path, wanted: Option<Rect>) -> Result<ShapeFile, ReadError> {
-        match self.given.shapes(file) {
-            Some(text) => shapes::read_from(text, file).map(ShapeFile::in_degrees),
-            None => (self.read_shapes)(file, wanted, self.meter),
-        }
+    /// Returns the shapes of data in memory of this name, or else of a file, which `read` reads.
+    fn shapes(
+        &self,
+        file: &Path,
+        read: impl FnOnce() -> Result<ShapeFile, ReadError>,
+    ) -> Result<ShapeFile, ReadError> {
+        let given = self.given.shapes(file).map(|text| shapes::read_from(text, file));
+        given.unwrap_or_else(read).map(ShapeFile::in_degrees)
     }
 }
 
@@ -259,7 +260,8 @@ impl Files<'_> {
         coordinates: &RegionCoordinates,
     ) -> Result<OutlineSource, LoadError> {
         if coordinates.is_land {
-            let shapes = self.loading.shapes(file, bounds)?;
+            let Loading { read_land, meter, .. } = self.loading;
+            let shapes = self.loading.shapes(file, || read_land(file, bounds, meter))?;
             let RegionCoordinates { sea_at, assumed, .. } = *coordinates;
             let sea = sea_of_land(file, &shapes, bounds, sea_at, assumed)?;
             let notes = sea_notes(file, &sea, bounds.is_some());
@@ -293,8 +295,8 @@ impl Storage for Files<'_> {
         bounds: Option<Rect>,
         coordinates: &RegionCoordinates,
     ) -> Result<ReadRegion, LoadError> {
-        let source = self.outline_source(file, bounds, coordinates)?;
-        let OutlineSource { outline, frame } = source;
+        let OutlineSource { outline, frame } = self.outline_source(file, bounds, coordinates)?;
+        check_east(file, &outline, bounds, coordinates)?;
         let unsuited = |problem: &dyn Display| LoadError::Unsuited(format!("{}: {problem}", file.display()));
         let uncertain = outline.coordinates.note().map(|note| format!("{}: {note}", file.display()));
         uncertain.into_iter().for_each(|note| LayerData::note(self, note));
@@ -388,7 +390,8 @@ impl LayerData for Files<'_> {
 
     fn shapes(&mut self, layer: &SavedLayer) -> Result<Shapes, LoadError> {
         let (Self { loading, plane, .. }, file) = (self, layer.path());
-        let read = shape_format::placed_shapes(loading.shapes(file, None)?, plane.as_ref(), file)?;
+        let shapes = loading.shapes(file, || shape_format::read_own_shapes(file, None, loading.meter))?;
+        let read = shape_format::placed_shapes(shapes, plane.as_ref(), file)?;
         Ok(layer.indexed_shapes(read.shapes)?)
     }
 

@@ -6,13 +6,14 @@ use super::super::geojson::Outline;
 use super::super::settings::RegionCoordinates;
 use super::super::{GridPlace, GridWindow, Meter, RasterFormat, ReadRaster};
 use super::LoadError;
+use super::file_frame::{is_beyond_180, is_on_earth};
 use meshbrush_core::domain::{NamedPolygon, PixelLengths, Polygon};
 use meshbrush_core::layers::{DepthRule, DepthSizes, PositiveDepth};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// Returns the polygons of the water of a grid, or of its values, in its own coordinates, and sentences for a
-/// person about it. Where `bounds` are given, in the coordinates of the file, only the part there is read.
+/// person about it. Only the part in `bounds` is read where these are surely one of the file.
 ///
 /// # Errors
 /// Fails when the file cannot be read, does not say where it lies, or has no water.
@@ -29,11 +30,7 @@ pub fn contour_of_grid(
             "a region from a contour needs a grid that says where it lies, such as .asc, .tif or .nc.",
         ));
     };
-    // Across the antimeridian, both ends of a grid may be wanted.
-    let is_one = |area: &Rect| region.projection.is_none() || (area.min.x >= -180.0 && area.max.x <= 180.0);
-    let is_far = |area: &Rect| area.min.abs().max(area.max.abs()).max_element() > 720.0;
-    let area = bounds.filter(|area| is_one(area) || is_far(area));
-    let window = area.map(|area| GridWindow { area, plane: None });
+    let window = bounds.filter(|area| is_of_file(area, region)).map(|area| GridWindow { area, plane: None });
     let grid = read(file, &GridPlace { over: None, window }, meter)?;
     let positive = region.positive.or(grid.facts.positive).unwrap_or(PositiveDepth::Up);
     let coordinates = grid.coordinates().assuming(region.assumed);
@@ -49,6 +46,15 @@ pub fn contour_of_grid(
     let unnamed = |polygon: Polygon| NamedPolygon { polygon, name: String::new() };
     let notes = grid.facts.notes.iter().map(|note| format!("{}: {note}", file.display())).collect();
     Ok((Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates }, notes))
+}
+
+/// Returns whether bounds are surely one rectangle in the coordinates of a file: not metres in the plane of a
+/// projection, nor at both ends of a grid on the two sides of the antimeridian.
+fn is_of_file(bounds: &Rect, region: &RegionCoordinates) -> bool {
+    match is_on_earth(bounds) {
+        true => !is_beyond_180(bounds),
+        false => region.projection.is_none(),
+    }
 }
 
 /// Returns the depth for a value.

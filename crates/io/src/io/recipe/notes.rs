@@ -61,14 +61,16 @@ pub fn notes_on(
     let visible: Vec<&Layer> =
         settings.layers.iter().filter(|layer| layer.visible && is_one(layer)).collect();
     let missing = missing_pieces(settings, &visible);
-    let note = |layer: &&&Layer| of_layer(layer, domain, has_frame);
     let idle = settings.idle_layers(paint);
-    let is_new = |layer: &&&Layer| {
+    let is_said = |layer: &Layer| {
         let measures_to_pieces = matches!(&layer.kind, LayerKind::Distance { to: DistanceTo::Pieces(_), .. });
-        idle.contains(&layer.id) && note(layer).is_none() && (missing.is_empty() || !measures_to_pieces)
+        measures_to_pieces && !missing.is_empty()
     };
-    let idle = visible.iter().filter(is_new).map(|layer| idle_layer(layer));
-    visible.iter().filter_map(|layer| note(&layer)).chain(idle).chain(missing.iter().cloned()).collect()
+    let changes_nothing = |layer: &Layer| idle.contains(&layer.id) && !is_said(layer);
+    let note = |layer: &&Layer| {
+        of_layer(layer, domain, has_frame).or_else(|| changes_nothing(layer).then(|| idle_layer(layer)))
+    };
+    visible.iter().filter_map(note).chain(missing.iter().cloned()).collect()
 }
 
 /// Returns the note on a layer whose mask or grid does not cover the domain.

@@ -208,12 +208,16 @@ impl SavedDomain {
 
     /// Returns the rectangle that the coarse grid covers, in world units.
     pub(super) fn rect(&self) -> Result<Option<Rect>, KeyFault> {
-        let across_antimeridian = |[west, south, east, north]: [f64; 4]| match self.outline_file() {
-            Some(_) if west > east && west <= 180.0 && east >= -180.0 => [west, south, east + 360.0, north],
-            _ => [west, south, east, north],
-        };
-        let bounds = self.bounds.map(across_antimeridian);
+        let turn = if self.east_is_less() { 360.0 } else { 0.0 };
+        let bounds = self.bounds.map(|[west, south, east, north]| [west, south, east + turn, north]);
         bounds.map(rect_of).transpose().map_err(|fault| fault.within("bounds"))
+    }
+
+    /// Returns whether the bounds beside a file have an east that is less than their west, and can be
+    /// longitudes.
+    fn east_is_less(&self) -> bool {
+        let can_be = |[west, _, east, _]: [f64; 4]| west > east && west <= 180.0 && east >= -180.0;
+        self.outline_file().is_some() && self.bounds.is_some_and(can_be)
     }
 
     /// Returns the file of the polygons or lines that give the outline.
@@ -250,6 +254,7 @@ impl SavedDomain {
             positive: self.positive.map(Into::into),
             is_land: self.land.is_some(),
             sea_at: self.sea.map(DVec2::from),
+            east_is_less: self.east_is_less(),
             assumed: self.assumed()?,
             projection: self.projection()?,
         })

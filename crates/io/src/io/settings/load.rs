@@ -67,6 +67,8 @@ pub struct RegionCoordinates {
     pub is_land: bool,
     /// A place in the sea beside the land, in the coordinates of the file.
     pub sea_at: Option<DVec2>,
+    /// Whether the east of the bounds was less than their west, as longitudes across 180° are.
+    pub east_is_less: bool,
     /// What coordinates of files are that do not name a known system.
     pub assumed: Option<Coordinates>,
     /// How the plane is chosen; `None` for that of the polygons' own coordinates.
