@@ -704,3 +704,36 @@ def test_values_of_python_are_taken_or_refused_with_a_sentence() -> None:
         with pytest.raises(mb.FileError, match="nothing") as raised:
             missing()
         assert raised.value.errno == errno.ENOENT
+
+
+@pytest.mark.parametrize("west", [-6.0, 178.0])
+@pytest.mark.parametrize("projection", [None, "auto"])
+@pytest.mark.parametrize("layer", ["distance", "straits"])
+def test_a_sea_beside_land_is_saved(west: float, projection: str | None, layer: str, tmp_path: Path) -> None:
+    unit = 111e3 if projection else 1.0
+
+    def island(x: float, y: float, half: float) -> list[list[float]]:
+        corners = [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half), (x - half, y - half)]
+        return [[(x + 180) % 360 - 180, y] for x, y in corners]
+
+    places = [(1, 46.6), (1.8, 47.2), (0, 47), (4, 47)]
+    land = {"type": "MultiPolygon", "coordinates": [[island(west + x, y, 0.2)] for x, y in places]}
+    east = west + 4 if west + 4 <= 180 else west - 356
+    document = mb.Document(
+        mb.Domain.sea(land, bounds=(west, 46, east, 48)),
+        projection=projection,
+        spacing=0.25 * unit,
+        h_min=0.01 * unit,
+        gradation=0.2,
+    )
+    if layer == "distance":
+        document.layers.distance("coasts", at_zero=0.05 * unit, slope=0.2)
+    else:
+        document.layers.add("straits", across=3, width_from=0.03 * unit, width_to=0.9 * unit)
+    document.layers.formula(0.1 * unit, mask={"type": "Polygon", "coordinates": [island(2.5, 47, 0.3)]} if west < 0 else None)
+    mesh = document.mesh()
+    assert [name for name in mesh.markers if name.startswith("open")][:2] == ["open south", "open east"]
+    for name in ("a.meshbrush", "a.toml"):
+        document.save(tmp_path / name)
+        again = mb.open(tmp_path / name).mesh()
+        assert (again.fingerprint, list(again.markers)) == (mesh.fingerprint, list(mesh.markers)), name

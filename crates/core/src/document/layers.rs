@@ -24,7 +24,7 @@ pub fn check_layer_count(layers: usize) -> Result<(), SettingsError> {
     if layers > MOST_LAYERS { Err(SettingsError::Layers(layers)) } else { Ok(()) }
 }
 
-/// Says how lengths become metres that are in another unit.
+/// Returns what a person can do to get lengths in metres.
 pub(super) fn way_to_metres(unit: LengthUnit) -> &'static str {
     match unit {
         LengthUnit::Degree => {

@@ -111,6 +111,13 @@ impl FileFrame {
         within
     }
 
+    /// Returns a point after the whole turns that bring it into the frame; `None` if none do.
+    pub(super) fn moved_into(&self, at: DVec2) -> Option<DVec2> {
+        let turns = if self.in_degrees { ((self.rect.min.x - at.x) / 360.0).ceil() } else { 0.0 };
+        let moved = DVec2::new(at.x + 360.0 * turns, at.y);
+        self.rect.contains(moved).then_some(moved)
+    }
+
     /// Returns the longitudes by which a shape is moved to meet the frame.
     fn turns(&self, points: &[DVec2]) -> impl Iterator<Item = f64> {
         let extent = Rect::holding(points.iter().copied());

@@ -61,7 +61,7 @@ pub enum WaterSide {
 }
 
 impl WaterSide {
-    /// Returns how the side was found, as the begin of a sentence.
+    /// Returns how the side was found, as the start of a sentence.
     pub fn text(self) -> &'static str {
         match self {
             Self::OfPlace => "the water is where the place in the sea is",
@@ -105,6 +105,12 @@ pub enum SeaError {
     /// The place that should be in the sea is not in the frame.
     #[error("the place in the sea, {}, {}, is not in the frame.", Number(at.x), Number(at.y))]
     OutsidePlace {
+        /// The place.
+        at: DVec2,
+    },
+    /// The place that should be in the sea is on land.
+    #[error("the place in the sea, {}, {}, is on land that a polygon gives. Name another one.", Number(at.x), Number(at.y))]
+    PlaceOnLand {
         /// The place.
         at: DVec2,
     },
@@ -163,18 +169,22 @@ impl FileFrame {
         if covered.is_empty() && lines.is_empty() {
             return Err(SeaError::NoLand { frame: *self });
         }
+        let place = |at| self.moved_into(at).ok_or(SeaError::OutsidePlace { at });
+        let sea_at = land.sea_at.map(place).transpose()?;
         let whole = Region::new(&[vec![corners(&self.rect)]], self.rect);
         let mut decided = None;
         if !lines.is_empty() {
-            let (beside_lines, side) = self.land_beside(&lines, land.sea_at, &whole)?;
+            let (beside_lines, side) = self.land_beside(&lines, sea_at, &whole)?;
             (covered, decided) = ([covered, beside_lines].concat(), side);
             covered = Region::covered(&covered, self.rect);
         }
         let rings: Vec<Ring> = covered.into_iter().flatten().collect();
         let sea = whole.overlaid(&rings, OverlayRule::Difference, FillRule::NonZero);
-        match sea.is_empty() {
-            true => Err(SeaError::NoSea),
-            false => Ok(Sea { polygons: sea.polygons().to_vec(), decided }),
+        let is_in_sea = |at: &DVec2| is_odd(sea.rings(), *at);
+        match sea_at {
+            _ if sea.is_empty() => Err(SeaError::NoSea),
+            Some(at) if !is_in_sea(&at) => Err(SeaError::PlaceOnLand { at }),
+            _ => Ok(Sea { polygons: sea.polygons().to_vec(), decided }),
         }
     }
 
@@ -196,8 +206,7 @@ impl FileFrame {
         let odd = whole.overlaid(&rings, OverlayRule::Intersect, FillRule::EvenOdd);
         let sides = Sides::of(&odd);
         let (odd_is_land, side) = match sea_at {
-            Some(at) if !self.rect.contains(at) => return Err(SeaError::OutsidePlace { at }),
-            Some(at) => (!is_odd(&rings, at), Some(WaterSide::OfPlace)),
+            Some(at) => (!is_odd(rings.iter(), at), Some(WaterSide::OfPlace)),
             None if lines.crossing.is_empty() => (true, None),
             None => {
                 match (sides.islands_are_odd(&closed), sides.left_is_odd(&lines.crossing, &rings, self)) {
@@ -216,8 +225,8 @@ impl FileFrame {
 }
 
 /// Returns whether rings enclose a point an odd number of times.
-fn is_odd(rings: &[Ring], at: DVec2) -> bool {
-    rings.iter().filter(|ring| is_around(ring, at)).count() % 2 == 1
+fn is_odd<'a>(rings: impl Iterator<Item = &'a Ring>, at: DVec2) -> bool {
+    rings.filter(|ring| is_around(ring, at)).count() % 2 == 1
 }
 
 /// The edges of a region, with the region to their left.
@@ -254,7 +263,7 @@ impl Sides {
                 let longest = edges().max_by(|[a, b], [c, d]| a.distance(*b).total_cmp(&c.distance(*d)));
                 votes.extend(longest.map(|[a, b]| {
                     let beside = a.midpoint(b) + BESIDE * (b - a).perp();
-                    (is_odd(rings, beside), a.distance(b))
+                    (is_odd(rings.iter(), beside), a.distance(b))
                 }));
             }
             votes
@@ -375,6 +384,25 @@ mod tests {
             (around.rect.min.x - 178.8).abs() < 1e-9 && (around.rect.max.x - 181.2).abs() < 1e-9,
             "{around:?}"
         );
+    }
+
+    #[test]
+    fn a_place_in_the_sea_counts_after_whole_turns_and_is_not_on_land() {
+        let frame = FileFrame { rect: Rect::new(dvec2(178.0, 0.0), dvec2(182.0, 4.0)), in_degrees: true };
+        let coast = [line(&[[180.0, -1.0], [180.0, 5.0]])];
+        let sea = |at| frame.sea(&Land { lines: &coast, sea_at: Some(at), ..Land::default() });
+        let is_east = |sea: &Sea| sea.polygons[0][0].iter().all(|at| at.x >= 180.0);
+        for (at, east) in [(dvec2(-179.0, 2.0), true), (dvec2(181.0, 2.0), true), (dvec2(179.0, 2.0), false)]
+        {
+            assert_eq!(is_east(&sea(at).unwrap()), east, "{at}");
+        }
+        let outside = dvec2(10.0, 2.0);
+        assert_eq!(sea(outside), Err(SeaError::OutsidePlace { at: outside }));
+        let polygons = [vec![line(&[[0.25, 0.25], [0.5, 0.25], [0.5, 0.5]])]];
+        let beside = |at| UNIT.sea(&Land { polygons: &polygons, sea_at: Some(at), ..Land::default() });
+        let on_land = dvec2(0.45, 0.3);
+        assert_eq!(beside(on_land), Err(SeaError::PlaceOnLand { at: on_land }));
+        assert!(beside(dvec2(0.9, 0.3)).is_ok());
     }
 
     #[test]

@@ -13,7 +13,7 @@ use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
 
 /// Returns the polygons of the water of a grid, or of its values, in its own coordinates, and sentences for a
-/// person about it. Only the part in `bounds` is read where these are surely one of the file.
+/// person about it. Where `bounds` are certain to be one rectangle of the grid, only that part is read.
 ///
 /// # Errors
 /// Fails when the file cannot be read, does not say where it lies, or has no water.
@@ -48,8 +48,8 @@ pub fn contour_of_grid(
     Ok((Outline { polygons: polygons.into_iter().map(unnamed).collect(), coordinates }, notes))
 }
 
-/// Returns whether bounds are surely one rectangle in the coordinates of a file: not metres in the plane of a
-/// projection, nor at both ends of a grid on the two sides of the antimeridian.
+/// Returns whether bounds are certain to be one rectangle in the coordinates of a file. They can also be
+/// metres in the plane of a projection, or cover both ends of a grid that is cut at the antimeridian.
 fn is_of_file(bounds: &Rect, region: &RegionCoordinates) -> bool {
     match is_on_earth(bounds) {
         true => !is_beyond_180(bounds),

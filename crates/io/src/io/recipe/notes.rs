@@ -90,8 +90,8 @@ fn of_layer(layer: &Layer, domain: Rect, has_frame: bool) -> Option<String> {
 /// Returns the note on a layer that changes nothing.
 fn idle_layer(layer: &Layer) -> String {
     format!(
-        "The layer “{}” changes nothing: nowhere in the rectangle of the domain does it ask for less than the coarse \
-         triangles and h_max are. Check its values, its place and its unit.",
+        "The layer “{}” changes nothing: in the whole rectangle of the domain, it asks for no triangles that are smaller \
+         than the coarse ones and than h_max. Check its values, its place and its unit.",
         short_name(&layer.name)
     )
 }
