@@ -171,7 +171,15 @@ fn the_page_of_output_has_every_key() {
 #[test]
 fn every_link_leads_somewhere() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for page in ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "docs/output.md"] {
+    let pages = [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CHANGELOG.md",
+        "docs/output.md",
+        "docs/limits.md",
+        "docs/differences.md",
+    ];
+    for page in pages {
         let text = std::fs::read_to_string(root.join(page)).unwrap();
         for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
             // Pictures are written by a command of the program, after the tests.
@@ -190,7 +198,7 @@ fn the_help_and_the_documentation_name_the_bytes_of_a_triangle() {
         (include_str!("../../docs/options.md"), format!(": {one} bytes a triangle")),
         (include_str!("../../docs/manual/limits.md"), format!("; {two} bytes a triangle")),
         (
-            include_str!("../../ARCHITECTURE.md"),
+            include_str!("../../docs/limits.md"),
             format!("{two} bytes each in the window, and {one} on the command line"),
         ),
     ] {
