@@ -1,7 +1,8 @@
 //! How straits are found: by discs that touch two coasts.
 //!
-//! The discs are found from their contact points, by a disc that shrinks until no coast is within it: it
-//! touches the coast at the point, and keeps its centre on the normal there (Ma, Bae, Choi 2012).
+//! The discs are the medial balls of the water, found from their contact points by the shrinking ball of
+//! [MaBaeChoi2012]: a disc touches the coast at the point, keeps its centre on the normal there, and shrinks
+//! until no coast is within it.
 
 use std::sync::Arc;
 
