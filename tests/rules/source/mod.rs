@@ -27,6 +27,17 @@ pub struct PathInCode {
     pub segments: Vec<String>,
 }
 
+/// A name that a `use` brings into a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Import {
+    /// The name in the file: the last segment, or what stands after `as`.
+    pub name: String,
+    /// The complete path, as in [`PathInCode`].
+    pub segments: Vec<String>,
+    /// Whether it has a visibility of its own: other files can import the name from here.
+    pub is_reexport: bool,
+}
+
 /// A function with a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
@@ -153,6 +164,43 @@ impl SourceFile {
             at += 1;
         }
         found
+    }
+
+    /// Returns the names that the file itself imports; `use` trees are expanded, and `self` and `super` are
+    /// resolved.
+    pub fn imports(&self) -> Vec<Import> {
+        let mut found = Vec::new();
+        for at in (0..self.tokens.len()).filter(|&at| self.text(at) == "use") {
+            let mut leaves = Vec::new();
+            let end = self.use_tree(at + 1, &mut Vec::new(), &mut leaves);
+            // Leaves and aliases stand in the same order.
+            let names = self.imported_names(at + 1, end);
+            let is_reexport = at > 0 && matches!(self.text(at - 1), "pub" | ")");
+            found.extend(leaves.into_iter().zip(names).map(|(leaf, name)| Import {
+                name,
+                segments: resolved(leaf, &self.module).segments,
+                is_reexport,
+            }));
+        }
+        found
+    }
+
+    /// Returns the names of the leaves of a `use` tree between two tokens.
+    fn imported_names(&self, from: usize, end: usize) -> Vec<String> {
+        let is_leaf = |at: &usize| {
+            let text = self.text(*at);
+            (is_name(text) || text == "*") && !matches!(self.text(at + 1), "::" | "as") && text != "as"
+        };
+        let name = |at: usize| match self.text(at) {
+            // `a::b::{self}` is the name `b`.
+            "self" => self.tokens[from..at]
+                .iter()
+                .rev()
+                .find(|token| is_name(&token.text) && !["self", "as"].contains(&token.text.as_str()))
+                .map_or(String::new(), |token| token.text.clone()),
+            text => text.to_owned(),
+        };
+        (from..end).filter(is_leaf).map(name).collect()
     }
 
     /// Returns every function with a body, from the line of its name to the closing brace.
