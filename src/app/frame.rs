@@ -13,6 +13,8 @@
 //! where it was in the last frame, and the mesh that it changed is drawn in the same frame.
 
 use crate::app::clock::{Duration, Instant};
+use crate::app::features::report::Report;
+use crate::app::features::stepping::Stepping;
 
 use eframe::egui::{self, Context, Event, Frame, Key, KeyboardShortcut, Modifiers, Popup, Ui};
 
@@ -52,7 +54,7 @@ const LONG_BEFORE_MESH: Duration = Duration::from_millis(12);
 
 /// Returns whether a command moves the focus between parts of the window.
 fn is_for_parts(command: &Command) -> bool {
-    matches!(command, Command::Shell(ShellCommand::FocusPart(_)))
+    matches!(command.get(), Some(ShellCommand::FocusPart(_)))
 }
 
 impl App {
@@ -130,7 +132,7 @@ impl App {
         let mut catalog = catalog(&self.state(None));
         if self.help.is_some() {
             // Nothing behind the help receives keys.
-            let escape = Command::Shell(ShellCommand::Escape);
+            let escape = Command::from(ShellCommand::Escape);
             catalog.retain(|item| {
                 item.menu == Menu::Help || item.command == escape || is_for_parts(&item.command)
             });
@@ -250,7 +252,8 @@ impl App {
         let Some(response) = self.canvas.layout(ui, &mut self.view, self.session.mesh().lattice()) else {
             return;
         };
-        let shows_step = self.features.stepping.steps().is_some_and(|steps| steps.player().is_some());
+        let shows_step =
+            self.features.get::<Stepping>().steps().is_some_and(|steps| steps.player().is_some());
         if !self.starts_with_file && !shows_step {
             self.canvas.draw_mesh(ui, &mut self.session, &self.view, commands);
         } else {
@@ -259,7 +262,7 @@ impl App {
         let files = self.background.rows(self.project.is_leaving());
         let state = self.state(readout);
         if shows_step {
-            stepping::paint(ui, &response, &state, self.features.report.figure());
+            stepping::paint(ui, &response, &state, self.features.get::<Report>().figure());
         } else {
             self.canvas.draw_marks(ui, &response, &state);
         }

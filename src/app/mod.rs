@@ -78,14 +78,13 @@ use command::{Command, FileCommand};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
 use dialogs::Dialogs;
-use features::Features;
 use frame_log::FrameLog;
 use help::HelpTopic;
 use host::journal;
 pub use host::run;
 use jobs::Jobs;
 use journal::JournalKeeper;
-use kit::Keymap;
+use kit::{Features, Keymap};
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -186,7 +185,7 @@ impl App {
     ) -> Result<Self, String> {
         let mut app = Self::with_document(ctx, render_state, files::new_document())?;
         app.starts_with_file = true;
-        app.send(Command::File(FileCommand::OpenFirst(file)));
+        app.send(Command::from(FileCommand::OpenFirst(file)));
         Ok(app)
     }
 
@@ -212,7 +211,7 @@ impl App {
             tools,
             view,
             canvas: Canvas::new(gpu, &jobs),
-            features: Features::default(),
+            features: features::all(),
             keymap: Keymap::default(),
             unread_keys: None,
             threads: Threads::default(),

@@ -64,8 +64,8 @@ impl Notices {
             return;
         }
         let notice = self.numbered(false, None, question(need, before, budget));
-        let apply = Command::Edit(EditCommand::ApplyAnyway);
-        let keep = Command::Edit(EditCommand::KeepMesh);
+        let apply = Command::from(EditCommand::ApplyAnyway);
+        let keep = Command::from(EditCommand::KeepMesh);
         let offer = Some(Offer { label: "Keep the mesh", command: keep });
         let other = Some(Offer { label: "Apply anyway", command: apply });
         self.question = Some((need, Notice { offer, other, ..notice }));

@@ -30,13 +30,13 @@ pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, com
             dialog
                 .alternative("Do not save")
                 .show(ctx)
-                .map(|answer| Command::File(FileCommand::AnswerLeaving(answer))),
+                .map(|answer| Command::from(FileCommand::AnswerLeaving(answer))),
         );
     }
     if let Some(replacing) = &project.replacing {
         let (question, body) = replacing.question();
         let dialog = ConfirmDialog::new(&question, &body, "Replace").danger();
-        commands.extend(dialog.show(ctx).map(|answer| Command::File(FileCommand::AnswerReplacing(answer))));
+        commands.extend(dialog.show(ctx).map(|answer| Command::from(FileCommand::AnswerReplacing(answer))));
     }
 }
 

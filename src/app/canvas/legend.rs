@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Color32, Rect, Role, Sense, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 use super::overlay_palette::{MOST_ERROR, MOST_SLACK, OLD_AGE, Opaque, OverlayPalette};
-use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR};
+use crate::app::features::paths::{ALTERNATIVE_COLOR, CORRIDOR_COLOR, Paths};
 use crate::app::kit::FrameState;
 use crate::app::theme::{font, tokens};
 use crate::app::view::{FieldOverlay, deepest_level};
@@ -276,7 +276,7 @@ fn target_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) -> Rect {
 
 /// Shows the legend of the lines that are drawn beside the paths.
 fn path_legend(ui: &Ui, inner: Rect, state: &FrameState<'_>) {
-    let paths = &state.features.paths.finder;
+    let paths = &state.feature::<Paths>().finder;
     let mut rows = Vec::new();
     if !paths.corridor.lines().is_empty() {
         let percent = format::digits(100.0 * paths.corridor.share, 3);

@@ -28,9 +28,10 @@ pub use space::space_sight;
 pub use toast::Toast;
 
 use super::busy::Busy;
-use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
+use super::command::{Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
 use super::features::ROWS;
+use super::features::painting::BrushCommand;
 use super::features::painting::picks;
 use super::features::picture::BackgroundTexture;
 use super::jobs::Jobs;
@@ -177,7 +178,7 @@ impl Canvas {
                 if ctx.multi_touch().is_some() {
                     self.give_way_to_fingers(session, commands);
                 }
-                commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::Brush));
+                commands.extend(pen_pressure(phase, force).map(BrushCommand::Pen).map(Command::from));
             }
             Event::WindowFocused(false) => self.interrupt(commands),
             _ => {}
@@ -204,7 +205,7 @@ impl Canvas {
         } else if response.contains_pointer() {
             navigation::zoom(ctx, &mut pointer, commands);
         }
-        commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::View));
+        commands.extend(navigation::movement(ctx, response.id).map(ViewCommand::Pan).map(Command::from));
         let at = response.hover_pos().or(response.interact_pointer_pos());
         self.pointer = at.map(|at| pointer.world(at));
     }
@@ -237,7 +238,7 @@ impl Canvas {
     fn give_way_to_fingers(&mut self, session: &Session, commands: &mut Vec<Command>) {
         let Some(gesture) = self.gesture.take() else { return };
         if session.document().stroke().is_some() {
-            commands.push(Command::Shell(ShellCommand::Escape));
+            commands.push(Command::from(ShellCommand::Escape));
         } else {
             gesture.interrupted(commands);
         }
@@ -315,7 +316,7 @@ impl Canvas {
         match gpu.sync(session, change, overlay.as_ref(), &camera, &style) {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+            Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
         }
         if session.awaits_mesh() {
             return self.draw_ground(ui);

@@ -31,7 +31,7 @@ pub fn begin_gesture(
         PointerButton::Middle => Some(move_view(&press, button, pointer, commands)),
         PointerButton::Primary if space_is_down(ctx) => Some(move_view(&press, button, pointer, commands)),
         PointerButton::Primary if pointer.space.is_some() && !pointer.tools.tool.in_space => {
-            commands.push(Command::Shell(ShellCommand::Tell(only_in_plan(pointer.tools.tool))));
+            commands.push(Command::from(ShellCommand::Tell(only_in_plan(pointer.tools.tool))));
             None
         }
         PointerButton::Primary => (pointer.tools.tool.press)(&press, pointer, commands),

@@ -62,7 +62,7 @@ impl Canvas {
         match sent {
             Ok(Progress::Done) => {}
             Ok(Progress::More) => ui.ctx().request_repaint(),
-            Err(error) => commands.push(Command::Shell(ShellCommand::Report(error.to_string()))),
+            Err(error) => commands.push(Command::from(ShellCommand::Report(error.to_string()))),
         }
         if let (Some(surface), Some(seen)) = (surface, seen) {
             let can_redraw = surface.is_current() && gpu.has_mesh(session);

@@ -37,7 +37,7 @@ pub fn show(
     let color = if response.hovered() { tokens(ui).accent } else { tokens(ui).value };
     paint_arrow(ui, place, direction, color);
     if response.on_hover_cursor(CursorIcon::PointingHand).on_hover_text(name).clicked() {
-        commands.push(Command::View(ViewCommand::Fit));
+        commands.push(Command::from(ViewCommand::Fit));
     }
     Some(place)
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Command;
+use super::{Command, CommandSet};
 use crate::app::help::HelpTopic;
 use crate::app::kit::{DataFile, Keymap, Tool};
 
@@ -58,3 +58,5 @@ pub enum ShellCommand {
     /// Copies a text to the clipboard.
     Copy(String),
 }
+
+impl CommandSet for ShellCommand {}

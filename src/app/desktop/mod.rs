@@ -38,7 +38,7 @@ pub fn data_folder() -> Option<PathBuf> {
 
 /// Returns the commands for files that were dropped on the window.
 pub fn take_dropped(files: &[DroppedFileHandle], _: &mut Background, _: &Jobs) -> Vec<Command> {
-    files.iter().map(|file| Command::File(FileCommand::AddData(file.path().to_owned()))).collect()
+    files.iter().map(|file| Command::from(FileCommand::AddData(file.path().to_owned()))).collect()
 }
 
 /// Returns the command that notes the pressure of a pen: on a desktop it comes with the events of touches.

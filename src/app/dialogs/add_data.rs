@@ -56,9 +56,9 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
     match (shown.inner, chosen) {
         (Some(true), Some(role)) => {
             let command = (role.kind.command)(file.path.clone());
-            commands.extend([Command::Shell(ShellCommand::CloseDialog), command]);
+            commands.extend([Command::from(ShellCommand::CloseDialog), command]);
         }
-        _ if is_closed => commands.push(Command::Shell(ShellCommand::CloseDialog)),
+        _ if is_closed => commands.push(Command::from(ShellCommand::CloseDialog)),
         _ => {
             ctx.data_mut(|data| data.insert_temp(id, question));
             return;

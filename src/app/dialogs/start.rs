@@ -38,7 +38,7 @@ pub fn show(ctx: &Context, state: &FrameState<'_>, commands: &mut Vec<Command>) 
         contents(ui, state)
     });
     if shown.inner.is_some() || shown.should_close() {
-        commands.push(Command::Shell(ShellCommand::CloseDialog));
+        commands.push(Command::from(ShellCommand::CloseDialog));
     }
     commands.extend(shown.inner.flatten());
 }
@@ -53,7 +53,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
     }
     for (title, sentence, request) in FILES {
         if row(ui, ActionButton::new(title), sentence) {
-            chosen = Some(Some(Command::File(FileCommand::Ask(request))));
+            chosen = Some(Some(Command::from(FileCommand::Ask(request))));
         }
     }
     let recent: Vec<&PathBuf> = state.project.recent().iter().take(MOST_RECENT).collect();
@@ -62,7 +62,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
         ui.horizontal_wrapped(|ui| {
             for path in recent {
                 if ui.add(ActionButton::new(&name_of(path))).clicked() {
-                    chosen = Some(Some(Command::File(FileCommand::Open(path.clone()))));
+                    chosen = Some(Some(Command::from(FileCommand::Open(path.clone()))));
                 }
             }
         });
@@ -71,7 +71,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>) -> Option<Option<Command>> {
     ui.horizontal_wrapped(|ui| {
         for example in Example::ALL {
             if ui.add(ActionButton::new(example.name())).clicked() {
-                chosen = Some(Some(Command::File(FileCommand::OpenExample(example))));
+                chosen = Some(Some(Command::from(FileCommand::OpenExample(example))));
             }
         }
     });

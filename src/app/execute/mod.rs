@@ -10,11 +10,12 @@ use eframe::egui::Context;
 use super::App;
 use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
-use super::features::{Features, ROWS};
+use super::features::ROWS;
 use super::help::stop_editing_keys;
 use super::notices::Offer;
 use super::{files as file_work, parts};
-use crate::app::kit::{Ctx, Tool};
+use crate::app::features::stepping::Stepping;
+use crate::app::kit::{Ctx, Features, Tool};
 
 impl App {
     /// Runs one command.
@@ -107,7 +108,7 @@ impl App {
             ShellCommand::FocusPart(by) => parts::focus(ctx, self.canvas.id(), by),
             ShellCommand::SetKeys(keymap) => self.keymap = keymap,
             ShellCommand::ExportKeysAs(path) => {
-                let write = Command::Shell(ShellCommand::ExportKeys(path.clone()));
+                let write = Command::from(ShellCommand::ExportKeys(path.clone()));
                 self.commands.extend(self.project.ask_to_replace(vec![path], write));
             }
             ShellCommand::ExportKeys(path) => {
@@ -122,7 +123,7 @@ impl App {
     /// triangles, the cut, or the rectangle or polygon. Else closes the help, or clears query and message.
     /// Else leaves the view in space.
     fn escape(&mut self, ctx: &Context) {
-        if self.help.is_none() && self.features.stepping.leave(&mut self.tools) {
+        if self.help.is_none() && self.features.get_mut::<Stepping>().leave(&mut self.tools) {
             return;
         }
         if self.session.document().stroke().is_some() {
@@ -147,7 +148,7 @@ impl App {
 
     /// Selects a tool, for the mesh of the document.
     fn use_tool(&mut self, tool: Tool) {
-        self.features.stepping.leave(&mut self.tools);
+        self.features.get_mut::<Stepping>().leave(&mut self.tools);
         self.tools.select(tool);
     }
 

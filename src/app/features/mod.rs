@@ -19,8 +19,8 @@ pub mod threats;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{EditCommand, FileCommand, ShellCommand, ViewCommand};
-use super::kit::{Ctx, Feature, Row};
+use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
+use super::kit::{Feature, Features, Row};
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
@@ -36,60 +36,30 @@ use statistics::Statistics;
 use stepping::Stepping;
 use threats::ThreatEditor;
 
-/// Writes from one list what knows all features: their state, the commands with what runs them, and the
-/// rows. What the window does itself has its commands and the methods that run them in the second list.
+/// Writes from one list what knows all features: their state, their rows, and what runs their commands. What
+/// the window does itself has its commands and the methods that run them in the second list.
 macro_rules! features {
     (
-        features { $( $(#[$doc:meta])* $field:ident: $Feature:ty as $Command:ident, )* }
-        window { $( $(#[$window_doc:meta])* $Window:ident($command:ty) => $run:ident, )* }
+        features { $( $(#[$doc:meta])* $Feature:ty, )* }
+        window { $( $(#[$window_doc:meta])* $command:ty => $run:ident, )* }
     ) => {
-        /// The state of all features.
-        #[derive(Default)]
-        pub struct Features {
-            $( $(#[$doc])* pub $field: $Feature, )*
-        }
-
         /// The parts of each feature that the window shows.
         pub static ROWS: &[Row] = &[ $( <$Feature as Feature>::ROW, )* ];
 
-        /// One thing to do. Lengths and points are in world units.
-        #[derive(Clone, Debug, PartialEq)]
-        pub enum Command {
-            $( $(#[$doc])* $Command(<$Feature as Feature>::Command), )*
-            $( $(#[$window_doc])* $Window($command), )*
-        }
-
-        impl Features {
-            /// Takes and starts work that takes longer than a frame. Returns whether some is left.
-            pub fn follow(&mut self, ctx: &mut Ctx<'_>) -> bool {
-                let mut left = false;
-                $( left |= self.$field.follow(ctx); )*
-                left
-            }
-
-            /// Puts down what was begun with a tool. Returns whether there was something.
-            pub fn put_down(&mut self, ctx: &mut Ctx<'_>) -> bool {
-                let mut had_something = false;
-                $( had_something |= self.$field.put_down(ctx); )*
-                had_something
-            }
-
-            /// Returns what is left when another document is opened.
-            pub fn for_next_document(self) -> Self {
-                Self { $( $field: self.$field.for_next_document(), )* }
-            }
+        /// Returns all features in their first state.
+        pub fn all() -> Features {
+            Features::default() $( .with::<$Feature>() )*
         }
 
         impl App {
             /// Runs one command.
             pub(super) fn run(&mut self, command: Command, egui: &Context) {
-                match command {
-                    $( Command::$Command(command) => {
-                        let (features, mut ctx) = self.features_in_context(egui);
-                        features.$field.execute(command, &mut ctx);
-                    } )*
-                    $( Command::$Window(command) => self.$run(command, egui), )*
-                }
+                $( if let Some(command) = command.get::<$command>() {
+                    return self.$run(command.clone(), egui);
+                } )*
+                let (features, mut ctx) = self.features_in_context(egui);
+                let is_run = features.run(&command, &mut ctx);
+                debug_assert!(is_run, "nothing runs {command:?}");
             }
         }
     };
@@ -99,42 +69,42 @@ macro_rules! features {
 features! {
     features {
         /// Strokes and the brush.
-        painting: Painting as Brush,
+        Painting,
         /// The domain.
-        domain: DomainEditor as Domain,
+        DomainEditor,
         /// The layers of the size field.
-        layers: LayerEditor as Layer,
+        LayerEditor,
         /// Regions drawn by hand.
-        regions: Regions as Region,
+        Regions,
         /// The paths of the document.
-        paths: Paths as Path,
+        Paths,
         /// The queried point and its triangle.
-        inspection: Inspector as Inspect,
+        Inspector,
         /// The steps of the refinement.
-        stepping: Stepping as Steps,
+        Stepping,
         /// The threats of the selected layer.
-        threats: ThreatEditor as Threats,
+        ThreatEditor,
         /// The pieces of the boundary.
-        boundary: Boundary as Boundary,
+        Boundary,
         /// The picture behind the mesh.
-        picture: BackgroundPicture as Picture,
+        BackgroundPicture,
         /// Points whose triangles and values are followed.
-        pins: Pins as Pins,
+        Pins,
         /// The figures of the mesh.
-        statistics: Statistics as Statistics,
+        Statistics,
         /// Plots of the mesh, and of the time that meshes take.
-        plots: Plots as Plots,
+        Plots,
         /// The figures of the report.
-        report: Report as Figure,
+        Report,
     }
     window {
         /// Documents and their files.
-        File(FileCommand) => execute_on_files,
+        FileCommand => execute_on_files,
         /// History, paint and settings of the document.
-        Edit(EditCommand) => execute_on_document,
+        EditCommand => execute_on_document,
         /// Commands about the view.
-        View(ViewCommand) => execute_on_view,
+        ViewCommand => execute_on_view,
         /// Tools, dialogs, help and messages.
-        Shell(ShellCommand) => execute_on_shell,
+        ShellCommand => execute_on_shell,
     }
 }

@@ -68,7 +68,7 @@ impl KeyEditor {
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
             self.search_button(ui);
-            let file = |kind| Command::File(FileCommand::Ask(kind));
+            let file = |kind| Command::from(FileCommand::Ask(kind));
             if ui.add(ActionButton::new("Import keys…")).clicked() {
                 commands.push(file(&IMPORT_KEYS));
             }
@@ -225,7 +225,7 @@ fn is_modifier(key: Key) -> bool {
 }
 
 fn set(keymap: Keymap) -> Command {
-    Command::Shell(ShellCommand::SetKeys(keymap))
+    Command::from(ShellCommand::SetKeys(keymap))
 }
 
 /// Returns the command that changes keys.

@@ -84,7 +84,7 @@ pub fn show(
         .collapsible(false)
         .show(ctx, |ui| contents(ui, topic, catalog, keymap, commands));
     if !open {
-        commands.push(Command::Shell(ShellCommand::CloseHelp));
+        commands.push(Command::from(ShellCommand::CloseHelp));
     }
 }
 
@@ -106,7 +106,7 @@ fn contents(
                 let is_shown = query.is_empty() && other == topic.in_list();
                 if ui.selectable_label(is_shown, other.title()).clicked() {
                     search::clear(ui);
-                    commands.push(Command::Shell(ShellCommand::ShowHelp(other)));
+                    commands.push(Command::from(ShellCommand::ShowHelp(other)));
                 }
             }
         },
@@ -131,7 +131,7 @@ fn contents(
                     if let Some(page) = manual::page_of(file) {
                         page::show(ui, page, Some(block), commands);
                         // From now on the page is scrolled by hand.
-                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(file))));
+                        commands.push(Command::from(ShellCommand::ShowHelp(HelpTopic::Page(file))));
                     }
                 }
             });

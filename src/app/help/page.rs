@@ -85,7 +85,7 @@ fn text(ui: &mut Ui, spans: &[Span], commands: &mut Vec<Command>) {
             match part[0].link.as_deref().and_then(page_of) {
                 Some(page) => {
                     if ui.link(plain(part)).clicked() {
-                        commands.push(Command::Shell(ShellCommand::ShowHelp(HelpTopic::Page(page.file))));
+                        commands.push(Command::from(ShellCommand::ShowHelp(HelpTopic::Page(page.file))));
                     }
                 }
                 None => drop(ui.label(job(ui, part))),

@@ -61,7 +61,7 @@ pub fn results(ui: &mut Ui, query: &str, commands: &mut Vec<Command>) {
     for hit in &hits {
         if row(ui, hit) {
             let topic = HelpTopic::Heading(hit.page.file, hit.block);
-            commands.push(Command::Shell(ShellCommand::ShowHelp(topic)));
+            commands.push(Command::from(ShellCommand::ShowHelp(topic)));
             clear(ui);
         }
     }

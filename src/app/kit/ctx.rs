@@ -58,6 +58,6 @@ impl Ctx<'_> {
 
     /// Says that a file was not read or written: in the dialog that asked for it, or else on the canvas.
     pub fn fail(&mut self, problem: String) {
-        self.send(Command::File(FileCommand::Fail(problem)));
+        self.send(Command::from(FileCommand::Fail(problem)));
     }
 }

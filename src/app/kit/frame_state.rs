@@ -1,7 +1,6 @@
 //! The data that a frame shows.
 
-use super::{Keymap, Row};
-use crate::app::features::Features;
+use super::{Feature, Features, Keymap, Row};
 use crate::app::project::ProjectFile;
 use crate::app::readout::Readout;
 use crate::app::session::Session;
@@ -37,7 +36,12 @@ pub struct FrameState<'a> {
     pub reproducible: bool,
 }
 
-impl FrameState<'_> {
+impl<'a> FrameState<'a> {
+    /// Returns the state of a feature, which reads its own.
+    pub fn feature<F: Feature>(&self) -> &'a F {
+        self.features.get()
+    }
+
     /// Returns the unit of the document's lengths and coordinates.
     pub fn unit(&self) -> LengthUnit {
         self.session.document().settings().unit

@@ -3,7 +3,8 @@
 use eframe::egui::Ui;
 
 use super::{FrameState, Row, Tool};
-use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand};
+use crate::app::features::layers::LayerCommand;
 use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
 
@@ -40,18 +41,18 @@ pub struct Addition {
 
 /// The command that adds a layer.
 pub fn add_layer(kind: LayerKind) -> Command {
-    Command::Layer(LayerCommand::Add(Box::new(kind)))
+    Command::from(LayerCommand::Add(Box::new(kind)))
 }
 
 /// Changes what a layer asks for. Further changes join the gesture.
 pub fn set_kind(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
-    commands.push(Command::Layer(LayerCommand::SetKind(layer.id, Box::new(kind))));
+    commands.push(Command::from(LayerCommand::SetKind(layer.id, Box::new(kind))));
 }
 
 /// Changes what a layer asks for, as a gesture of its own.
 pub fn set_kind_once(layer: &Layer, kind: LayerKind, commands: &mut Vec<Command>) {
     set_kind(layer, kind, commands);
-    commands.push(Command::Edit(EditCommand::EndGesture));
+    commands.push(Command::from(EditCommand::EndGesture));
 }
 
 /// Shows the distance beyond which a layer asks for nothing. Returns whether it changed.

@@ -49,13 +49,13 @@ where
 /// Sends the end of a gesture when a control was released.
 pub fn end_gesture_when_released(response: &Response, commands: &mut Vec<Command>) {
     if widgets::edit_done(response) {
-        commands.push(Command::Edit(EditCommand::EndGesture));
+        commands.push(Command::from(EditCommand::EndGesture));
     }
 }
 
 /// Sends a setting as a gesture of its own.
 pub fn set_once(setting: Setting, commands: &mut Vec<Command>) {
-    commands.extend([Command::Edit(EditCommand::Set(setting)), Command::Edit(EditCommand::EndGesture)]);
+    commands.extend([Command::from(EditCommand::Set(setting)), Command::from(EditCommand::EndGesture)]);
 }
 
 /// Shows a remark in small print. A key is written as in tips: as the id of its entry in braces.

@@ -3,7 +3,8 @@
 use eframe::egui::Ui;
 
 use super::FrameState;
-use crate::app::command::{BrushCommand, Command};
+use crate::app::command::Command;
+use crate::app::features::painting::BrushCommand;
 use crate::app::tools::Tools;
 use crate::app::widgets::SliderRow;
 
@@ -24,6 +25,6 @@ pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     let help = "Radius of the brush, in the unit of the document; with a projection on the Earth, where the pointer or the \
                 middle of the view is. Shift+drag changes it[, as do {smaller-brush} and {larger-brush}].";
     if slider.help(help).show(ui).changed() {
-        commands.push(Command::Brush(BrushCommand::Radius(radius / on_earth)));
+        commands.push(Command::from(BrushCommand::Radius(radius / on_earth)));
     }
 }

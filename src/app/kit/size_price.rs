@@ -25,7 +25,7 @@ pub fn size_price_row(
     let considered = state.session.considered();
     let is_ours = considered.is_some_and(|setting| kinds.contains(&setting.kind()));
     if candidate.as_ref() != considered && (candidate.is_some() || is_ours) {
-        commands.push(Command::Edit(EditCommand::Consider(candidate.clone())));
+        commands.push(Command::from(EditCommand::Consider(candidate.clone())));
     }
     let (text, stands_out) = match (candidate, state.session.question()) {
         (Some(candidate), _) => (considered_text(state, &candidate), true),

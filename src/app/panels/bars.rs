@@ -43,7 +43,7 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     for tool in all_tools(state.rows) {
         let button = ToolButton::new(tool.icon, tool.name).entry(tool.name);
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
-            commands.push(Command::Shell(ShellCommand::Use(tool)));
+            commands.push(Command::from(ShellCommand::Use(tool)));
         }
     }
     if is_low {
@@ -52,16 +52,16 @@ pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Comman
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.y = 6.0;
         if ToolButton::new(Icon::FIT, "Fit domain").entry("Fit domain").show(ui).clicked() {
-            commands.push(Command::View(ViewCommand::Fit));
+            commands.push(Command::from(ViewCommand::Fit));
         }
         let history = state.session.document().history();
         let redo = ToolButton::new(Icon::REDO, "Redo").entry("redo");
         let undo = ToolButton::new(Icon::UNDO, "Undo").entry("undo");
         if ui.add_enabled_ui(history.redo_title().is_some(), |ui| redo.show(ui)).inner.clicked() {
-            commands.push(Command::Edit(EditCommand::Redo));
+            commands.push(Command::from(EditCommand::Redo));
         }
         if ui.add_enabled_ui(state.session.can_undo(), |ui| undo.show(ui)).inner.clicked() {
-            commands.push(Command::Edit(EditCommand::Undo));
+            commands.push(Command::from(EditCommand::Undo));
         }
     });
 }

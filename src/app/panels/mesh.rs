@@ -34,7 +34,7 @@ fn spacing_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let row = row.typed_range(f64::MIN_POSITIVE..=extent).default(Settings::default().spacing * extent);
     let response = row.unit(state.unit().symbol()).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Spacing(spacing))));
+        commands.push(Command::from(EditCommand::Set(Setting::Spacing(spacing))));
     }
     end_gesture_when_released(&response, commands);
     let [columns, rows] = state.session.mesh().lattice().cells();
@@ -65,7 +65,7 @@ fn threads_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>)
     let row = NumberRow::new("Threads", &mut count);
     if row.integer().range(1.0..=most).default(most).help(help).show(ui).changed() {
         commands.extend(
-            NonZeroUsize::new(count as usize).map(|count| Command::Shell(ShellCommand::LimitThreads(count))),
+            NonZeroUsize::new(count as usize).map(|count| Command::from(ShellCommand::LimitThreads(count))),
         );
     }
 }

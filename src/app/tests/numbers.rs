@@ -431,7 +431,7 @@ fn the_radius_of_the_brush_is_a_length_on_the_earth_at_the_place() {
     set(&mut window, Setting::Spacing(5e5));
     set(&mut window, Setting::Domain(domain.clone()));
     set(&mut window, Setting::LengthUnit(LengthUnit::Metre));
-    send(&mut window, Command::View(ViewCommand::Fit));
+    send(&mut window, Command::from(ViewCommand::Fit));
     type_into(&mut window, "Radius value", "50 km");
     let center = window.state().view().camera.unwrap().visible_world().center();
     let radius = window.state().tools().radius;

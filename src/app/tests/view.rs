@@ -173,7 +173,7 @@ fn the_bars_have_room_for_what_they_show_at_any_width() {
         for zoom in [1.0, 1e6] {
             let mut window = window_of(vec2(width, 600.0));
             window.hover_at(canvas(&window).center());
-            send(&mut window, Command::View(ViewCommand::Zoom(zoom)));
+            send(&mut window, Command::from(ViewCommand::Zoom(zoom)));
             let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, 600.0));
             // Rows of the side panel that are scrolled out of sight lie below the screen.
             let is_in_bar = |cell: &egui_kittest::Node<'_>| (570.0..600.0).contains(&cell.rect().top());

@@ -10,7 +10,7 @@ use meshbrush_mesh::text::Number;
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Boundary(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let current = |mode| tools.tool == &BOUNDARY && tools.boundary.mode == mode;
     let (select, split) = (BoundaryToolMode::Select, BoundaryToolMode::Split);
     let mut items = vec![
@@ -37,7 +37,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
         CatalogItem::new(
             Menu::Tool,
             "Open the boundary in polygons…",
-            Command::File(FileCommand::Ask(&OPEN_IN_POLYGONS)),
+            Command::from(FileCommand::Ask(&OPEN_IN_POLYGONS)),
         ),
     ]);
     // The menu has what the selected tool does.

@@ -27,7 +27,7 @@ fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut mode = state.tools.boundary.mode;
     let choices = [(BoundaryToolMode::Select, "Select"), (BoundaryToolMode::Split, "Split")];
     if segmented(ui, "What a click does", &mut mode, &choices).changed() {
-        commands.push(Command::Boundary(BoundaryCommand::Mode(mode)));
+        commands.push(Command::from(BoundaryCommand::Mode(mode)));
     }
 }
 

@@ -59,22 +59,22 @@ fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     remark(ui, "Open in one step where the sea goes on. Islands stay land.");
     ui.horizontal(|ui| {
         if ui.add(ActionButton::new("Along the frame")).clicked() {
-            commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Frame)));
+            commands.push(Command::from(BoundaryCommand::Open(SavedOpen::Frame)));
         }
         if ui.add(ActionButton::new("In polygons…")).clicked() {
-            commands.push(Command::File(FileCommand::Ask(&OPEN_IN_POLYGONS)));
+            commands.push(Command::from(FileCommand::Ask(&OPEN_IN_POLYGONS)));
         }
     });
     ui.add_space(4.0);
     let mut level = state.tools.boundary.level;
     let row = NumberRow::new("Deeper than", &mut level).range(f64::MIN..=f64::MAX).unit("m");
     if row.help("The depth of water beyond which the boundary is opened.").show(ui).changed() {
-        commands.push(Command::Boundary(BoundaryCommand::Level(level)));
+        commands.push(Command::from(BoundaryCommand::Level(level)));
     }
     let has_depths = DepthSurface::of(&state.session.document().settings().layers).is_some();
     let deeper = ActionButton::new("Open where deeper");
     if ui.add_enabled_ui(has_depths, |ui| ui.add(deeper)).inner.clicked() {
-        commands.push(Command::Boundary(BoundaryCommand::Open(SavedOpen::Deeper(level))));
+        commands.push(Command::from(BoundaryCommand::Open(SavedOpen::Deeper(level))));
     }
     ui.add_space(4.0);
     box_row(ui, state, commands);
@@ -91,9 +91,9 @@ fn box_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && !text.trim().is_empty() {
         commands.push(match SavedOpen::parse(&text) {
-            Ok(entry @ SavedOpen::Box(_)) => Command::Boundary(BoundaryCommand::Open(entry)),
-            Ok(_) => Command::Shell(ShellCommand::Report(format!("“{text}” is no box: {BOX_RULE}"))),
-            Err(problem) => Command::Shell(ShellCommand::Report(problem)),
+            Ok(entry @ SavedOpen::Box(_)) => Command::from(BoundaryCommand::Open(entry)),
+            Ok(_) => Command::from(ShellCommand::Report(format!("“{text}” is no box: {BOX_RULE}"))),
+            Err(problem) => Command::from(ShellCommand::Report(problem)),
         });
     }
     ui.data_mut(|data| data.insert_temp(id, text));
@@ -141,7 +141,7 @@ fn list(
         let help = format!("{what}; its kind is {kind}, its type {boundary_type}. A click selects it.");
         let row = ValueRow::new(&piece.name, &value).help(&help).stands_out(selected == Some(number));
         if row.link().show(ui).clicked() {
-            commands.push(Command::Boundary(BoundaryCommand::Select(piece.middle())));
+            commands.push(Command::from(BoundaryCommand::Select(piece.middle())));
         }
     }
     if pieces.list().len() > MOST_ROWS {

@@ -21,12 +21,12 @@ pub static BOUNDARY: ToolSpec = ToolSpec {
     paint,
     press: |press, pointer, commands| {
         let reach = REACH_POINTS * pointer.px_per_point / pointer.camera.px_per_world();
-        commands.push(Command::Boundary(BoundaryCommand::Click(pointer.world(press.at), reach)));
+        commands.push(Command::from(BoundaryCommand::Click(pointer.world(press.at), reach)));
         None
     },
     menu: |state, point| {
         let reach = REACH_POINTS * state.view.world_per_px();
-        let click = Command::Boundary(BoundaryCommand::Click(point, reach));
+        let click = Command::from(BoundaryCommand::Click(point, reach));
         match state.tools.boundary.mode {
             BoundaryToolMode::Select => vec![("Select the piece here", click)],
             BoundaryToolMode::Split => vec![("Split the boundary here", click)],

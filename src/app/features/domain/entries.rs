@@ -8,7 +8,7 @@ use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tools = state.tools;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Domain(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let mode = |title: &str, mode| {
         let current = tools.tool == &DOMAIN && tools.domain.mode == mode;
         item(title, DomainCommand::Mode(mode)).checked(current)

@@ -136,7 +136,7 @@ fn go_to(row: &eframe::egui::Response, place: DVec2, state: &FrameState<'_>, com
     let settings = state.session.follower().settings();
     let diameter = settings.boundary.diameter().unwrap_or(settings.spacing);
     if row.clicked() {
-        commands.push(Command::View(ViewCommand::ShowArea(Rect::around(
+        commands.push(Command::from(ViewCommand::ShowArea(Rect::around(
             place,
             0.5 * AREA_IN_DIAMETERS * diameter,
         ))));

@@ -25,13 +25,13 @@ fn mode_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         (DomainToolMode::Frame, "Frame"),
     ];
     if segmented(ui, "What cuts the domain", &mut mode, &choices).changed() {
-        commands.push(Command::Domain(DomainCommand::Mode(mode)));
+        commands.push(Command::from(DomainCommand::Mode(mode)));
     }
 }
 
 fn adds_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut adds = state.tools.domain.adds;
     if segmented(ui, "Add or remove", &mut adds, &[(false, "Remove"), (true, "Add")]).changed() {
-        commands.push(Command::Domain(DomainCommand::Adds(adds)));
+        commands.push(Command::from(DomainCommand::Adds(adds)));
     }
 }

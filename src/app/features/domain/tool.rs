@@ -100,14 +100,14 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The commands of the strokes and the polygon that cut the domain.
 static COMMANDS: DrawingCommands = DrawingCommands {
-    draw: |cut_shape, adds| Command::Domain(DomainCommand::Reshape(cut_shape, adds)),
-    drawn: |command| match command {
-        Command::Domain(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
+    draw: |cut_shape, adds| Command::from(DomainCommand::Reshape(cut_shape, adds)),
+    drawn: |command| match command.get_mut() {
+        Some(DomainCommand::Reshape(cut_shape, _)) => Some(cut_shape),
         _ => None,
     },
-    add_corner: |corner| Command::Domain(DomainCommand::AddCorner(corner)),
-    move_corner: |index, corner| Command::Domain(DomainCommand::MoveCorner(index, corner)),
-    close: || Command::Domain(DomainCommand::ClosePolygon),
+    add_corner: |corner| Command::from(DomainCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::from(DomainCommand::MoveCorner(index, corner)),
+    close: || Command::from(DomainCommand::ClosePolygon),
 };
 
 /// The secondary button closes the polygon.
@@ -118,9 +118,9 @@ fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
     let tool = &state.tools.domain;
     let swap = if tool.adds { "Remove from the domain" } else { "Add to the domain" };
-    let mut entries = vec![(swap, Command::Domain(DomainCommand::Adds(!tool.adds)))];
+    let mut entries = vec![(swap, Command::from(DomainCommand::Adds(!tool.adds)))];
     if tool.mode == DomainToolMode::Polygon {
-        entries.push(("Begin a polygon here", Command::Domain(DomainCommand::AddCorner(point))));
+        entries.push(("Begin a polygon here", Command::from(DomainCommand::AddCorner(point))));
     }
     entries
 }
@@ -147,12 +147,12 @@ impl Gesture for Framing {
         }
         let rect = WorldRect::spanning(pointer.rounded_world(self.from), pointer.rounded_world(at));
         let Some(adds) = self.adds else {
-            return commands.push(Command::Domain(DomainCommand::Bounds(rect)));
+            return commands.push(Command::from(DomainCommand::Bounds(rect)));
         };
         let ring = CutShape::Ring(corners(&rect));
         commands.extend([
-            Command::Domain(DomainCommand::Reshape(ring, adds)),
-            Command::Edit(EditCommand::EndGesture),
+            Command::from(DomainCommand::Reshape(ring, adds)),
+            Command::from(EditCommand::EndGesture),
         ]);
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::app::command::CommandSet;
 use meshbrush_core::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask};
 
 /// One thing to do with layers.
@@ -61,3 +62,5 @@ pub enum LayerCommand {
     /// Reads polygons as the mask of the selected layer.
     OpenMask(PathBuf),
 }
+
+impl CommandSet for LayerCommand {}

@@ -19,7 +19,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
 }
 
 fn item(title: impl Into<String>, command: LayerCommand) -> CatalogItem {
-    CatalogItem::new(Menu::Layer, title, Command::Layer(command))
+    CatalogItem::new(Menu::Layer, title, Command::from(command))
 }
 
 /// Kinds of layers that the menu adds.

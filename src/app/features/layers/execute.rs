@@ -109,7 +109,7 @@ fn add_band(ctx: &mut Ctx<'_>) {
     let Settings { layers, transfer, .. } = document.settings();
     let all = document.active_layer().into_iter().chain(layers.iter().rev());
     let Some(source) = all.map(|layer| &layer.kind).find_map(LayerKind::raster_source) else {
-        return ctx.send(Command::File(FileCommand::Ask(&OPEN_BAND)));
+        return ctx.send(Command::from(FileCommand::Ask(&OPEN_BAND)));
     };
     match LayerKind::band_of(source.clone(), transfer) {
         Some(band) => add_layer(band, ctx),

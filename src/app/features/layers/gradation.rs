@@ -20,7 +20,7 @@ fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut limits = gradation.is_some();
     let toggle = toggle_row(ui, "Limit gradation", &mut limits);
     if toggle.changed() {
-        commands.push(Command::Layer(LayerCommand::LimitGradation(limits)));
+        commands.push(Command::from(LayerCommand::LimitGradation(limits)));
     }
     if let Some(slope) = gradation {
         slope_row(ui, slope, commands);
@@ -42,7 +42,7 @@ fn slope_row(ui: &mut Ui, mut slope: f64, commands: &mut Vec<Command>) {
                 triangles grow with the distance from fine places.";
     let response = row.help(help).show(ui);
     if response.changed() {
-        commands.push(Command::Edit(EditCommand::Set(Setting::Gradation(Some(slope)))));
+        commands.push(Command::from(EditCommand::Set(Setting::Gradation(Some(slope)))));
     }
     end_gesture_when_released(&response, commands);
 }

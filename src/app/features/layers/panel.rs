@@ -51,7 +51,7 @@ fn buttons(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         let mut button = |icon, name, command: Option<LayerCommand>| {
             let button = ToolButton::small(icon, name).entry(name);
             if ui.add_enabled_ui(command.is_some(), |ui| button.show(ui)).inner.clicked() {
-                commands.extend(command.map(Command::Layer));
+                commands.extend(command.map(Command::from));
             }
         };
         button(Icon::COPY, "Duplicate layer", id.map(LayerCommand::Duplicate));

@@ -121,7 +121,7 @@ pub fn line_to_here(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, 
     let line = state
         .tools
         .last_painted
-        .map(|_| ("Straight line to here", Command::Brush(BrushCommand::LineTo(point))));
+        .map(|_| ("Straight line to here", Command::from(BrushCommand::LineTo(point))));
     line.into_iter().collect()
 }
 
@@ -134,13 +134,13 @@ pub fn press_to_paint(
 ) -> Option<Box<dyn Gesture>> {
     let point = pointer.world(press.at);
     if picks(press.modifiers) {
-        commands.push(Command::Brush(BrushCommand::Pick(point)));
+        commands.push(Command::from(BrushCommand::Pick(point)));
         return None;
     }
     if press.modifiers.shift {
         return Some(Box::new(Sizing { from: press.at, radius: pointer.tools.radius, dragged: false }));
     }
-    commands.push(Command::Brush(BrushCommand::BeginStroke(point)));
+    commands.push(Command::from(BrushCommand::BeginStroke(point)));
     let slack = LONGEST_STRING * pointer.tools.smoothing as f32;
     Some(Box::new(Painting { brush: press.at, pointer: press.at, slack }))
 }
@@ -163,15 +163,15 @@ impl Gesture for Painting {
         let (pull, distance) = (at - self.brush, at.distance(self.brush));
         if distance > self.slack {
             self.brush = at - pull * (self.slack / distance);
-            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(self.brush))));
+            commands.push(Command::from(BrushCommand::DrawTo(pointer.world(self.brush))));
         }
     }
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if at != self.brush {
-            commands.push(Command::Brush(BrushCommand::DrawTo(pointer.world(at))));
+            commands.push(Command::from(BrushCommand::DrawTo(pointer.world(at))));
         }
-        commands.push(Command::Brush(BrushCommand::EndStroke));
+        commands.push(Command::from(BrushCommand::EndStroke));
     }
 
     fn ring_center(&self) -> Option<Pos2> {
@@ -185,7 +185,7 @@ impl Gesture for Painting {
     }
 
     fn interrupted(&self, commands: &mut Vec<Command>) {
-        commands.push(Command::Brush(BrushCommand::EndStroke));
+        commands.push(Command::from(BrushCommand::EndStroke));
     }
 }
 
@@ -206,13 +206,13 @@ impl Gesture for Sizing {
         if self.dragged {
             let px = f64::from(at.x - self.from.x) * pointer.px_per_point;
             commands
-                .push(Command::Brush(BrushCommand::Radius(self.radius + px / pointer.camera.px_per_world())));
+                .push(Command::from(BrushCommand::Radius(self.radius + px / pointer.camera.px_per_world())));
         }
     }
 
     fn released(&self, at: Pos2, pointer: &Pointer<'_>, commands: &mut Vec<Command>) {
         if !self.dragged {
-            commands.push(Command::Brush(BrushCommand::LineTo(pointer.world(at))));
+            commands.push(Command::from(BrushCommand::LineTo(pointer.world(at))));
         }
     }
 

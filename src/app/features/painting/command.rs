@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{BrushMode, PenEffect};
+use crate::app::command::CommandSet;
 use crate::app::tools::PaintKind;
 
 /// One thing to do with strokes and the brush.
@@ -53,3 +54,5 @@ pub enum BrushCommand {
     /// Paints a straight line to a point from where the last stroke ended.
     LineTo(DVec2),
 }
+
+impl CommandSet for BrushCommand {}

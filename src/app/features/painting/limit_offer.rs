@@ -1,6 +1,7 @@
 //! The offer to lower the smallest diameter, after a smaller one was painted.
 
 use crate::app::clock::{Duration, Instant};
+use crate::app::features::painting::Painting;
 
 use eframe::egui::{self, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, vec2};
 use glam::DVec2;
@@ -104,7 +105,7 @@ pub fn show(
     camera: &Camera,
     commands: &mut Vec<Command>,
 ) -> Option<Rect> {
-    let offer = state.features.painting.offer.as_ref()?;
+    let offer = state.feature::<Painting>().offer.as_ref()?;
     let px_per_point = ui.pixels_per_point();
     let at = point_from_px(canvas, camera.screen_from_world(offer.at), px_per_point);
     let radius = (state.tools.radius * camera.px_per_world()) as f32 / px_per_point;
@@ -141,7 +142,7 @@ fn contents(ui: &mut Ui, state: &FrameState<'_>, offer: &LimitOffer, commands: &
     let mut choice = |ui: &mut Ui, label, kind, price: Option<String>, command| {
         ui.add_space(6.0);
         if ui.add(ActionButton::new(label).kind(kind)).clicked() {
-            commands.push(Command::Brush(command));
+            commands.push(Command::from(command));
         }
         if let Some(price) = price {
             ui.label(RichText::new(price).font(font::caption()).color(t.label));

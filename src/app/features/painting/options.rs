@@ -36,7 +36,7 @@ pub static ERASER_OPTIONS: [StripItem; 6] = [
 ];
 
 fn send(command: BrushCommand, commands: &mut Vec<Command>) {
-    commands.push(Command::Brush(command));
+    commands.push(Command::from(command));
 }
 
 /// Returns whether errors can be painted: there is a surface.

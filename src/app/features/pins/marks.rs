@@ -4,6 +4,7 @@ use eframe::egui::{Color32, Pos2, Rect, Role, Sense, Stroke, WidgetInfo, pos2, v
 use glam::DVec2;
 
 use super::table::nearest_pin;
+use crate::app::features::pins::Pins;
 use crate::app::kit::marks::{NUMBER_DISC, paint_number};
 use crate::app::kit::{FrameState, GRIP_POINTS, OverMesh};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
@@ -23,7 +24,7 @@ pub fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     if pins.is_empty() {
         return;
     }
-    let selected = state.features.pins.selected_of(pins);
+    let selected = state.feature::<Pins>().selected_of(pins);
     let hovered = hovered(state, pins, over);
     let view = over.painter.clip_rect().expand(2.0 * NUMBER_OFFSET);
     let places = pins.iter().map(|&pin| (over.screen_from_world)(pin)).enumerate();

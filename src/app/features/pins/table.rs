@@ -7,7 +7,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::{Command, PinsCommand};
+use crate::app::command::Command;
+use crate::app::features::pins::PinsCommand;
 use crate::app::kit::nearest_within;
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
@@ -101,7 +102,7 @@ pub fn copy_table(session: &Session, background: &mut Background) {
         match write(&mut text, meter) {
             Ok(()) => {
                 let text = String::from_utf8_lossy(&text).into_owned();
-                Outcome::PartRead(vec![Command::Pins(PinsCommand::Copied(text, count))])
+                Outcome::PartRead(vec![Command::from(PinsCommand::Copied(text, count))])
             }
             Err(_) if meter.is_cancelled() => Outcome::Exported("The table of pins was not copied.".into()),
             Err(error) => Outcome::NotWritten(format!("The table of pins was not copied. {error}")),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::PlotKind;
+use crate::app::command::CommandSet;
 use meshbrush_core::surface::CurvePoint;
 
 /// One thing to do with plots.
@@ -34,3 +35,5 @@ pub enum PlotsCommand {
     /// Writes the plot.
     Export(PathBuf),
 }
+
+impl CommandSet for PlotsCommand {}

@@ -1,7 +1,8 @@
 //! The curves of error against triangles, traced on another thread.
 
 use crate::app::clock::Instant;
-use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand};
+use crate::app::features::layers::LayerCommand;
 use crate::app::jobs::{Jobs, Slice, Slot};
 use crate::app::kit::Ctx;
 use crate::app::session::Session;
@@ -138,9 +139,9 @@ pub fn take_point(point: CurvePoint, ctx: &mut Ctx<'_>) {
                 SurfaceGoal::AtMost(_) => SurfaceGoal::AtMost(point.triangles),
             };
             let kind = LayerKind::Surface(Surface { goal, ..surface.clone() });
-            Command::Layer(LayerCommand::SetKind(layer.id, Box::new(kind)))
+            Command::from(LayerCommand::SetKind(layer.id, Box::new(kind)))
         })
         .collect();
     changes.into_iter().for_each(|change| ctx.send(change));
-    ctx.send(Command::Edit(EditCommand::EndGesture));
+    ctx.send(Command::from(EditCommand::EndGesture));
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::{RegionShape, RegionTarget};
+use crate::app::command::CommandSet;
 use meshbrush_core::document::DrawnShape;
 
 /// One thing to do with a region drawn by hand. Points are in world units.
@@ -32,3 +33,5 @@ pub enum RegionCommand {
     /// Removes the mask, or the keep-out region, that the tool draws on.
     Clear,
 }
+
+impl CommandSet for RegionCommand {}

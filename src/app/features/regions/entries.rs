@@ -10,7 +10,7 @@ pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let tool = &state.tools.region;
     // The menu has what the selected tool does.
     let is_tool = state.tools.tool == &REGION;
-    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::Region(command));
+    let item = |title: &str, command| CatalogItem::new(Menu::Tool, title, Command::from(command));
     let target = |title: &str, target| {
         item(title, RegionCommand::Target(target)).checked(is_tool && tool.target == target)
     };

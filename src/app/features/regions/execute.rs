@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::gestures::GESTURES;
 use super::{REGION, RegionCommand, RegionShape, RegionTarget, Regions, entries};
-use crate::app::command::{Command, LayerCommand};
+use crate::app::command::Command;
+use crate::app::features::layers::LayerCommand;
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::session::Session;
 use meshbrush_core::document::{Drawing, DrawnPart, DrawnShape, KeepOut, PathPlan, Setting, Settings};
@@ -155,7 +156,7 @@ fn close(ctx: &mut Ctx<'_>) {
 fn clear(ctx: &mut Ctx<'_>) {
     match ctx.tools.region.target {
         RegionTarget::Mask => match layer_to_draw_on(ctx.session).map(|layer| layer.id) {
-            Ok(id) => ctx.send(Command::Layer(LayerCommand::Mask(id, None))),
+            Ok(id) => ctx.send(Command::from(LayerCommand::Mask(id, None))),
             Err(problem) => ctx.session.report(problem),
         },
         RegionTarget::KeepOut => {

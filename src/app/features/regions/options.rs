@@ -30,7 +30,7 @@ fn keep_out<'a>(state: &FrameState<'a>) -> Option<(usize, &'a str)> {
 fn name_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let Some((number, name)) = keep_out(state) else { return };
     if let Some(name) = name_field(ui, "keep-out region", name) {
-        commands.push(Command::Region(RegionCommand::Rename(number, name)));
+        commands.push(Command::from(RegionCommand::Rename(number, name)));
     }
 }
 
@@ -39,7 +39,7 @@ fn target_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     let choices =
         [(RegionTarget::Mask, "Mask"), (RegionTarget::KeepOut, "Keep out"), (RegionTarget::Shapes, "Shapes")];
     if segmented(ui, "What is drawn", &mut target, &choices).changed() {
-        commands.push(Command::Region(RegionCommand::Target(target)));
+        commands.push(Command::from(RegionCommand::Target(target)));
     }
 }
 
@@ -54,14 +54,14 @@ fn shape_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     ];
     let count = if tool.target == RegionTarget::Shapes && !tool.cuts { 4 } else { 2 };
     if segmented(ui, "What it is drawn with", &mut shape, &choices[..count]).changed() {
-        commands.push(Command::Region(RegionCommand::Shape(shape)));
+        commands.push(Command::from(RegionCommand::Shape(shape)));
     }
 }
 
 fn cuts_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     let mut cuts = state.tools.region.cuts;
     if segmented(ui, "Add or cut", &mut cuts, &[(false, "Add"), (true, "Cut")]).changed() {
-        commands.push(Command::Region(RegionCommand::Cuts(cuts)));
+        commands.push(Command::from(RegionCommand::Cuts(cuts)));
     }
 }
 
@@ -71,6 +71,6 @@ fn keep_out_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
     let choices: Vec<(Option<usize>, &str)> = std::iter::once((None, "new region")).chain(known).collect();
     let mut chosen = keep_out(state).map(|(number, _)| number);
     if dropdown_row(ui, "Draw on", &mut chosen, &choices).changed() {
-        commands.push(Command::Region(RegionCommand::KeepOut(chosen)));
+        commands.push(Command::from(RegionCommand::KeepOut(chosen)));
     }
 }

@@ -114,14 +114,14 @@ impl RegionTool {
 }
 
 static COMMANDS: DrawingCommands = DrawingCommands {
-    draw: |area, adds| Command::Region(RegionCommand::Draw(DrawnShape::Area(area), adds)),
-    drawn: |command| match command {
-        Command::Region(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
+    draw: |area, adds| Command::from(RegionCommand::Draw(DrawnShape::Area(area), adds)),
+    drawn: |command| match command.get_mut() {
+        Some(RegionCommand::Draw(DrawnShape::Area(area), _)) => Some(area),
         _ => None,
     },
-    add_corner: |corner| Command::Region(RegionCommand::AddCorner(corner)),
-    move_corner: |index, corner| Command::Region(RegionCommand::MoveCorner(index, corner)),
-    close: || Command::Region(RegionCommand::Close),
+    add_corner: |corner| Command::from(RegionCommand::AddCorner(corner)),
+    move_corner: |index, corner| Command::from(RegionCommand::MoveCorner(index, corner)),
+    close: || Command::from(RegionCommand::Close),
 };
 
 /// With the brush, Alt swaps adding and cutting.
@@ -137,8 +137,8 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
         }
         RegionShape::Point => {
             let point = DrawnShape::Point(pointer.world(press.at));
-            commands.push(Command::Region(RegionCommand::Draw(point, true)));
-            commands.push(Command::Edit(EditCommand::EndGesture));
+            commands.push(Command::from(RegionCommand::Draw(point, true)));
+            commands.push(Command::from(EditCommand::EndGesture));
             None
         }
     }
@@ -152,12 +152,12 @@ fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
     let tool = &state.tools.region;
     let swap = if tool.cuts { "Add to the region" } else { "Cut from the region" };
-    let mut entries = vec![(swap, Command::Region(RegionCommand::Cuts(!tool.cuts)))];
+    let mut entries = vec![(swap, Command::from(RegionCommand::Cuts(!tool.cuts)))];
     let begin = match tool.shape() {
         RegionShape::Polygon => "Begin a polygon here",
         RegionShape::Line => "Begin a line here",
         RegionShape::Brush | RegionShape::Point => return entries,
     };
-    entries.push((begin, Command::Region(RegionCommand::AddCorner(point))));
+    entries.push((begin, Command::from(RegionCommand::AddCorner(point))));
     entries
 }

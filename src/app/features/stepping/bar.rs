@@ -17,7 +17,7 @@ const SPEED: f32 = 220.0;
 /// First, back, play, forward, last; which step of how many; a slider; the speed.
 pub fn step_bar(ui: &mut Ui, steps: &Steps, commands: &mut Vec<Command>) {
     let (position, count) = steps.player().map_or((0, 0), |player| (player.position(), player.len()));
-    let mut send = |command| commands.push(Command::Steps(command));
+    let mut send = |command| commands.push(Command::from(command));
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let play = if steps.is_playing() {

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::threats_layer;
 use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::{Command, EditCommand, LayerCommand};
+use crate::app::command::{Command, EditCommand};
+use crate::app::features::layers::LayerCommand;
 use crate::app::kit::{EmptyDocument, show_with_layer};
 use crate::app::session::Session;
 use crate::app::widgets::format;
@@ -39,9 +40,9 @@ pub fn load_threats(session: &Session, background: &mut Background, path: &Path)
                     None => LayerCommand::Add(kind),
                 };
                 Outcome::PartRead(vec![
-                    Command::Edit(EditCommand::EndGesture),
-                    Command::Layer(change),
-                    Command::Edit(EditCommand::EndGesture),
+                    Command::from(EditCommand::EndGesture),
+                    Command::from(change),
+                    Command::from(EditCommand::EndGesture),
                 ])
             }
             (Err((_, error)), _) => Outcome::NotRead(format!("{}: {error}", file.display())),

@@ -4,8 +4,8 @@ use eframe::egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, DomainCommand, FileCommand};
-use crate::app::features::domain::DomainToolMode;
+use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::tests::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
     release_at, send, wait_until, window,
@@ -16,8 +16,8 @@ const CORNERS: [DVec2; 4] = [dvec2(0.2, 0.2), dvec2(0.4, 0.2), dvec2(0.4, 0.4), 
 /// Returns a new document and an open polygon with these corners.
 fn with_corners(corners: &[DVec2]) -> Window {
     let mut window = window();
-    send(&mut window, Command::File(FileCommand::New));
-    send(&mut window, Command::Domain(DomainCommand::Mode(DomainToolMode::Polygon)));
+    send(&mut window, Command::from(FileCommand::New));
+    send(&mut window, Command::from(DomainCommand::Mode(DomainToolMode::Polygon)));
     for &corner in corners {
         click(&mut window, corner, Modifiers::NONE);
     }
@@ -46,8 +46,8 @@ fn backspace_and_ctrl_z_remove_the_last_corner() {
     assert!(window.query_by_label_contains("Undo corner of the polygon").is_some());
     key(&mut window, Modifiers::NONE, Key::Escape);
     // The document is undone only when no corner is left.
-    send(&mut window, Command::Domain(DomainCommand::RemoveCorner));
-    send(&mut window, Command::Domain(DomainCommand::RemoveCorner));
+    send(&mut window, Command::from(DomainCommand::RemoveCorner));
+    send(&mut window, Command::from(DomainCommand::RemoveCorner));
     assert_eq!(corner_count(&window), 0);
     open_menu(&mut window, "Edit");
     assert!(window.query_by_label_contains("Undo corner of the polygon").is_none());

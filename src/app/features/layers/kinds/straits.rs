@@ -61,6 +61,6 @@ fn show_narrowest(
     let text = state.unit().after(&format::digits(width, 4));
     let help = "Width of the narrowest passage between two shores, with wider water on both sides. A click goes there.";
     if ValueRow::new("Narrowest strait", &text).help(help).link().show(ui).clicked() {
-        commands.push(Command::View(ViewCommand::LookAt(center)));
+        commands.push(Command::from(ViewCommand::LookAt(center)));
     }
 }
