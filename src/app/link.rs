@@ -11,7 +11,6 @@ use super::features::ROWS;
 use super::features::stepping::StepCommand;
 use super::files::new_document;
 use super::kit::all_tools;
-use super::tools::Tools;
 use super::view::View;
 use crate::app::features::stepping::Stepping;
 use meshbrush_io::io::link::{self, LinkSpace, LinkView, Linked};
@@ -37,7 +36,7 @@ impl App {
         let tool = self.tools.chosen();
         let view = LinkView {
             area: area.map(|area| [area.min.x, area.min.y, area.max.x, area.max.y]),
-            tool: (tool != Tools::for_domain(1.0, 1.0).tool).then(|| tool.name.to_owned()),
+            tool: (!self.tools.has_first()).then(|| tool.name.to_owned()),
             space: self.view.space.shown().map(|(from, [exaggeration, height])| LinkSpace {
                 direction: [from.azimuth, from.altitude],
                 exaggeration,

@@ -78,13 +78,14 @@ use command::{Command, FileCommand};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
 use dialogs::Dialogs;
+use features::ROWS;
 use frame_log::FrameLog;
 use help::HelpTopic;
 use host::journal;
 pub use host::run;
 use jobs::Jobs;
 use journal::JournalKeeper;
-use kit::{Features, Keymap};
+use kit::{Features, Keymap, all_tools};
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -201,7 +202,7 @@ impl App {
         let session = Session::new(document).map_err(|error| error.to_string())?;
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
-        let tools = Tools::for_domain(extent, settings.transfer.h_min);
+        let tools = Tools::for_domain(all_tools(ROWS), extent, settings.transfer.h_min);
         view.dock.follow_tool(tools.tool);
         let jobs = Jobs::new(ctx);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;

@@ -52,13 +52,8 @@ impl Package {
         let imports = self.imports[file].iter();
         let imports = imports.filter(|import| !import.is_reexport || words.contains(import.name.as_str()));
         let imports = imports.map(|import| import.segments.clone());
-        let paths = self.files[file].paths().into_iter().map(|path| path.segments);
         let mut found = BTreeSet::new();
-        let reexports: Vec<&[String]> =
-            self.imports[file].iter().map(|import| &import.segments[..]).collect();
-        // What a `use` names is in `imports`.
-        let paths = paths.filter(|path| !reexports.contains(&&path[..]));
-        for path in imports.chain(paths) {
+        for path in imports.chain(self.files[file].paths_outside_use()) {
             self.find(file, &path, MOST_REEXPORTS, &mut found);
         }
         found.remove(&file);
@@ -120,16 +115,18 @@ fn definitions(file: &'static SourceFile) -> BTreeSet<&'static str> {
     pairs.map(|pair| pair[1].text.as_str()).collect()
 }
 
-/// Returns the words of the code that are not in a `use`.
+/// Returns the words of the code that are in no `use` and declare no module.
 fn words_outside_use(file: &SourceFile) -> BTreeSet<&str> {
-    let mut in_use = false;
-    let outside = file.tokens.iter().filter(|token| {
+    let (mut found, mut in_use, mut before) = (BTreeSet::new(), false, "");
+    for token in &file.tokens {
         in_use |= token.text == "use";
-        let is_outside = !in_use;
+        if !in_use && before != "mod" {
+            found.insert(token.text.as_str());
+        }
         in_use &= token.text != ";";
-        is_outside
-    });
-    outside.map(|token| token.text.as_str()).collect()
+        before = &token.text;
+    }
+    found
 }
 
 /// Returns the strongly connected components of a graph that have more than one node, the largest first, by

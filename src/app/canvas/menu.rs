@@ -5,10 +5,9 @@ use glam::DVec2;
 
 use super::Canvas;
 use super::space::space_sight;
-use crate::app::command::{Command, ShellCommand, ViewCommand};
+use crate::app::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
-use crate::app::features::painting::BrushCommand;
 use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
 use crate::app::session::Session;
 use crate::app::tools::Tools;

@@ -28,10 +28,9 @@ pub use space::space_sight;
 pub use toast::Toast;
 
 use super::busy::Busy;
-use super::command::{Command, ShellCommand, ViewCommand};
+use super::command::{BrushCommand, Command, ShellCommand, ViewCommand};
 use super::contours::ContourFinder;
 use super::features::ROWS;
-use super::features::painting::BrushCommand;
 use super::features::painting::picks;
 use super::features::picture::BackgroundTexture;
 use super::jobs::Jobs;

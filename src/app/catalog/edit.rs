@@ -4,8 +4,10 @@ use eframe::egui::{Key, Modifiers};
 
 use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::domain::DomainCommand;
+use crate::app::features::domain::DomainTool;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::regions::RegionCommand;
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
 
 /// History and paint.
@@ -20,12 +22,12 @@ pub fn edit(state: &FrameState<'_>) -> Vec<CatalogItem> {
     let redo = named("Redo", history.redo_title());
     let can_undo = state.session.can_undo();
     let can_redo = history.redo_title().is_some();
-    let in_region = !state.tools.region.corners.is_empty();
+    let in_region = !state.tools.settings::<RegionTool>().corners.is_empty();
     let remove = || match in_region {
         true => Command::from(RegionCommand::RemoveCorner),
         false => Command::from(DomainCommand::RemoveCorner),
     };
-    let in_polygon = in_region || !state.tools.domain.corners.is_empty();
+    let in_polygon = in_region || !state.tools.settings::<DomainTool>().corners.is_empty();
     let undo = if in_polygon {
         CatalogItem::new(Edit, "Undo corner of the polygon", remove())
     } else {

@@ -5,13 +5,17 @@
 //! [`Command`] is a command of any of them.
 
 mod any;
+mod brush;
 mod edit;
 mod file;
+mod layer;
 mod shell;
 mod view;
 
 pub use any::{Command, CommandSet};
+pub use brush::BrushCommand;
 pub use edit::EditCommand;
 pub use file::{FileCommand, Opened};
+pub use layer::LayerCommand;
 pub use shell::ShellCommand;
 pub use view::{SpaceCommand, ViewCommand};

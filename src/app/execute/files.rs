@@ -7,9 +7,8 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::app::App;
 use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
-use crate::app::command::{Command, FileCommand, Opened};
+use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
 use crate::app::home::{self, Home, Loss};

@@ -4,8 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::app::background::name_of;
-use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, FileCommand, LayerCommand, Opened, ShellCommand};
 use crate::app::session::Session;
 use meshbrush_core::document::{Document, Settings, extent};
 use meshbrush_core::domain::Domain;

@@ -2,8 +2,17 @@
 
 use std::any::Any;
 
-use super::{Ctx, Feature};
+use super::{Ctx, Feature, Row, Tool};
 use crate::app::command::Command;
+use crate::app::tools::PAN;
+
+/// Returns the tools of all features, and the one that moves the view, in the order of the tool strip.
+pub fn all_tools(rows: &'static [Row]) -> Vec<Tool> {
+    let of_features = rows.iter().flat_map(|row| row.tools).copied();
+    let mut tools: Vec<Tool> = of_features.chain([&PAN]).collect();
+    tools.sort_by_key(|tool| tool.place);
+    tools
+}
 
 /// The state of all features.
 #[derive(Default)]

@@ -3,8 +3,7 @@
 use eframe::egui::Ui;
 
 use super::{FrameState, Row, Tool};
-use crate::app::command::{Command, EditCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
 

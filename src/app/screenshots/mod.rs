@@ -11,14 +11,14 @@ use glam::{DVec2, dvec2};
 
 use super::SMALLEST_SIZE;
 use super::WINDOW_SIZE;
-use super::command::{Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
+use super::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
 use super::features::boundary::BoundaryCommand;
 use super::features::boundary::BoundaryToolMode;
 use super::features::domain::DomainCommand;
 use super::features::domain::DomainToolMode;
 use super::features::inspection::InspectCommand;
-use super::features::layers::LayerCommand;
-use super::features::painting::BrushCommand;
 use super::features::paths::{AlternativesCommand, FrontCommand, PATH, PathCommand};
 use super::features::pins::PinsCommand;
 use super::features::plots::{PlotKind, PlotsCommand};

@@ -14,8 +14,7 @@ use super::{
     Window, active, click_button, document, entries, key, notice, open_menu, open_tab, paint, send, set,
     settings, value_of, wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::picture::PictureCommand;
 use crate::app::kit::Tab;
 use meshbrush_core::document::{Setting, Settings};

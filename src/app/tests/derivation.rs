@@ -7,10 +7,8 @@ use fastrand::Rng;
 use glam::{DVec2, dvec2};
 
 use super::{Window, key, send, show, wait_until, window};
-use crate::app::command::{Command, EditCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, LayerCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::LayerCommand;
-use crate::app::features::painting::BrushCommand;
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use meshbrush_core::document::{Document, DrawnShape, Follower, Settings};
 use meshbrush_core::domain::{CutShape, Domain};

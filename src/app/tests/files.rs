@@ -8,8 +8,7 @@ use glam::dvec2;
 use super::{
     Window, fingerprint, has_raster, key, notice, scratch, send, stroke, wait_for_notice, wait_until, window,
 };
-use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::Example;
 use meshbrush_core::layers::RasterReading;
 

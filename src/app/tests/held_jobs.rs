@@ -7,9 +7,8 @@ use eframe::egui::{Key, Modifiers};
 use fastrand::Rng;
 
 use super::{TALL, Window, document, folder, open_section, window, window_of};
-use crate::app::command::{Command, FileCommand, ViewCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::plots::{Plots, PlotsCommand};
 use crate::app::features::statistics::Statistics;
 use crate::app::features::threats::ThreatsCommand;

@@ -9,9 +9,8 @@ use std::process;
 use egui_kittest::kittest::Queryable as _;
 
 use super::{Window, document, notice, paint, send, wait_until, window};
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use crate::app::features::picture::PictureCommand;
 use crate::app::features::threats::ThreatsCommand;

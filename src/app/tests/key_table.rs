@@ -12,11 +12,10 @@ use glam::dvec2;
 
 use super::{FREE, Kept, Window, choose, folder, key, notice, send, wait_until, window};
 use crate::app::catalog::catalog;
-use crate::app::command::{Command, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::features::ROWS;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::painting::{BRUSH, ERASER};
 use crate::app::features::paths::PathCommand;
 use crate::app::features::pins::PinsCommand;

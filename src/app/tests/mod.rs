@@ -66,9 +66,7 @@ use glam::{DVec2, dvec2};
 
 use crate::app::App;
 use crate::app::canvas::CANVAS_NAME;
-use crate::app::command::{Command, EditCommand, FileCommand, Opened};
-use crate::app::features::layers::LayerCommand;
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, Opened};
 use crate::app::features::paths::{PathFinder, Paths};
 use crate::app::features::stepping::{Stepping, Steps};
 use crate::app::kit::Features;

@@ -9,12 +9,15 @@ use super::{
     FREE, PAINTED_DIAMETER, PAINTED_RISK, Window, click, entries, key, move_to, painted, send, set, settings,
     stroke, triangles, window,
 };
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand, SpaceCommand, ViewCommand};
+use crate::app::command::{
+    BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand, SpaceCommand, ViewCommand,
+};
+use crate::app::features::domain::DomainTool;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
-use crate::app::features::layers::LayerCommand;
-use crate::app::features::painting::{BRUSH, BrushCommand, BrushMode};
+use crate::app::features::painting::BRUSH;
 use crate::app::features::regions::RegionCommand;
-use crate::app::tools::PaintKind;
+use crate::app::features::regions::RegionTool;
+use crate::app::tools::{BrushMode, PaintKind};
 use crate::app::view::{FieldOverlay, View};
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::layers::{LayerId, LayerKind, Quantity};
@@ -74,7 +77,10 @@ fn nothing_of_a_document_is_left_in_the_next_one() {
     let extent = settings(&changed).domain.bounds.size().max_element();
     assert_eq!(tools.radius, 0.2 * extent, "the brush keeps its share of the domain");
     assert_eq!(tools.diameter, usual_tools.diameter);
-    assert_eq!((&tools.domain, &tools.region, tools.error), (&usual_tools.domain, &usual_tools.region, 1.0));
+    assert_eq!(
+        (tools.settings::<DomainTool>(), tools.settings::<RegionTool>(), tools.error),
+        (usual_tools.settings::<DomainTool>(), usual_tools.settings::<RegionTool>(), 1.0)
+    );
     assert_eq!(described(changed.state().view()), described(usual.state().view()));
     assert_eq!(changed.state().session().queried(), None);
     click(&mut changed, FREE, Modifiers::SHIFT);

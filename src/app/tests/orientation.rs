@@ -12,8 +12,7 @@ use super::{
     TALL, Window, choose, choose_in_palette, key, open_tab, send, set, settings, triangles, type_into,
     wait_for_jobs, wheel, window, window_of,
 };
-use crate::app::command::{Command, FileCommand, ViewCommand};
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use crate::app::kit::Tab;
 use crate::app::view::CanvasAid;
 use meshbrush_core::document::{Example, Setting};

@@ -11,8 +11,7 @@ use super::{
     wait_for_jobs,
 };
 use crate::app::App;
-use crate::app::command::{Command, ViewCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, LayerCommand, ViewCommand};
 use crate::app::view::FieldOverlay;
 use meshbrush_core::document::{self, Setting};
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, Mask, ShapeList, Shapes};

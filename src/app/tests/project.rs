@@ -11,9 +11,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::{Kept, Window, document, paint, send, show, wait_until, window};
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
-use crate::app::features::layers::LayerCommand;
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use meshbrush_core::document::{Example, Setting, Settings, Stage};
 use meshbrush_io::io::journal::{self, Journal, Left};
 use meshbrush_io::io::project::{self, Project};

@@ -11,10 +11,9 @@ use super::{
     FREE, TALL, Window, canvas, choose, entries, key, open_popup, open_section, open_tab, send, wait_until,
     window_of,
 };
-use crate::app::command::{Command, EditCommand, ShellCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::features::ROWS;
 use crate::app::features::inspection::InspectCommand;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::stepping::StepCommand;
 use crate::app::features::threats::ThreatsCommand;
 use crate::app::kit::{Tab, all_tools};

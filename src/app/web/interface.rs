@@ -14,8 +14,7 @@ use web_sys::HtmlCanvasElement;
 
 use super::events::{Herald, Listeners};
 use super::{files, link};
-use crate::app::command::{Command, FileCommand, ViewCommand};
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command, FileCommand, ViewCommand};
 use crate::app::features::report::FigureCommand;
 use crate::app::features::stepping::StepCommand;
 use crate::app::{App, set_up_gpu};

@@ -2,8 +2,7 @@
 
 use wasm_bindgen::prelude::*;
 
-use crate::app::command::Command;
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command};
 
 #[wasm_bindgen(module = "/web/pen.js")]
 extern "C" {

@@ -131,12 +131,35 @@ impl SourceFile {
     /// Returns every path with at least two segments; `use` trees are expanded. `self` and `super` are
     /// resolved to paths that begin with `crate`.
     pub fn paths(&self) -> Vec<PathInCode> {
+        self.named().into_iter().map(|(path, _)| path).collect()
+    }
+
+    /// Returns the segments of the paths that are in no `use`.
+    pub fn paths_outside_use(&self) -> Vec<Vec<String>> {
+        let named = self.named().into_iter().filter(|(_, import)| import.is_none());
+        named.map(|(path, _)| path.segments).collect()
+    }
+
+    /// Returns what the `use` trees of the file bring into it.
+    pub fn imports(&self) -> Vec<Import> {
+        let with_path = |(path, import): (PathInCode, Option<Import>)| {
+            let mut segments = path.segments;
+            // `a::b::{self}` imports `a::b`.
+            segments.pop_if(|last| last == "self");
+            Some(Import { segments, ..import? })
+        };
+        self.named().into_iter().filter_map(with_path).collect()
+    }
+
+    /// Returns every path, and where it is of a `use` what it imports, still without segments.
+    fn named(&self) -> Vec<(PathInCode, Option<Import>)> {
         let mut found = Vec::new();
         let mut inline: Vec<(String, usize)> = Vec::new();
         let (mut depth, mut at) = (0, 0);
         while at < self.tokens.len() {
-            let module: Vec<String> =
-                self.module.iter().cloned().chain(inline.iter().map(|(name, _)| name.clone())).collect();
+            let module = || -> Vec<String> {
+                self.module.iter().cloned().chain(inline.iter().map(|(name, _)| name.clone())).collect()
+            };
             match self.text(at) {
                 "mod" if self.text(at + 2) == "{" => inline.push((self.text(at + 1).to_owned(), depth)),
                 "{" => depth += 1,
@@ -145,9 +168,13 @@ impl SourceFile {
                     inline.retain(|&(_, outside)| outside < depth);
                 }
                 "use" if is_name(self.text(at + 1)) || matches!(self.text(at + 1), "{" | "::") => {
+                    let is_reexport = at > 0 && matches!(self.text(at - 1), "pub" | ")");
                     let mut leaves = Vec::new();
                     at = self.use_tree(at + 1, &mut Vec::new(), &mut leaves);
-                    found.extend(leaves.into_iter().map(|path| resolved(path, &module)));
+                    found.extend(leaves.into_iter().map(|(path, name)| {
+                        let import = Import { name, segments: Vec::new(), is_reexport };
+                        (resolved(path, &module()), Some(import))
+                    }));
                     continue;
                 }
                 _ if self.begins_path(at) => {
@@ -157,50 +184,13 @@ impl SourceFile {
                         path.segments.push(self.text(at + 2).to_owned());
                         at += 2;
                     }
-                    found.push(resolved(path, &module));
+                    found.push((resolved(path, &module()), None));
                 }
                 _ => {}
             }
             at += 1;
         }
         found
-    }
-
-    /// Returns the names that the file itself imports; `use` trees are expanded, and `self` and `super` are
-    /// resolved.
-    pub fn imports(&self) -> Vec<Import> {
-        let mut found = Vec::new();
-        for at in (0..self.tokens.len()).filter(|&at| self.text(at) == "use") {
-            let mut leaves = Vec::new();
-            let end = self.use_tree(at + 1, &mut Vec::new(), &mut leaves);
-            // Leaves and aliases stand in the same order.
-            let names = self.imported_names(at + 1, end);
-            let is_reexport = at > 0 && matches!(self.text(at - 1), "pub" | ")");
-            found.extend(leaves.into_iter().zip(names).map(|(leaf, name)| Import {
-                name,
-                segments: resolved(leaf, &self.module).segments,
-                is_reexport,
-            }));
-        }
-        found
-    }
-
-    /// Returns the names of the leaves of a `use` tree between two tokens.
-    fn imported_names(&self, from: usize, end: usize) -> Vec<String> {
-        let is_leaf = |at: &usize| {
-            let text = self.text(*at);
-            (is_name(text) || text == "*") && !matches!(self.text(at + 1), "::" | "as") && text != "as"
-        };
-        let name = |at: usize| match self.text(at) {
-            // `a::b::{self}` is the name `b`.
-            "self" => self.tokens[from..at]
-                .iter()
-                .rev()
-                .find(|token| is_name(&token.text) && !["self", "as"].contains(&token.text.as_str()))
-                .map_or(String::new(), |token| token.text.clone()),
-            text => text.to_owned(),
-        };
-        (from..end).filter(is_leaf).map(name).collect()
     }
 
     /// Returns every function with a body, from the line of its name to the closing brace.
@@ -236,10 +226,16 @@ impl SourceFile {
         is_name(self.text(at)) && self.text(at + 1) == "::" && is_name(self.text(at + 2))
     }
 
-    /// Expands the tree of a `use` that begins at `at`. Returns where it ends.
-    fn use_tree(&self, mut at: usize, before: &mut Vec<String>, leaves: &mut Vec<PathInCode>) -> usize {
+    /// Expands the tree of a `use` that begins at `at`, with the names that it imports. Returns where it ends.
+    fn use_tree(
+        &self,
+        mut at: usize,
+        before: &mut Vec<String>,
+        leaves: &mut Vec<(PathInCode, String)>,
+    ) -> usize {
         let kept = before.len();
         let line = self.tokens.get(at).map_or(0, |token| token.line);
+        let mut alias = None;
         loop {
             match self.text(at) {
                 "::" => at += 1,
@@ -252,7 +248,10 @@ impl SourceFile {
                     before.truncate(kept);
                     return at + 1;
                 }
-                "as" => at += 2,
+                "as" => {
+                    alias = Some(self.text(at + 1).to_owned());
+                    at += 2;
+                }
                 name if is_name(name) || name == "*" => {
                     before.push(name.to_owned());
                     at += 1;
@@ -260,7 +259,9 @@ impl SourceFile {
                 _ => break,
             }
         }
-        leaves.push(PathInCode { line, segments: before.clone() });
+        // `a::b::{self}` is the name `b`.
+        let name = before.iter().rev().find(|name| *name != "self").cloned().unwrap_or_default();
+        leaves.push((PathInCode { line, segments: before.clone() }, alias.unwrap_or(name)));
         before.truncate(kept);
         at
     }

@@ -4,6 +4,7 @@ use eframe::egui::{Key, ScrollArea, Ui};
 
 use super::{BoundaryCommand, OPEN_IN_POLYGONS};
 use crate::app::command::{Command, FileCommand, ShellCommand};
+use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
 use crate::app::widgets::{
     ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
@@ -34,7 +35,7 @@ fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
         });
         return;
     };
-    let selected = state.tools.boundary.selected_of(pieces);
+    let selected = state.tools.settings::<BoundaryTool>().selected_of(pieces);
     let lost = state.session.lost_boundary_pieces().unwrap_or_default();
     let present = pieces.list().len() - lost.len();
     let note = format::count(present as u64);
@@ -66,7 +67,7 @@ fn opening_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>
         }
     });
     ui.add_space(4.0);
-    let mut level = state.tools.boundary.level;
+    let mut level = state.tools.settings::<BoundaryTool>().level;
     let row = NumberRow::new("Deeper than", &mut level).range(f64::MIN..=f64::MAX).unit("m");
     if row.help("The depth of water beyond which the boundary is opened.").show(ui).changed() {
         commands.push(Command::from(BoundaryCommand::Level(level)));

@@ -7,6 +7,7 @@ use super::{BOUNDARY_OPTIONS, BoundaryCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
 use crate::app::theme::font;
+use crate::app::tools::{ToolSettings, first_settings};
 use crate::app::widgets::Hint::{self, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
@@ -27,11 +28,12 @@ pub static BOUNDARY: ToolSpec = ToolSpec {
     menu: |state, point| {
         let reach = REACH_POINTS * state.view.world_per_px();
         let click = Command::from(BoundaryCommand::Click(point, reach));
-        match state.tools.boundary.mode {
+        match state.tools.settings::<BoundaryTool>().mode {
             BoundaryToolMode::Select => vec![("Select the piece here", click)],
             BoundaryToolMode::Split => vec![("Split the boundary here", click)],
         }
     },
+    settings: Some(first_settings::<BoundaryTool>),
     ..ToolSpec::new("Boundary", Key::N, Icon::BOUNDARY)
 };
 
@@ -76,6 +78,12 @@ pub struct BoundaryTool {
     pub level: f64,
 }
 
+impl ToolSettings for BoundaryTool {
+    fn differs_in_choice(&self, other: &Self) -> bool {
+        self.mode != other.mode
+    }
+}
+
 impl Default for BoundaryTool {
     fn default() -> Self {
         Self { mode: BoundaryToolMode::default(), selected: None, level: USUAL_LEVEL }
@@ -110,7 +118,7 @@ fn paint(state: &FrameState<'_>, over: &OverMesh<'_>) {
     let Some(pieces) = state.session.boundary_pieces() else { return };
     let reach = REACH_POINTS * f64::from(over.painter.pixels_per_point()) * state.view.world_per_px();
     let hovered = state.pointer.and_then(|at| pieces.nearest(at, reach)).map(|(piece, _)| piece);
-    let selected = state.tools.boundary.selected_of(pieces);
+    let selected = state.tools.settings::<BoundaryTool>().selected_of(pieces);
     let mut lengths = Vec::new();
     for (number, piece) in pieces.list().iter().enumerate() {
         let stands_out = Some(number) == hovered || Some(number) == selected;

@@ -2,9 +2,8 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::LayerCommand;
 use super::selected::combine_name;
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING, kinds_of_layers};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 

@@ -2,10 +2,9 @@
 
 use super::kinds::kind_of;
 use super::{
-    GRADATION, KINDS, LAYERS, LayerCommand, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries,
-    list, load, marks,
+    GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load, marks,
 };
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;

@@ -1,7 +1,6 @@
 //! The kinds of files that layers are read from.
 
-use crate::app::command::Command;
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{DataContents, DataFile, DataRole, FileKind, FrameState};
 use meshbrush_io::io::{RasterFormat, shape_format};
 

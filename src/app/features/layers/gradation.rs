@@ -2,8 +2,7 @@
 
 use eframe::egui::Ui;
 
-use super::LayerCommand;
-use crate::app::command::{Command, EditCommand};
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use crate::app::widgets::{Section, SliderRow, toggle_row};
 use meshbrush_core::document::{Setting, Settings};

@@ -2,11 +2,10 @@
 
 use eframe::egui::{Context, CursorIcon, Id, Rect, Response, ScrollArea, Ui, pos2};
 
-use super::LayerCommand;
 use super::kinds::kind_of;
 use super::pictures::layer_color32;
 use super::selected::combine_name;
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::features::layers::LayerEditor;
 use crate::app::kit::FrameState;
 use crate::app::theme::tokens;

@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use super::ground::ground_under;
 use crate::app::background::{Aim, Background, Outcome, name_of};
-use crate::app::command::{Command, EditCommand, ShellCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand, ShellCommand};
 use crate::app::kit::{EmptyDocument, raster_frame, show_with_layer, with_mask, with_space_around};
 use crate::app::session::Session;
 use meshbrush_core::document::{Settings, extent};

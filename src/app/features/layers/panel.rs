@@ -2,8 +2,8 @@
 
 use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
-use super::{LayerCommand, list, selected};
-use crate::app::command::Command;
+use super::{list, selected};
+use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, kinds_of_layers, menu_item};
 use crate::app::theme::metrics;
 use crate::app::widgets::{Icon, Section, ToolButton};

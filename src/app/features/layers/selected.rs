@@ -2,9 +2,9 @@
 
 use eframe::egui::Ui;
 
+use super::OPEN_MASK;
 use super::kinds::kind_of;
-use super::{LayerCommand, OPEN_MASK};
-use crate::app::command::{Command, FileCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
 use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};

@@ -3,10 +3,10 @@
 use eframe::egui::{Key, Modifiers, Painter, Pos2};
 use glam::DVec2;
 
-use super::{BRUSH_OPTIONS, BrushCommand};
-use crate::app::command::Command;
+use super::BRUSH_OPTIONS;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
-use crate::app::tools::{PaintKind, Tools};
+use crate::app::tools::{BrushMode, PaintKind, Tools};
 use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::NoPaintLayer;
@@ -72,23 +72,6 @@ pub fn hint_without_layer(state: &FrameState<'_>) -> Option<&'static [Hint<'stat
         NoPaintLayer::Hidden { .. } => SHOW_LAYER,
         NoPaintLayer::Locked { .. } => UNLOCK_LAYER,
     })
-}
-
-/// How a stroke of the brush changes the paint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BrushMode {
-    /// Raises the risk, with each stroke by the strength; makes the painted diameter smaller, never larger.
-    BuildUp,
-    /// Gives risk or diameter one value, from below and from above.
-    Set,
-    /// Lowers the risk, with each stroke by the strength; makes the painted diameter larger, never smaller.
-    Lower,
-}
-
-impl BrushMode {
-    /// All modes with their names, in the order of the panel.
-    pub const ALL: [(Self, &'static str); 3] =
-        [(Self::BuildUp, "Build up"), (Self::Set, "Set"), (Self::Lower, "Lower")];
 }
 
 fn brush(tools: &Tools) -> Brush {

@@ -2,10 +2,10 @@
 
 use eframe::egui::{Key, Modifiers};
 
-use super::{BrushCommand, BrushMode, ERASER, GESTURES};
-use crate::app::command::Command;
+use super::{ERASER, GESTURES};
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{CatalogItem, DIGITS, FrameState, GestureHelp, Menu, NOT_QUERYING};
-use crate::app::tools::{PaintKind, Tools};
+use crate::app::tools::{BrushMode, PaintKind, Tools};
 
 /// The brush, gestures that are hard to find, and what the digits set.
 pub fn entries(state: &FrameState<'_>) -> Vec<CatalogItem> {

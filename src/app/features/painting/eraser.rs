@@ -18,6 +18,7 @@ pub static ERASER: ToolSpec = ToolSpec {
     hint: |state| hint_without_layer(state).unwrap_or(HINT),
     has_ring: |_| true,
     brush: Some(brush),
+    erases: true,
     in_space: true,
     press: press_to_paint,
     menu: line_to_here,

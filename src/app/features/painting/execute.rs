@@ -2,15 +2,12 @@
 
 use glam::DVec2;
 
-use super::{
-    BRUSH, BrushCommand, BrushMode, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries,
-};
-use crate::app::command::Command;
-use crate::app::features::layers::LayerCommand;
+use super::{BRUSH, ERASER, GESTURES, LimitOffer, Painting, brush_diameters, entries};
+use crate::app::command::{BrushCommand, Command, LayerCommand};
 use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::notices::Offer;
 use crate::app::readout::{Quantity, value_at};
-use crate::app::tools::PaintKind;
+use crate::app::tools::{BrushMode, PaintKind};
 use meshbrush_core::document::{NoPaintLayer, Setting};
 use meshbrush_core::layers::{Layer, LayerKind};
 

@@ -6,8 +6,7 @@ use crate::app::features::painting::Painting;
 use eframe::egui::{self, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, vec2};
 use glam::DVec2;
 
-use super::BrushCommand;
-use crate::app::command::Command;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{FrameState, NO_LIMIT, marks::point_from_px};
 use crate::app::session::Session;
 use crate::app::slices::SLICE;

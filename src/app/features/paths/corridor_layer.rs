@@ -1,8 +1,7 @@
 //! Corridors: layers along the paths as they were when they were taken.
 
 use super::{NO_PATH, Paths};
-use crate::app::command::{Command, EditCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::Ctx;
 use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::Settings;

@@ -1,8 +1,7 @@
 //! The curves of error against triangles, traced on another thread.
 
 use crate::app::clock::Instant;
-use crate::app::command::{Command, EditCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::jobs::{Jobs, Slice, Slot};
 use crate::app::kit::Ctx;
 use crate::app::session::Session;

@@ -2,7 +2,6 @@
 
 use glam::DVec2;
 
-use super::{RegionShape, RegionTarget};
 use crate::app::command::CommandSet;
 use meshbrush_core::document::DrawnShape;
 
@@ -35,3 +34,29 @@ pub enum RegionCommand {
 }
 
 impl CommandSet for RegionCommand {}
+
+/// What the region tool draws on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionTarget {
+    /// The mask of the selected layer.
+    #[default]
+    Mask,
+    /// A keep-out region of paths.
+    KeepOut,
+    /// The shapes to which the selected layer measures the distance.
+    Shapes,
+}
+
+/// What the region tool draws with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RegionShape {
+    /// The brush ring.
+    #[default]
+    Brush,
+    /// A polygon, corner by corner.
+    Polygon,
+    /// A polyline, among shapes only.
+    Line,
+    /// Points, among shapes only.
+    Point,
+}

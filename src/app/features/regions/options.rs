@@ -4,6 +4,7 @@ use eframe::egui::Ui;
 
 use super::{RegionCommand, RegionShape, RegionTarget};
 use crate::app::command::Command;
+use crate::app::features::regions::RegionTool;
 use crate::app::kit::{FrameState, StripItem, name_field, radius_row};
 use crate::app::widgets::{dropdown_row, segmented};
 
@@ -12,16 +13,17 @@ pub static REGION_OPTIONS: [StripItem; 6] = [
     StripItem::new(232.0, 0, target_row),
     StripItem::new(248.0, 1, shape_row),
     StripItem::new(112.0, 2, cuts_row),
-    StripItem::new(136.0, 3, radius_row).only(|state| state.tools.region.shape() == RegionShape::Brush),
+    StripItem::new(136.0, 3, radius_row)
+        .only(|state| state.tools.settings::<RegionTool>().shape() == RegionShape::Brush),
     StripItem::new(224.0, 4, keep_out_row)
         .stretching()
-        .only(|state| state.tools.region.target == RegionTarget::KeepOut),
+        .only(|state| state.tools.settings::<RegionTool>().target == RegionTarget::KeepOut),
     StripItem::new(208.0, 5, name_row).only(|state| keep_out(state).is_some()),
 ];
 
 /// Returns the number and the name of the keep-out region that is drawn on.
 fn keep_out<'a>(state: &FrameState<'a>) -> Option<(usize, &'a str)> {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     let number = tool.keep_out.filter(|_| tool.target == RegionTarget::KeepOut)?;
     let region = state.session.document().settings().paths.keep_out.get(number)?;
     Some((number, &region.name))
@@ -35,7 +37,7 @@ fn name_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 fn target_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut target = state.tools.region.target;
+    let mut target = state.tools.settings::<RegionTool>().target;
     let choices =
         [(RegionTarget::Mask, "Mask"), (RegionTarget::KeepOut, "Keep out"), (RegionTarget::Shapes, "Shapes")];
     if segmented(ui, "What is drawn", &mut target, &choices).changed() {
@@ -44,7 +46,7 @@ fn target_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
 }
 
 fn shape_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     let mut shape = tool.shape();
     let choices = [
         (RegionShape::Brush, "Brush"),
@@ -59,7 +61,7 @@ fn shape_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
 }
 
 fn cuts_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
-    let mut cuts = state.tools.region.cuts;
+    let mut cuts = state.tools.settings::<RegionTool>().cuts;
     if segmented(ui, "Add or cut", &mut cuts, &[(false, "Add"), (true, "Cut")]).changed() {
         commands.push(Command::from(RegionCommand::Cuts(cuts)));
     }

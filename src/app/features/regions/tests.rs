@@ -5,9 +5,9 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::features::layers::LayerCommand;
+use crate::app::features::regions::RegionTool;
 use crate::app::features::regions::{REGION, RegionCommand, RegionShape, RegionTarget};
 use crate::app::kit::Tab;
 use crate::app::tests::{
@@ -132,11 +132,11 @@ fn escape_takes_the_polygon_and_the_stroke_back() {
         click(&mut window, *corner, Modifiers::NONE);
     }
     key(&mut window, Modifiers::NONE, Key::Backspace);
-    assert_eq!(window.state().tools().region.corners.len(), 2);
+    assert_eq!(window.state().tools().settings::<RegionTool>().corners.len(), 2);
     key(&mut window, Modifiers::NONE, Key::Enter);
     assert!(notice(&window).contains("three corners"), "{}", notice(&window));
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().tools().region.corners.is_empty());
+    assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     choose(&mut window, "Brush");
     press(&mut window, SQUARE[0], Modifiers::NONE);
     move_to(&mut window, SQUARE[2]);
@@ -237,9 +237,9 @@ fn a_polygon_that_was_begun_is_dropped_with_another_target_or_shape() {
     ] {
         send(&mut window, Command::from(RegionCommand::Shape(RegionShape::Polygon)));
         SQUARE[..2].iter().for_each(|&corner| click(&mut window, corner, Modifiers::NONE));
-        assert_eq!(window.state().tools().region.corners.len(), 2, "{command:?}");
+        assert_eq!(window.state().tools().settings::<RegionTool>().corners.len(), 2, "{command:?}");
         send(&mut window, Command::from(command));
-        assert!(window.state().tools().region.corners.is_empty());
+        assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     }
 }
 
@@ -250,7 +250,7 @@ fn escape_drops_a_polygon_before_the_query() {
     send(&mut window, Command::from(RegionCommand::Shape(RegionShape::Polygon)));
     click(&mut window, SQUARE[0], Modifiers::NONE);
     key(&mut window, Modifiers::NONE, Key::Escape);
-    assert!(window.state().tools().region.corners.is_empty());
+    assert!(window.state().tools().settings::<RegionTool>().corners.is_empty());
     assert!(window.state().session().queried().is_some(), "one thing at a time");
     key(&mut window, Modifiers::NONE, Key::Escape);
     assert!(window.state().session().queried().is_none());

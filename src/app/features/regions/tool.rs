@@ -4,12 +4,12 @@
 use eframe::egui::Key;
 use glam::DVec2;
 
-use super::{REGION_OPTIONS, RegionCommand, marks};
+use super::{REGION_OPTIONS, RegionCommand, RegionShape, RegionTarget, marks};
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{
     DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
 };
-use crate::app::tools::Tools;
+use crate::app::tools::{ToolSettings, Tools, first_settings};
 use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
 use crate::app::widgets::Icon;
 use meshbrush_core::document::DrawnShape;
@@ -18,17 +18,18 @@ use meshbrush_core::document::DrawnShape;
 pub static REGION: ToolSpec = ToolSpec {
     place: 5,
     options: &REGION_OPTIONS,
-    hint: |state| match state.tools.region.shape() {
+    hint: |state| match state.tools.settings::<RegionTool>().shape() {
         RegionShape::Brush => BRUSH_HINT,
         RegionShape::Polygon => POLYGON_HINT,
         RegionShape::Line => LINE_HINT,
         RegionShape::Point => POINT_HINT,
     },
-    has_ring: |tools| tools.region.shape() == RegionShape::Brush,
+    has_ring: |tools| tools.settings::<RegionTool>().shape() == RegionShape::Brush,
     paint: marks::paint,
     press,
     press_secondary,
     menu,
+    settings: Some(first_settings::<RegionTool>),
     ..ToolSpec::new("Region", Key::M, Icon::REGION)
 };
 
@@ -61,32 +62,6 @@ const LINE_HINT: &[Hint] = &[
 ];
 const POINT_HINT: &[Hint] = &[Text("Click to set points"), KeyOf("undo"), Text("undo")];
 
-/// What the region tool draws on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RegionTarget {
-    /// The mask of the selected layer.
-    #[default]
-    Mask,
-    /// A keep-out region of paths.
-    KeepOut,
-    /// The shapes to which the selected layer measures the distance.
-    Shapes,
-}
-
-/// What the region tool draws with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RegionShape {
-    /// The brush ring.
-    #[default]
-    Brush,
-    /// A polygon, corner by corner.
-    Polygon,
-    /// A polyline, among shapes only.
-    Line,
-    /// Points, among shapes only.
-    Point,
-}
-
 /// Settings of the region tool, and its open polygon.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RegionTool {
@@ -100,6 +75,12 @@ pub struct RegionTool {
     pub keep_out: Option<usize>,
     /// Corners so far of the polygon or the line, in world units.
     pub corners: Vec<DVec2>,
+}
+
+impl ToolSettings for RegionTool {
+    fn differs_in_choice(&self, other: &Self) -> bool {
+        (self.target, self.shape(), self.cuts) != (other.target, other.shape(), other.cuts)
+    }
 }
 
 impl RegionTool {
@@ -126,7 +107,7 @@ static COMMANDS: DrawingCommands = DrawingCommands {
 
 /// With the brush, Alt swaps adding and cutting.
 fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> Option<Box<dyn Gesture>> {
-    let tool = &pointer.tools.region;
+    let tool = pointer.tools.settings::<RegionTool>();
     match tool.shape() {
         RegionShape::Brush => {
             let adds = tool.cuts == press.modifiers.alt;
@@ -146,11 +127,11 @@ fn press(press: &Press, pointer: &Pointer<'_>, commands: &mut Vec<Command>) -> O
 
 /// The secondary button closes the polygon, or ends the line.
 fn press_secondary(tools: &Tools, commands: &mut Vec<Command>) -> bool {
-    COMMANDS.close_if_begun(&tools.region.corners, commands)
+    COMMANDS.close_if_begun(&tools.settings::<RegionTool>().corners, commands)
 }
 
 fn menu(state: &FrameState<'_>, point: DVec2) -> Vec<(&'static str, Command)> {
-    let tool = &state.tools.region;
+    let tool = state.tools.settings::<RegionTool>();
     let swap = if tool.cuts { "Add to the region" } else { "Cut from the region" };
     let mut entries = vec![(swap, Command::from(RegionCommand::Cuts(!tool.cuts)))];
     let begin = match tool.shape() {

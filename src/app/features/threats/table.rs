@@ -4,8 +4,7 @@ use std::path::Path;
 
 use super::threats_layer;
 use crate::app::background::{Aim, Background, Outcome, exported};
-use crate::app::command::{Command, EditCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{EmptyDocument, show_with_layer};
 use crate::app::session::Session;
 use crate::app::widgets::format;

@@ -7,9 +7,8 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
-use crate::app::command::Command;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::features::inspection::QUERY;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::painting::BRUSH;
 use crate::app::features::threats::{THREATS, ThreatsCommand};
 use crate::app::tests::{

@@ -7,9 +7,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, ShellCommand};
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ShellCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::LayerCommand;
 use crate::app::features::pins::PinsCommand;
 use crate::app::tests::{
     TALL, Window, area, document, entries, fingerprint, folder, has_raster, level_at, paint, send, settings,

@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, FileCommand};
+use crate::app::features::domain::DomainTool;
 use crate::app::features::domain::{DomainCommand, DomainToolMode};
 use crate::app::tests::{
     Window, area, click, entries, key, move_to, notice, on_screen, open_menu, press, press_at, release,
@@ -25,7 +26,7 @@ fn with_corners(corners: &[DVec2]) -> Window {
 }
 
 fn corner_count(window: &Window) -> usize {
-    window.state().tools().domain.corners.len()
+    window.state().tools().settings::<DomainTool>().corners.len()
 }
 
 /// Whether the polygon was cut out: a square of 0.2 × 0.2, unless a corner was moved.
@@ -88,7 +89,7 @@ fn corners_can_be_dragged_before_the_polygon_is_closed() {
         move_to(&mut window, to);
         release(&mut window, to);
     }
-    let corners = &window.state().tools().domain.corners;
+    let corners = &window.state().tools().settings::<DomainTool>().corners;
     assert_eq!(corners.len(), 4);
     assert!(corners[2].distance(dvec2(0.6, 0.4)) < 1e-3 && corners[0].distance(dvec2(0.2, 0.1)) < 1e-3);
     let shoelace = |ring: &[DVec2]| {

@@ -3,8 +3,8 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand};
-use crate::app::features::layers::{LayerCommand, OPEN_BAND};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::features::layers::OPEN_BAND;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, set_kind_once};
 use crate::app::widgets::{Icon, NumberRow};
 use meshbrush_core::layers::{Layer, LayerKind};

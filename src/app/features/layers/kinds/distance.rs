@@ -2,8 +2,8 @@
 
 use eframe::egui::{ScrollArea, Ui};
 
-use crate::app::command::{Command, FileCommand};
-use crate::app::features::layers::{LayerCommand, OPEN_SHAPES, REPLACE_SHAPES};
+use crate::app::command::{Command, FileCommand, LayerCommand};
+use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
 use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};

@@ -3,8 +3,7 @@
 use eframe::egui::Ui;
 
 use super::quantity_name;
-use crate::app::command::Command;
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
 use crate::app::widgets::{ActionButton, Icon, ValueRow};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};

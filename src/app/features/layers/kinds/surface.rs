@@ -3,9 +3,9 @@
 use eframe::egui::Ui;
 
 use super::raster::source_rows;
-use crate::app::command::{Command, FileCommand, ViewCommand};
+use crate::app::command::{Command, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::{LayerCommand, LayerEditor, OPEN_SURFACE};
+use crate::app::features::layers::{LayerEditor, OPEN_SURFACE};
 use crate::app::kit::{
     Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
     set_kind_once,

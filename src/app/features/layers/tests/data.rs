@@ -10,8 +10,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::dvec2;
 
 use super::stack::{choose_in, select};
-use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, choose_in_palette, click_button, entries, folder, key, level_at,
     move_to, notice, open_menu, send, settings, triangles, type_into, value_of, wait_for_notice, wait_until,

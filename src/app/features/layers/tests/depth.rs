@@ -7,8 +7,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use glam::{DVec2, dvec2};
 
-use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, click_button, entries, folder, notice, on_screen, send, settings,

@@ -7,8 +7,7 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::depth::begin_contour;
-use crate::app::command::{Command, EditCommand, FileCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::tests::{
     TALL, Window, active, folder, notice, send, settings, step_until, triangles, wait_for_notice, wait_until,
     window_of,

@@ -6,10 +6,9 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{Command, EditCommand, FileCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::features::layers::{LayerCommand, LayerEditor};
-use crate::app::features::painting::BrushCommand;
+use crate::app::features::layers::LayerEditor;
 use crate::app::tests::{
     CTRL_SHIFT, FREE, TALL, Window, active, button_event, choose, click_button, document, entries, key,
     level_at, move_to, notice, press_at, release_at, send, set, settings, stroke, triangles, type_into,

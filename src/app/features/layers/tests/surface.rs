@@ -7,10 +7,8 @@ use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
 use super::depth::click_on;
-use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
+use crate::app::command::{BrushCommand, Command, EditCommand, FileCommand, LayerCommand, ViewCommand};
 use crate::app::features::domain::DomainCommand;
-use crate::app::features::layers::LayerCommand;
-use crate::app::features::painting::BrushCommand;
 use crate::app::tests::pictures::{drawn_window, picture, pixel};
 use crate::app::tests::{
     RESTING_PLACE, TALL, Window, active, folder, on_screen, send, settings, triangles, type_into, value_of,

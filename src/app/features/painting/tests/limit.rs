@@ -5,8 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::{Command, EditCommand, ViewCommand};
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command, EditCommand, ViewCommand};
 use crate::app::tests::{
     FREE, PAINTED_DIAMETER, Window, click_button, entries, hover, key, move_to, on_screen, painted, send,
     settings, stroke, triangles, type_into, value_of, window,

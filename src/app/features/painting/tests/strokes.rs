@@ -6,8 +6,7 @@ use eframe::egui::{self, Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::dvec2;
 
-use crate::app::command::Command;
-use crate::app::features::painting::BrushCommand;
+use crate::app::command::{BrushCommand, Command};
 use crate::app::tests::{
     CTRL_SHIFT, FREE, entries, fingerprint, key, level_at, move_to, on_screen, press, release, send, stroke,
     triangles, window,

@@ -9,8 +9,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, dvec2};
 
 use super::{GOAL, START, shown, wait_for_paths, window_with_path};
-use crate::app::command::{Command, EditCommand};
-use crate::app::features::layers::LayerCommand;
+use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::features::paths::{KeepOutCommand, PathCommand};
 use crate::app::tests::tips::unexplained;
 use crate::app::tests::{

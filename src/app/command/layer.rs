@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::app::command::CommandSet;
+use super::CommandSet;
 use meshbrush_core::layers::{Combine, DistanceTo, LayerId, LayerKind, Mask};
 
 /// One thing to do with layers.

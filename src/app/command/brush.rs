@@ -2,9 +2,8 @@
 
 use glam::DVec2;
 
-use super::{BrushMode, PenEffect};
-use crate::app::command::CommandSet;
-use crate::app::tools::PaintKind;
+use super::CommandSet;
+use crate::app::tools::{BrushMode, PaintKind, PenEffect};
 
 /// One thing to do with strokes and the brush.
 #[derive(Clone, Debug, PartialEq)]
