@@ -24,6 +24,18 @@ pub fn files_that_open() -> String {
     opened_by_ending().map(kind).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the kind of a file to open, by the ending of its name.
+///
+/// # Errors
+/// Fails with a sentence when files with that ending cannot be opened.
+pub fn opened_kind(path: &Path) -> Result<FileRequest, String> {
+    let name = path.file_name().unwrap_or_default();
+    match opened_by_ending().find(|kind| kind.takes(name)) {
+        Some(kind) => Ok(kind),
+        None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
+    }
+}
+
 /// Any file that can be opened.
 pub static OPEN_ANY: FileKind = FileKind {
     title: "Open",

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::background::{Aim, Background, Outcome, cancelled, exported};
+use super::background::{Aim, Background, Outcome, cancelled, exported, listed};
 use super::command::{Command, FileCommand, Opened, ShellCommand};
 use super::host::asset;
 use super::kit::Keymap;
 use super::session::Session;
-use super::space::Space;
-use super::view::View;
+
+use super::view::{Space, View};
 use super::widgets::format;
 use meshbrush_core::document::{
     Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
@@ -330,12 +330,4 @@ pub fn save_recipe(session: &Session, background: &mut Background, path: &Path) 
         Err(_) if meter.is_cancelled() => Outcome::Exported(cancelled(Aim::Export, &file)),
         Err(error) => Outcome::NotWritten(format!("{} could not be written: {error}.", file.display())),
     });
-}
-
-/// Returns the names of files, one after the other; of many only the first and the last one.
-pub fn listed(files: &[PathBuf]) -> String {
-    match files {
-        [first, .., last] if files.len() > 5 => format!("{} … {}", first.display(), last.display()),
-        _ => files.iter().map(|file| file.display().to_string()).collect::<Vec<_>>().join(", "),
-    }
 }

@@ -27,6 +27,7 @@ use super::features::{ROWS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
 use super::keys::{Press, Receiver};
+use super::platform::IS_PAGE;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
@@ -180,8 +181,7 @@ impl App {
             if self.reproducible { [NO_LIMIT; 2] } else { [self.mesh_budget(ctx), self.price_budget(ctx)] };
         let jobs = &self.jobs;
         let start = Instant::now();
-        let deadline =
-            if host::IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
+        let deadline = if IS_PAGE { (began + budget).max(start + LEAST_IN_PAGE) } else { start + budget };
         let cuts = self.session.advance_cuts(jobs);
         let bounds = self.session.document().settings().domain.bounds;
         self.tools.follow_extent(bounds.size().max_element());
@@ -208,7 +208,7 @@ impl App {
     fn mesh_budget(&self, ctx: &Context) -> Duration {
         let draws = ctx.input(|input| input.pointer.any_down());
         let (share, most) = if draws { SLOW_FRAME_SHARE } else { SLOW_FRAME_SHARE_AT_REST };
-        let most = if host::IS_PAGE { most.min(MOST_IN_PAGE) } else { most };
+        let most = if IS_PAGE { most.min(MOST_IN_PAGE) } else { most };
         let frame_time = ctx.input(|input| input.stable_dt);
         Duration::from_secs_f32(share * frame_time.clamp(0.0, 1.0)).clamp(FRAME_BUDGET, most)
     }

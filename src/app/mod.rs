@@ -42,6 +42,7 @@ mod next_document;
 mod notices;
 mod panels;
 mod parts;
+mod platform;
 mod presentation;
 mod project;
 
@@ -53,7 +54,6 @@ pub mod session;
 mod size_change;
 mod slices;
 mod software_window;
-mod space;
 #[cfg(test)]
 mod tests;
 pub mod theme;
@@ -74,18 +74,19 @@ use eframe::egui_wgpu;
 use background::Background;
 use canvas::{Canvas, CanvasGpu};
 use clock::{Duration, Instant};
+use command::HelpTopic;
 use command::{Command, FileCommand};
 #[cfg(not(target_family = "wasm"))]
 use desktop as host;
 use dialogs::Dialogs;
 use features::ROWS;
 use frame_log::FrameLog;
-use help::HelpTopic;
 use host::journal;
 pub use host::run;
 use jobs::Jobs;
 use journal::JournalKeeper;
 use kit::{Features, Keymap, all_tools};
+use platform::IS_PAGE;
 use project::ProjectFile;
 pub use screenshots::{write as write_screenshots, write_manual as write_manual_pictures, write_tour};
 use session::Session;
@@ -169,7 +170,7 @@ impl App {
             None => Self::new(ctx, render_state)?,
         };
         // In a page the browser draws the panels: it shows pictures of the whole window late.
-        let window = if host::IS_PAGE { None } else { app.canvas.software_window() };
+        let window = if IS_PAGE { None } else { app.canvas.software_window() };
         if let Some(window) = window {
             ctx.add_plugin(window);
         }

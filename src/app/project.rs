@@ -6,10 +6,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use super::background::Background;
 use super::command::{Command, FileCommand};
-use super::file_kinds::{files_that_open, opened_by_ending};
 use super::home::{self, Claims, Expected, Home, Loss};
-use super::kit::FileRequest;
-use super::replacing::Replacing;
 use super::session::Session;
 use super::widgets::Answer;
 use meshbrush_io::io;
@@ -377,23 +374,21 @@ impl ProjectFile {
     }
 }
 
+/// Files that would be replaced.
+pub struct Replacing {
+    /// The files, which exist.
+    pub files: Vec<PathBuf>,
+    /// The loss if the file is replaced.
+    pub loss: Loss,
+    /// The command that replaces them.
+    pub command: Command,
+}
+
 /// Says that the window stays open until the files are written.
 fn announce_closing(command: &Command, session: &mut Session, background: &Background) {
     if *command == Command::from(FileCommand::Quit) {
         let names = background.being_written().collect::<Vec<_>>().join(", ");
         session.tell(format!("Meshbrush closes as soon as this is written: {names}."));
-    }
-}
-
-/// Returns the kind of a file to open, by the ending of its name.
-///
-/// # Errors
-/// Fails with a sentence when files with that ending cannot be opened.
-pub fn opened_kind(path: &Path) -> Result<FileRequest, String> {
-    let name = path.file_name().unwrap_or_default();
-    match opened_by_ending().find(|kind| kind.takes(name)) {
-        Some(kind) => Ok(kind),
-        None => Err(format!("{} cannot be opened. These files can: {}.", path.display(), files_that_open())),
     }
 }
 

@@ -105,7 +105,7 @@ impl Canvas {
 
     /// Readies a window that is drawn in software, where the mesh is.
     pub fn software_window(&mut self) -> Option<SoftwareWindow> {
-        self.gpu.as_mut()?.leave_to_software_window().map(SoftwareWindow::new)
+        self.gpu.as_mut()?.leave_to_software_window().map(|state| SoftwareWindow::new(state, canvas_image))
     }
 
     /// Returns the position of the pointer, in world units, while it is on the canvas or in a gesture.

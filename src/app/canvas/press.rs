@@ -5,15 +5,15 @@ use eframe::egui::{Context, Key, PointerButton, TouchPhase};
 use super::menu;
 use super::space::only_in_plan;
 use crate::app::command::{Command, ShellCommand};
-use crate::app::host;
 use crate::app::kit::{Gesture, Pointer, Press};
+use crate::app::platform::IS_PAGE;
 use crate::app::tools::move_view;
 
 /// Returns the pressure of a pen, 0 to 1, or `None` when it is lifted. In a page fingers have a force, too,
 /// and the page itself tells of pens.
 pub fn pen_pressure(phase: TouchPhase, force: Option<f32>) -> Option<Option<f64>> {
     match phase {
-        _ if host::IS_PAGE => None,
+        _ if IS_PAGE => None,
         TouchPhase::Start | TouchPhase::Move => force.map(|force| Some(force.into())),
         TouchPhase::End | TouchPhase::Cancel => Some(None),
     }

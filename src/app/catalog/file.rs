@@ -10,8 +10,8 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK};
 use crate::app::features::paths::EXPORT_PATH;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::{ADD_DATA, EXPORT_MESH, EXPORT_TEST, OPEN_ANY, SAVE_PROJECT, SAVE_RECIPE};
-use crate::app::host;
 use crate::app::kit::{CatalogItem, FrameState, Menu};
+use crate::app::platform::IS_PAGE;
 
 /// Recent files in the menu; the palette has all.
 const MOST_RECENT_IN_MENU: usize = 5;
@@ -93,7 +93,7 @@ fn recent(state: &FrameState<'_>) -> Vec<CatalogItem> {
 
 /// Ends the window; a page is closed with its tab, and can be sent.
 fn last() -> CatalogItem {
-    let item = if host::IS_PAGE {
+    let item = if IS_PAGE {
         CatalogItem::new(Menu::File, "Copy link", Command::from(FileCommand::CopyLink))
     } else {
         CatalogItem::new(Menu::File, "Quit", Command::from(FileCommand::Quit)).ctrl(Key::Q)

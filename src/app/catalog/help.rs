@@ -2,8 +2,8 @@
 
 use eframe::egui::{Key, Modifiers};
 
+use crate::app::command::HelpTopic;
 use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::help::HelpTopic;
 use crate::app::kit::{CatalogItem, Menu};
 use meshbrush_core::document::Example;
 

@@ -23,9 +23,6 @@ const DATA_FOLDER: &str = "meshbrush";
 /// Initial size of the window, in points: it fits a screen of 1440 × 900 with its frame.
 const FIRST_SIZE: [f32; 2] = [1360.0, 800.0];
 
-/// Whether the window is in a page of a browser.
-pub const IS_PAGE: bool = false;
-
 /// Returns the address of the page: a desktop shows none.
 pub fn address() -> String {
     String::new()

@@ -10,12 +10,13 @@ use crate::app::background::{Aim, Finished, Outcome, WorkId, name_of};
 use crate::app::command::{Command, FileCommand, LayerCommand, Opened};
 use crate::app::dialogs::Dialog;
 use crate::app::features::plots::{PlotKind, PlotsCommand};
-use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT};
+use crate::app::file_kinds::{ADD_DATA, SAVE_PROJECT, opened_kind};
 use crate::app::home::{self, Home, Loss};
 use crate::app::host;
 use crate::app::journal::JournalKeeper;
+use crate::app::kit::EditRecorder as _;
 use crate::app::kit::{FileRequest, look_at, raster_frame};
-use crate::app::{files, journal, link, project};
+use crate::app::{files, link};
 use meshbrush_core::document::{Document, Example};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::Meter;
@@ -136,7 +137,7 @@ impl App {
 
     /// Opens a link, or a file by a command of its kind.
     fn open_file(&mut self, path: PathBuf, command: fn(FileRequest) -> fn(PathBuf) -> Command) {
-        match (link::part_of(&path), project::opened_kind(&path)) {
+        match (link::part_of(&path), opened_kind(&path)) {
             (Some(link), _) => self.open_link(&link),
             (None, Ok(kind)) => self.send(command(kind)(path)),
             (None, Err(problem)) => self.fail(problem),
@@ -233,7 +234,7 @@ impl App {
     /// Hands finished gestures to the journal.
     pub(in crate::app) fn record_edits(&mut self) {
         if let Some(keeper) = &mut self.journal {
-            journal::record(keeper, &mut self.session, &self.project);
+            keeper.record(&mut self.session, &self.project);
         }
     }
 

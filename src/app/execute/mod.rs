@@ -8,14 +8,14 @@ mod files;
 use eframe::egui::Context;
 
 use super::App;
-use super::command::{Command, EditCommand, ShellCommand, ViewCommand};
+use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
 use super::features::ROWS;
-use super::help::stop_editing_keys;
+use super::help::{missing_pictures, stop_editing_keys};
 use super::notices::Offer;
 use super::{files as file_work, parts};
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::{Ctx, Features, Tool};
+use crate::app::kit::{Ctx, EditRecorder, Features, Tool};
 
 impl App {
     /// Runs one command.
@@ -28,6 +28,23 @@ impl App {
         if self.tools.take_selection() {
             self.view.dock.follow_tool(self.tools.chosen());
             self.put_down(ctx);
+        }
+    }
+
+    /// Runs one command: one of the window itself, or else of a feature.
+    fn run(&mut self, command: Command, egui: &Context) {
+        if let Some(command) = command.get::<FileCommand>() {
+            self.execute_on_files(command.clone(), egui);
+        } else if let Some(command) = command.get::<EditCommand>() {
+            self.execute_on_document(command.clone());
+        } else if let Some(command) = command.get::<ViewCommand>() {
+            self.view.execute(command.clone(), egui);
+        } else if let Some(command) = command.get::<ShellCommand>() {
+            self.execute_on_shell(command.clone(), egui);
+        } else {
+            let (features, mut ctx) = self.features_in_context(egui);
+            let is_run = features.run(&command, &mut ctx);
+            debug_assert!(is_run, "nothing runs {command:?}");
         }
     }
 
@@ -44,7 +61,7 @@ impl App {
             view: &mut self.view,
             tools: &mut self.tools,
             project: &mut self.project,
-            journal: self.journal.as_mut(),
+            journal: self.journal.as_mut().map(|keeper| keeper as &mut dyn EditRecorder),
             background: &mut self.background,
             rows: ROWS,
             jobs: &self.jobs,
@@ -55,11 +72,7 @@ impl App {
         (&mut self.features, ctx)
     }
 
-    pub(super) fn execute_on_view(&mut self, command: ViewCommand, ctx: &Context) {
-        self.view.execute(command, ctx);
-    }
-
-    pub(super) fn execute_on_document(&mut self, command: EditCommand, _: &Context) {
+    fn execute_on_document(&mut self, command: EditCommand) {
         match command {
             EditCommand::Undo => self.session.undo(),
             EditCommand::Redo => self.session.redo(),
@@ -73,7 +86,7 @@ impl App {
         }
     }
 
-    pub(super) fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
+    fn execute_on_shell(&mut self, command: ShellCommand, ctx: &Context) {
         match command {
             ShellCommand::Use(tool) => self.use_tool(tool),
             ShellCommand::Escape => self.escape(ctx),
@@ -91,7 +104,7 @@ impl App {
             ShellCommand::CloseDialog => self.dialogs.close(),
             ShellCommand::ShowHelp(topic) => {
                 stop_editing_keys(ctx);
-                self.fetch(topic.missing_pictures(), "A picture of the manual".into(), Vec::new());
+                self.fetch(missing_pictures(topic), "A picture of the manual".into(), Vec::new());
                 self.help = Some(topic);
             }
             ShellCommand::CloseHelp => {

@@ -16,10 +16,6 @@ pub mod statistics;
 pub mod stepping;
 pub mod threats;
 
-use eframe::egui::Context;
-
-use super::App;
-use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::kit::{Feature, Features, Row};
 use boundary::Boundary;
 use domain::DomainEditor;
@@ -36,13 +32,9 @@ use statistics::Statistics;
 use stepping::Stepping;
 use threats::ThreatEditor;
 
-/// Writes from one list what knows all features: their state, their rows, and what runs their commands. What
-/// the window does itself has its commands and the methods that run them in the second list.
+/// Writes from one list what knows all features: their state, their rows, and what runs their commands.
 macro_rules! features {
-    (
-        features { $( $(#[$doc:meta])* $Feature:ty, )* }
-        window { $( $(#[$window_doc:meta])* $command:ty => $run:ident, )* }
-    ) => {
+    ( $( $(#[$doc:meta])* $Feature:ty, )* ) => {
         /// The parts of each feature that the window shows.
         pub static ROWS: &[Row] = &[ $( <$Feature as Feature>::ROW, )* ];
 
@@ -50,61 +42,37 @@ macro_rules! features {
         pub fn all() -> Features {
             Features::default() $( .with::<$Feature>() )*
         }
-
-        impl App {
-            /// Runs one command.
-            pub(super) fn run(&mut self, command: Command, egui: &Context) {
-                $( if let Some(command) = command.get::<$command>() {
-                    return self.$run(command.clone(), egui);
-                } )*
-                let (features, mut ctx) = self.features_in_context(egui);
-                let is_run = features.run(&command, &mut ctx);
-                debug_assert!(is_run, "nothing runs {command:?}");
-            }
-        }
     };
 }
 
 // Menus, side panel, tool strip and canvas show the features in this order.
 features! {
-    features {
-        /// Strokes and the brush.
-        Painting,
-        /// The domain.
-        DomainEditor,
-        /// The layers of the size field.
-        LayerEditor,
-        /// Regions drawn by hand.
-        Regions,
-        /// The paths of the document.
-        Paths,
-        /// The queried point and its triangle.
-        Inspector,
-        /// The steps of the refinement.
-        Stepping,
-        /// The threats of the selected layer.
-        ThreatEditor,
-        /// The pieces of the boundary.
-        Boundary,
-        /// The picture behind the mesh.
-        BackgroundPicture,
-        /// Points whose triangles and values are followed.
-        Pins,
-        /// The figures of the mesh.
-        Statistics,
-        /// Plots of the mesh, and of the time that meshes take.
-        Plots,
-        /// The figures of the report.
-        Report,
-    }
-    window {
-        /// Documents and their files.
-        FileCommand => execute_on_files,
-        /// History, paint and settings of the document.
-        EditCommand => execute_on_document,
-        /// Commands about the view.
-        ViewCommand => execute_on_view,
-        /// Tools, dialogs, help and messages.
-        ShellCommand => execute_on_shell,
-    }
+    /// Strokes and the brush.
+    Painting,
+    /// The domain.
+    DomainEditor,
+    /// The layers of the size field.
+    LayerEditor,
+    /// Regions drawn by hand.
+    Regions,
+    /// The paths of the document.
+    Paths,
+    /// The queried point and its triangle.
+    Inspector,
+    /// The steps of the refinement.
+    Stepping,
+    /// The threats of the selected layer.
+    ThreatEditor,
+    /// The pieces of the boundary.
+    Boundary,
+    /// The picture behind the mesh.
+    BackgroundPicture,
+    /// Points whose triangles and values are followed.
+    Pins,
+    /// The figures of the mesh.
+    Statistics,
+    /// Plots of the mesh, and of the time that meshes take.
+    Plots,
+    /// The figures of the report.
+    Report,
 }

@@ -9,10 +9,9 @@ use eframe::egui::{
 };
 use egui::text::{LayoutJob, TextFormat};
 
-use super::HelpTopic;
 use super::manual::{Page, page_of};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, ShellCommand};
+use crate::app::command::{Command, HelpTopic, ShellCommand};
 use crate::app::host::asset;
 use crate::app::theme::{font, metrics, tokens};
 use meshbrush_io::io::png::decode_picture;

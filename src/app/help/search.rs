@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use eframe::egui::{self, Id, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::HelpTopic;
 use super::manual::{PAGES, Page};
 use super::markdown::{Block, Span, blocks, plain};
-use crate::app::command::{Command, ShellCommand};
+use crate::app::command::{Command, HelpTopic, ShellCommand};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::SearchField;
 

@@ -38,7 +38,7 @@ mod shortcut;
 mod tool;
 
 pub use area::area_text;
-pub use ctx::{Ctx, NO_LIMIT};
+pub use ctx::{Ctx, EditRecorder, NO_LIMIT};
 pub use data_file::{DataContents, DataFile, DataRole, Preview, RasterFacts, look_at, seen_shapes};
 pub use drawing::{DrawingCommands, press_brush, press_corner};
 pub use empty_document::{EmptyDocument, raster_frame, show_over_extent, show_with_layer, with_space_around};

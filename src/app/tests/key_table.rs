@@ -93,7 +93,7 @@ pub fn in_every_state(look: &mut dyn FnMut(&mut Window, &str)) {
         ("presentation with a panel", Command::from(ViewCommand::TogglePanels)),
         ("in space", Command::from(ViewCommand::Space(SpaceCommand::Toggle))),
         ("a new document", Command::from(FileCommand::New)),
-        ("the help", Command::from(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys))),
+        ("the help", Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys))),
     ] {
         send(&mut window, command);
         look(&mut window, name);
@@ -225,7 +225,7 @@ fn press(window: &mut Window, button: &str) {
 
 /// Opens the list of keys, and in it the keys of an entry.
 fn open_keys_of(window: &mut Window, row: &str) {
-    send(window, Command::from(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys)));
+    send(window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
     let search = window.get_by_role_and_label(Role::TextInput, "Search for a key");
     search.focus();
     window.run();
@@ -353,7 +353,7 @@ fn an_entry_of_two_owners_is_reported_in_the_list() {
     let keymap = crate::app::kit::Keymap::parse(text).unwrap();
     assert!(keymap.to_text().contains("unknown-entry"), "of another version, and kept");
     send(&mut window, Command::from(ShellCommand::SetKeys(keymap)));
-    send(&mut window, Command::from(ShellCommand::ShowHelp(crate::app::help::HelpTopic::Keys)));
+    send(&mut window, Command::from(ShellCommand::ShowHelp(crate::app::command::HelpTopic::Keys)));
     assert!(window.query_by_label("B belongs to “Brush” and to “Eraser”.").is_some());
 }
 

@@ -4,8 +4,8 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::Steps;
+use crate::app::background::listed;
 use crate::app::background::{Aim, Background, Outcome, not_exported};
-use crate::app::files::listed;
 use crate::app::session::Session;
 use crate::app::view::View;
 use crate::app::widgets::format;

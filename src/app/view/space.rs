@@ -1,9 +1,9 @@
 //! The settings of the view in space.
 
-use super::command::SpaceCommand;
-use super::heights::Heights;
-use super::session::Session;
-use super::view::View;
+use super::View;
+use crate::app::command::SpaceCommand;
+use crate::app::heights::Heights;
+use crate::app::session::Session;
 use meshbrush_mesh::geometry::Lattice;
 use meshbrush_render::render::export::SpaceLook;
 use meshbrush_render::scene::{

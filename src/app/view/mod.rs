@@ -1,15 +1,18 @@
 //! How the document is looked at. Nothing here changes it.
 
+mod space;
+
 use eframe::egui::{Context, Theme, ThemePreference};
 use glam::DVec2;
 
 pub use super::canvas_aids::{CanvasAid, CanvasAids};
+pub use space::Space;
+
 use super::command::ViewCommand;
 use super::dock::Dock;
 use super::kit::Tab;
 use super::presentation::Presentation;
 use super::readout::Quantity;
-use super::space::Space;
 use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::geometry::{Lattice, Rect};
