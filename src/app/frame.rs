@@ -23,7 +23,7 @@ use super::canvas::Toast;
 use super::catalog::catalog;
 use super::command::{Command, ShellCommand};
 use super::dialogs::FileFacts;
-use super::features::{ROWS, stepping};
+use super::features::{LAYER_KINDS, stepping};
 use super::host;
 use super::journal::JournalKeeper;
 use super::keys::{Press, Receiver};
@@ -301,7 +301,7 @@ impl App {
             view: &self.view,
             keymap: &self.keymap,
             features: &self.features,
-            rows: ROWS,
+            layer_kinds: &LAYER_KINDS,
             threads: &self.threads,
             pointer: self.canvas.pointer(),
             readout,

@@ -7,10 +7,8 @@ use glam::DVec2;
 
 use super::App;
 use super::command::{Command, FileCommand, Opened, ShellCommand, SpaceCommand, ViewCommand};
-use super::features::ROWS;
 use super::features::stepping::StepCommand;
 use super::files::new_document;
-use super::kit::all_tools;
 use super::view::View;
 use crate::app::features::stepping::Stepping;
 use meshbrush_io::io::link::{self, LinkSpace, LinkView, Linked};
@@ -73,7 +71,7 @@ impl App {
             let area = Rect::spanning(DVec2::new(x0, y0), DVec2::new(x1, y1));
             self.send(Command::from(ViewCommand::ShowAreaOf(bounds, area)));
         }
-        let tool = view.tool.and_then(|name| all_tools(ROWS).into_iter().find(|tool| tool.name == name));
+        let tool = view.tool.and_then(|name| self.tools.all().iter().find(|tool| tool.name == name).copied());
         if let Some(tool) = tool {
             self.send(Command::from(ShellCommand::Use(tool)));
         }

@@ -9,6 +9,7 @@ use eframe::egui::{
 
 use crate::app::background::name_of;
 use crate::app::command::{Command, ShellCommand};
+use crate::app::features::ROWS;
 use crate::app::kit::{
     DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, Preview, RasterFacts,
 };
@@ -69,7 +70,7 @@ pub fn ask(ctx: &Context, state: &FrameState<'_>, file: &Arc<DataFile>, commands
 
 /// Returns the roles for such files in their order, each with the reason why it is impossible.
 fn roles(state: &FrameState<'_>, file: &DataFile) -> Vec<(&'static DataRole, Option<String>)> {
-    let all = state.rows.iter().flat_map(|row| row.roles);
+    let all = ROWS.iter().flat_map(|row| row.roles);
     let is_offered = |role: &&DataRole| !file.is_opened || role.kind.act == FileAct::OpenDocument;
     let mut roles: Vec<_> = all.filter(|role| (role.is_for)(&file.contents)).filter(is_offered).collect();
     roles.sort_by_key(|role| role.place);

@@ -10,7 +10,7 @@ use eframe::egui::Context;
 use super::App;
 use super::command::{Command, EditCommand, FileCommand, ShellCommand, ViewCommand};
 use super::dialogs::{Dialog, fill_in_place};
-use super::features::ROWS;
+use super::features::LAYER_KINDS;
 use super::help::{missing_pictures, stop_editing_keys};
 use super::notices::Offer;
 use super::{files as file_work, parts};
@@ -63,7 +63,7 @@ impl App {
             project: &mut self.project,
             journal: self.journal.as_mut().map(|keeper| keeper as &mut dyn EditRecorder),
             background: &mut self.background,
-            rows: ROWS,
+            layer_kinds: &LAYER_KINDS,
             jobs: &self.jobs,
             commands: &mut self.commands,
             egui,

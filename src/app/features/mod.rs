@@ -16,7 +16,9 @@ pub mod statistics;
 pub mod stepping;
 pub mod threats;
 
-use super::kit::{Feature, Features, Row};
+use std::sync::LazyLock;
+
+use super::kit::{Feature, Features, LayerKindRow, Row, kinds_of_layers};
 use boundary::Boundary;
 use domain::DomainEditor;
 use inspection::Inspector;
@@ -31,6 +33,9 @@ use report::Report;
 use statistics::Statistics;
 use stepping::Stepping;
 use threats::ThreatEditor;
+
+/// The kinds of layers of all features, as menus list them.
+pub static LAYER_KINDS: LazyLock<Vec<&LayerKindRow>> = LazyLock::new(|| kinds_of_layers(ROWS));
 
 /// Writes from one list what knows all features: their state, their rows, and what runs their commands.
 macro_rules! features {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::Context;
 
-use super::Row;
+use super::LayerKinds;
 use crate::app::background::Background;
 use crate::app::command::{Command, FileCommand};
 use crate::app::jobs::Jobs;
@@ -36,8 +36,8 @@ pub struct Ctx<'a> {
     pub journal: Option<&'a mut dyn EditRecorder>,
     /// Work on files.
     pub background: &'a mut Background,
-    /// The parts of all features.
-    pub rows: &'static [Row],
+    /// The kinds of layers of all features.
+    pub layer_kinds: LayerKinds,
     /// Work that takes longer than a frame.
     pub jobs: &'a Jobs,
     /// Commands that are run after this one, in the same frame.

@@ -1,8 +1,8 @@
 //! The features of the window, whichever they are.
 
-use std::any::Any;
+use std::any::{Any, TypeId};
 
-use super::{Ctx, Feature, Row, Tool};
+use super::{Ctx, Feature, FeatureStates, LayerKindRow, Row, Tool};
 use crate::app::command::Command;
 use crate::app::tools::PAN;
 
@@ -12,6 +12,13 @@ pub fn all_tools(rows: &'static [Row]) -> Vec<Tool> {
     let mut tools: Vec<Tool> = of_features.chain([&PAN]).collect();
     tools.sort_by_key(|tool| tool.place);
     tools
+}
+
+/// Returns the kinds of all features, as menus list them.
+pub fn kinds_of_layers(rows: &'static [Row]) -> Vec<&'static LayerKindRow> {
+    let mut kinds: Vec<_> = rows.iter().flat_map(|row| row.layer_kinds).copied().collect();
+    kinds.sort_by_key(|kind| kind.place);
+    kinds
 }
 
 /// The state of all features.
@@ -62,8 +69,7 @@ impl Features {
     /// # Panics
     /// Panics where the window has no such feature.
     pub fn get<F: Feature>(&self) -> &F {
-        let mut all = self.0.iter().map(|feature| &**feature as &dyn Any);
-        all.find_map(|feature| feature.downcast_ref()).expect("the window has the feature")
+        self.state(TypeId::of::<F>()).and_then(<dyn Any>::downcast_ref).expect("the window has the feature")
     }
 
     /// Returns the state of a feature, to be changed.
@@ -94,5 +100,12 @@ impl Features {
     #[must_use]
     pub fn for_next_document(self) -> Self {
         Self(self.0.into_iter().map(AnyFeature::for_next_document).collect())
+    }
+}
+
+impl FeatureStates for Features {
+    fn state(&self, id: TypeId) -> Option<&dyn Any> {
+        let mut all = self.0.iter().map(|feature| &**feature as &dyn Any);
+        all.find(|state| (*state).type_id() == id)
     }
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::Ui;
 
-use super::{FrameState, Row, Tool};
+use super::{FrameState, Tool};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
@@ -23,12 +23,8 @@ pub struct LayerKindRow {
     pub parameters: fn(&mut Ui, &FrameState<'_>, &Layer, &mut Vec<Command>),
 }
 
-/// Returns the kinds of all features, as menus list them.
-pub fn kinds_of_layers(rows: &'static [Row]) -> Vec<&'static LayerKindRow> {
-    let mut kinds: Vec<_> = rows.iter().flat_map(|row| row.layer_kinds).copied().collect();
-    kinds.sort_by_key(|kind| kind.place);
-    kinds
-}
+/// The kinds of layers of all features, as menus list them.
+pub type LayerKinds = &'static [&'static LayerKindRow];
 
 /// A way to add a layer.
 pub struct Addition {

@@ -3,7 +3,7 @@
 use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, all_tools, menu_item};
+use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
 use crate::app::theme::{font, metrics, tokens};
 use crate::app::widgets::{Icon, ToolButton};
 
@@ -37,10 +37,10 @@ pub fn menu_bar(ui: &mut Ui, state: &FrameState<'_>, entries: &[CatalogItem], co
 /// A button for each tool, and below them undo, redo and fit.
 pub fn tool_strip(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
     // In a low window there is no room for what the menus have, too.
-    let rows = (all_tools(state.rows).len() + 3) as f32;
+    let rows = (state.tools.all().len() + 3) as f32;
     let is_low = ui.available_height() < rows * (metrics::TOOL + 6.0);
     ui.spacing_mut().item_spacing.y = if is_low { 2.0 } else { 6.0 };
-    for tool in all_tools(state.rows) {
+    for &tool in state.tools.all() {
         let button = ToolButton::new(tool.icon, tool.name).entry(tool.name);
         if button.selected(state.tools.tool == tool).show(ui).clicked() {
             commands.push(Command::from(ShellCommand::Use(tool)));

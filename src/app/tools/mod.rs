@@ -113,6 +113,11 @@ impl Tools {
         }
     }
 
+    /// Returns all tools, in the order of the tool strip.
+    pub fn all(&self) -> &[Tool] {
+        &self.all
+    }
+
     /// Returns the settings of a tool.
     ///
     /// # Panics

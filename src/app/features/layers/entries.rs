@@ -4,7 +4,7 @@ use eframe::egui::{Key, Modifiers};
 
 use super::selected::combine_name;
 use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING, kinds_of_layers};
+use crate::app::kit::{CatalogItem, FrameState, Menu, NOT_QUERYING};
 use meshbrush_core::layers::{Combine, Layer, LayerId};
 
 /// Returns the stack of layers, and the selected one.
@@ -26,7 +26,7 @@ const MOST_ADDITIONS: usize = 9;
 
 /// Returns the commands that add a layer, for each kind.
 fn additions(state: &FrameState<'_>) -> Vec<CatalogItem> {
-    let additions = kinds_of_layers(state.rows).into_iter().flat_map(|kind| kind.additions);
+    let additions = state.layer_kinds.iter().flat_map(|kind| kind.additions);
     let items = additions.enumerate().map(|(i, addition)| {
         let title = format!("Add layer: {}", addition.title);
         // The button below the list of layers has all.

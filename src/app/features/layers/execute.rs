@@ -5,7 +5,7 @@ use super::{
     GRADATION, KINDS, LAYERS, LayerEditor, OPEN_BAND, OPEN_RISK, ROLES, TRANSFER, entries, list, load, marks,
 };
 use crate::app::command::{Command, FileCommand, LayerCommand};
-use crate::app::kit::{Ctx, Feature, Row, kinds_of_layers};
+use crate::app::kit::{Ctx, Feature, Row};
 use crate::app::layer_edits::unused_name;
 use crate::app::tools::PaintKind;
 use meshbrush_core::document::{Setting, Settings};
@@ -82,8 +82,8 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
     let layer = document.settings().layer(id);
     let Some(kind) = layer.map(|layer| &layer.kind) else { return };
     let chosen = ctx.tools.chosen();
-    let edits_a_kind = kinds_of_layers(ctx.rows).iter().any(|kind| kind.tool == Some(chosen));
-    match kind_of(ctx.rows, kind).tool {
+    let edits_a_kind = ctx.layer_kinds.iter().any(|kind| kind.tool == Some(chosen));
+    match kind_of(ctx.layer_kinds, kind).tool {
         Some(tool) if chosen.brush.is_some() => ctx.tools.select(tool),
         None if edits_a_kind && matches!(kind, LayerKind::Paint(_)) => ctx.tools.select_brush(),
         _ => {}
@@ -92,7 +92,7 @@ fn select_layer(id: LayerId, ctx: &mut Ctx<'_>) {
 
 /// Adds a layer above the selected one, and selects it.
 fn add_layer(kind: LayerKind, ctx: &mut Ctx<'_>) {
-    if let Some(tool) = kind_of(ctx.rows, &kind).tool {
+    if let Some(tool) = kind_of(ctx.layer_kinds, &kind).tool {
         ctx.tools.select(tool);
     }
     ctx.session.end_gesture();

@@ -65,7 +65,7 @@ fn row(ui: &mut Ui, state: &FrameState<'_>, layer: &Layer, commands: &mut Vec<Co
     let row = LayerRow {
         id: layer.id.0,
         name: &layer.name,
-        icon: kind_of(state.rows, &layer.kind).icon,
+        icon: kind_of(state.layer_kinds, &layer.kind).icon,
         kind: layer.kind.label(),
         combine: combine_name(layer.combine),
         color: layer_color32(layer.id),

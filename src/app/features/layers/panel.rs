@@ -4,7 +4,7 @@ use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{list, selected};
 use crate::app::command::{Command, LayerCommand};
-use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, kinds_of_layers, menu_item};
+use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
 use crate::app::theme::metrics;
 use crate::app::widgets::{Icon, Section, ToolButton};
 
@@ -68,7 +68,7 @@ fn add_button(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) 
     let response = ToolButton::small(Icon::ADD, "Add layer").show(ui);
     Popup::menu(&response).show(|ui| {
         ui.set_min_width(220.0);
-        for (number, kind) in kinds_of_layers(state.rows).into_iter().enumerate() {
+        for (number, kind) in state.layer_kinds.iter().enumerate() {
             for (i, addition) in kind.additions.iter().enumerate() {
                 let item = CatalogItem::new(Menu::Layer, addition.title, (addition.command)(state));
                 let item = if i == 0 && number > 0 { item.group() } else { item };

@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {
                 if !matches!(layer.kind, LayerKind::Surface(_)) && !layer.is_of_errors() {
                     combine_rows(ui, layer, commands);
                 }
-                (kind_of(state.rows, &layer.kind).parameters)(ui, state, layer, commands);
+                (kind_of(state.layer_kinds, &layer.kind).parameters)(ui, state, layer, commands);
                 mask_rows(ui, state, layer, commands);
             });
         });

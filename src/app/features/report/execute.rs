@@ -6,7 +6,7 @@ use super::{FIGURE, FigureCommand, Report, entries};
 use crate::app::command::{Command, FileCommand, Opened, ShellCommand};
 use crate::app::features::plots::{PlotKind, PlotsCommand};
 use crate::app::features::stepping::StepCommand;
-use crate::app::kit::{Ctx, Feature, Row, Tab, all_tools};
+use crate::app::kit::{Ctx, Feature, Row, Tab};
 use meshbrush_study::report::ReportFigure;
 
 impl Feature for Report {
@@ -47,7 +47,7 @@ impl Report {
             ctx.send(Command::from(StepCommand::Begin(Some(figure))));
         }
         if let Some(point) = figure.query() {
-            let tool = all_tools(ctx.rows).into_iter().find(|tool| tool.queries);
+            let tool = ctx.tools.all().iter().find(|tool| tool.queries).copied();
             ctx.commands.extend(tool.map(|tool| Command::from(ShellCommand::Use(tool))));
             ctx.view.aids.walk = true;
             ctx.session.query(Some(point));
