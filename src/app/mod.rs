@@ -204,7 +204,7 @@ impl App {
         let settings = session.document().settings();
         let extent = settings.domain.bounds.size().max_element();
         let tools = Tools::for_domain(all_tools(ROWS), extent, settings.transfer.h_min);
-        view.dock.follow_tool(tools.tool);
+        view.dock.follow_tool(tools.tool.name, tools.tool.tab);
         let jobs = Jobs::new(ctx);
         let gpu = render_state.map(CanvasGpu::new).transpose().map_err(|error| error.to_string())?;
         Ok(Self {

@@ -26,7 +26,8 @@ impl App {
         };
         self.run(command, ctx);
         if self.tools.take_selection() {
-            self.view.dock.follow_tool(self.tools.chosen());
+            let tool = self.tools.chosen();
+            self.view.dock.follow_tool(tool.name, tool.tab);
             self.put_down(ctx);
         }
     }
