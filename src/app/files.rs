@@ -13,7 +13,6 @@ use super::kit::Keymap;
 use super::session::Session;
 
 use super::view::{Space, View};
-use super::widgets::format;
 use meshbrush_core::document::{
     Document, Example, ExampleData, ExampleMaking, Recording, SeaChart, Settings,
 };
@@ -34,6 +33,7 @@ use meshbrush_mesh::mesh::{Extract, Fingerprint, MeshView};
 use meshbrush_mesh::text::{Bytes, Grouped};
 use meshbrush_render::render::export::{ExportFormat, Look, SpaceLook};
 use meshbrush_render::scene::NodeHeights;
+use meshbrush_ui::widgets::format;
 
 /// Width and height in kilometres of the terrain that comes with the program: 403 × 344 pixels of 3″ at 36.6°
 /// N.

@@ -31,9 +31,9 @@ use super::platform::IS_PAGE;
 use super::readout::Readout;
 use super::{help, journal, keys, panels, presentation, replacing};
 use crate::app::kit::{CatalogItem, FrameState, Menu, NO_LIMIT, shortcut_text};
-use crate::app::widgets::{degrees, shown_keys};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{degrees, shown_keys};
 
 /// The least time of a frame that goes into updating the mesh, and the most into the price of a stroke.
 const FRAME_BUDGET: Duration = Duration::from_millis(7);

@@ -56,13 +56,11 @@ mod slices;
 mod software_window;
 #[cfg(test)]
 mod tests;
-pub mod theme;
 mod threads;
 pub mod tools;
 pub mod view;
 #[cfg(target_family = "wasm")]
 mod web;
-pub mod widgets;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -98,6 +96,7 @@ use web as host;
 
 use meshbrush_core::document::{Document, Example};
 use meshbrush_render::render::gpu::device_descriptor;
+use meshbrush_ui::{theme, widgets};
 
 /// How long a window that is being closed waits for files that are being written.
 const LAST_WAIT: Duration = Duration::from_secs(5);

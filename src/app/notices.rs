@@ -2,10 +2,10 @@
 
 use super::brake::Need;
 use super::command::{Command, EditCommand};
-use super::widgets::format;
 use meshbrush_core::build::BuildError;
 use meshbrush_mesh::mesh::RefineError;
 use meshbrush_mesh::text::Bytes;
+use meshbrush_ui::widgets::format;
 
 /// A message on the canvas. News disappears after some seconds; a failure stays until it is dismissed or its
 /// cause is gone.

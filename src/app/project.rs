@@ -8,12 +8,12 @@ use super::background::Background;
 use super::command::{Command, FileCommand};
 use super::home::{self, Claims, Expected, Home, Loss};
 use super::session::Session;
-use super::widgets::Answer;
 use meshbrush_io::io;
 use meshbrush_io::io::project::{ENDING, Project};
 use meshbrush_io::io::recipe::RecipeFiles;
 use meshbrush_io::io::recording;
 use meshbrush_render::render::export::ExportFormat;
+use meshbrush_ui::widgets::Answer;
 
 /// Most files that are remembered.
 const MOST_RECENT: usize = 8;

@@ -7,8 +7,8 @@ use eframe::egui::Context;
 use super::clock::{SystemTime, UNIX_EPOCH};
 use super::command::{Command, FileCommand};
 use super::project::ProjectFile;
-use super::widgets::{Answer, ConfirmDialog};
 use meshbrush_io::io::project::Project;
+use meshbrush_ui::widgets::{Answer, ConfirmDialog};
 
 /// Returns the seconds since 1970.
 pub fn now() -> u64 {

@@ -6,8 +6,8 @@ use super::background::listed;
 use super::command::{Command, FileCommand};
 use super::home::Loss;
 use super::project::Replacing;
-use super::widgets::ConfirmDialog;
 use crate::app::kit::FrameState;
+use meshbrush_ui::widgets::ConfirmDialog;
 
 /// Asks about unsaved edits and existing files.
 pub fn questions(ctx: &Context, state: &FrameState<'_>, asks_for_file: bool, commands: &mut Vec<Command>) {

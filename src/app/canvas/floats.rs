@@ -12,8 +12,10 @@ use crate::app::features::picture::show_corners;
 use crate::app::kit::FrameState;
 use crate::app::notices::Notice;
 use crate::app::session::Session;
-use crate::app::widgets::{Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row};
 use meshbrush_core::document::{DrawnPart, Stage};
+use meshbrush_ui::widgets::{
+    Banner, BannerAnswer, bytes_row, format, hint_pill, paint_floating, progress_row,
+};
 
 /// How long news is shown at least, in seconds, and with a button.
 const NEWS_SECONDS: f64 = 5.0;

@@ -12,7 +12,7 @@ use crate::app::kit::{CatalogItem, FrameState, Menu, Pointer, menu_item};
 use crate::app::session::Session;
 use crate::app::tools::Tools;
 use crate::app::view::View;
-use crate::app::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
+use meshbrush_ui::widgets::key_menu::{enter_menu, is_key_menu, open_menu_from};
 
 /// Identifies the menu, and where it was opened in egui's memory.
 fn id() -> Id {

@@ -37,7 +37,6 @@ use super::jobs::Jobs;
 use super::parts::{Part, mark};
 use super::session::Session;
 use super::software_window::SoftwareWindow;
-use super::theme::tokens;
 use super::tools::{PAN, Tools};
 use super::view::View;
 use crate::app::kit::{FrameState, Gesture, OverMesh, Pointer, Press, marks};
@@ -45,6 +44,7 @@ use meshbrush_core::paint::StrokePlan;
 use meshbrush_mesh::geometry::{Lattice, Rect as WorldRect};
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Highlights;
+use meshbrush_ui::theme::tokens;
 
 /// Name by which tests and screen readers find the canvas.
 pub const CANVAS_NAME: &str = "Mesh canvas";

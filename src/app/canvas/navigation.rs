@@ -7,9 +7,9 @@ use glam::{DVec2, dvec2};
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::Pointer;
-use crate::app::theme::tokens;
 use crate::app::view::View;
 use meshbrush_mesh::geometry::Lattice;
+use meshbrush_ui::theme::tokens;
 
 /// Share by which one point of scrolling zooms; a notch of a wheel scrolls by about 50 points.
 const ZOOM_PER_POINT: f64 = 0.004;

@@ -5,8 +5,8 @@ use eframe::egui::{Key, Modifiers, ThemePreference};
 use crate::app::command::{Command, ShellCommand, SpaceCommand, ViewCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Tab};
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::app::widgets::key_menu::MENU_KEYS;
 use meshbrush_render::colormap::Colormap;
+use meshbrush_ui::widgets::key_menu::MENU_KEYS;
 
 /// Returns the commands that change the view.
 pub fn view(state: &FrameState<'_>) -> Vec<CatalogItem> {

@@ -7,8 +7,8 @@ use super::CommandSet;
 use crate::app::background::WorkId;
 use crate::app::home::Home;
 use crate::app::kit::FileRequest;
-use crate::app::widgets::Answer;
 use meshbrush_core::document::{Document, Example};
+use meshbrush_ui::widgets::Answer;
 
 /// One thing to do with documents and their files.
 #[derive(Clone, Debug, PartialEq)]

@@ -24,12 +24,12 @@ use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::PaintLayers;
 use meshbrush_io::io::Meter;
 use meshbrush_io::io::journal::{self, Abandoned, Journal, Left, Renewal, Renewed};
 use meshbrush_io::io::project::Project;
+use meshbrush_ui::widgets::Answer;
 
 /// An entry that the thread writes.
 enum Entry {

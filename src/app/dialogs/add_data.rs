@@ -13,9 +13,9 @@ use crate::app::features::ROWS;
 use crate::app::kit::{
     DataContents, DataFile, DataRole, EmptyDocument, FileAct, FrameState, Preview, RasterFacts,
 };
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, ValueRow, dialog, dialog_title, format};
 
 /// Width of the dialog, and of the picture with the facts below it, in points.
 const WIDTH: f32 = 700.0;

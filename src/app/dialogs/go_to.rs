@@ -6,10 +6,10 @@ use glam::{DVec2, dvec2};
 use crate::app::command::{Command, ShellCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::FrameState;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format};
 use meshbrush_mesh::mesh::TriangleId;
 use meshbrush_mesh::text::{LengthUnit, typed};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, TextError, TextRow, dialog, dialog_title, format};
 
 /// The target that was typed.
 #[derive(Clone, Copy, Debug, PartialEq)]

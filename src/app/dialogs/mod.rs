@@ -20,12 +20,12 @@ use super::command::{Command, FileCommand, ShellCommand, ViewCommand};
 use super::document_id::DocumentId;
 use super::host;
 use super::jobs::Jobs;
-use super::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 use crate::app::kit::{CatalogItem, DataFile, FileAct, FileRequest, FrameState, Place};
 pub use file::FileFacts;
 use file::{FileAnswer, FileDialog};
 use folders::LastFolders;
 pub use go_to::fill_in_place;
+use meshbrush_ui::widgets::{self, ActionButton, PaletteAnswer, PaletteItem, dialog, dialog_title};
 pub use system::{Answer, Question};
 
 use system::SystemDialog;

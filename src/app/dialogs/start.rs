@@ -11,9 +11,9 @@ use crate::app::features::layers::OPEN_VALUES;
 use crate::app::features::picture::OPEN_PICTURE;
 use crate::app::file_kinds::ADD_DATA;
 use crate::app::kit::{FileRequest, FrameState};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, dialog, dialog_title};
 use meshbrush_core::document::Example;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, dialog, dialog_title};
 
 const WIDTH: f32 = 520.0;
 /// Width of the buttons that a sentence is beside, in points.

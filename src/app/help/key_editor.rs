@@ -5,8 +5,8 @@ use eframe::egui::{Context, Event, Id, Key, KeyboardShortcut, Modifiers, RichTex
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::file_kinds::{EXPORT_KEYS, IMPORT_KEYS};
 use crate::app::kit::{CatalogItem, Keymap, conflicts, owners, same_keys, shortcut_text};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, key_row_button};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, key_row_button};
 
 /// What the next key that is pressed is for.
 #[derive(Clone, Debug, PartialEq)]

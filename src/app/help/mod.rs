@@ -14,8 +14,8 @@ pub use keys::page as keys_page;
 use eframe::egui::{self, Context, Frame, Margin, ScrollArea, Ui, vec2};
 
 use super::command::{Command, HelpTopic, ShellCommand};
-use super::theme::tokens_of;
 use crate::app::kit::{CatalogItem, Keymap};
+use meshbrush_ui::theme::tokens_of;
 
 fn title(topic: HelpTopic) -> &'static str {
     match topic {

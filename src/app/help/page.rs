@@ -13,8 +13,8 @@ use super::manual::{Page, page_of};
 use super::markdown::{Block, Span, blocks, plain};
 use crate::app::command::{Command, HelpTopic, ShellCommand};
 use crate::app::host::asset;
-use crate::app::theme::{font, metrics, tokens};
 use meshbrush_io::io::png::decode_picture;
+use meshbrush_ui::theme::{font, metrics, tokens};
 
 /// Space between cells of a table.
 const CELL_GAP: f32 = 16.0;

@@ -7,8 +7,8 @@ use eframe::egui::{self, Id, Role, Sense, Ui, WidgetInfo, vec2};
 use super::manual::{PAGES, Page};
 use super::markdown::{Block, Span, blocks, plain};
 use crate::app::command::{Command, HelpTopic, ShellCommand};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::SearchField;
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::SearchField;
 
 /// Most places that are listed.
 const MOST: usize = 40;

@@ -4,8 +4,8 @@ use eframe::egui::Ui;
 
 use super::{FrameState, Tool};
 use crate::app::command::{Command, EditCommand, LayerCommand};
-use crate::app::widgets::{Icon, NumberRow, toggle_row};
 use meshbrush_core::layers::{Layer, LayerKind};
+use meshbrush_ui::widgets::{Icon, NumberRow, toggle_row};
 
 /// What the window knows of a kind of layer.
 pub struct LayerKindRow {

@@ -6,9 +6,9 @@ use eframe::egui::{Response, RichText, Ui};
 
 use super::{FrameState, Tab};
 use crate::app::command::{Command, EditCommand};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{self, ActionButton, shown_keys};
 use meshbrush_core::document::Setting;
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{self, ActionButton, shown_keys};
 
 /// A section of a dock.
 pub struct Panel {

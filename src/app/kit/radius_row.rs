@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use super::FrameState;
 use crate::app::command::{BrushCommand, Command};
 use crate::app::tools::FIRST_RADIUS;
-use crate::app::widgets::SliderRow;
+use meshbrush_ui::widgets::SliderRow;
 
 /// The radius of the brush, which the domain tool shares.
 pub fn radius_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

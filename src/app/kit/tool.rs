@@ -8,8 +8,8 @@ use glam::DVec2;
 use super::{FrameState, Gesture, Pointer, Press, StripItem, Tab};
 use crate::app::command::Command;
 use crate::app::tools::{AnySettings, Tools};
-use crate::app::widgets::{Hint, Icon};
 use meshbrush_core::paint::Brush;
+use meshbrush_ui::widgets::{Hint, Icon};
 
 /// A tool: a static of the feature that it belongs to.
 pub type Tool = &'static ToolSpec;

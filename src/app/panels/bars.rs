@@ -4,8 +4,8 @@ use eframe::egui::{self, Align, Layout, MenuBar, RichText, ScrollArea, Ui};
 
 use crate::app::command::{Command, EditCommand, ShellCommand, ViewCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, menu_item};
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{Icon, ToolButton};
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{Icon, ToolButton};
 
 /// Height that a menu cannot use: that of the bar and its margins.
 const HEIGHT_AROUND_MENU: f32 = metrics::MENU_BAR + 16.0;

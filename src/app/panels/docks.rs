@@ -7,8 +7,8 @@ use crate::app::command::{Command, ViewCommand};
 use crate::app::features::report::Report;
 use crate::app::kit::{FrameState, Tab};
 use crate::app::parts::{Part, mark};
-use crate::app::theme::{metrics, tokens};
-use crate::app::widgets::tab_bar;
+use meshbrush_ui::theme::{metrics, tokens};
+use meshbrush_ui::widgets::tab_bar;
 
 /// Widths of the docks, in points.
 const WIDTHS: std::ops::RangeInclusive<f32> = 280.0..=520.0;

@@ -7,9 +7,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::threads::Threads;
-use crate::app::widgets::{NumberRow, Section, SliderRow, segmented, value_row};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::RefinementRule;
+use meshbrush_ui::widgets::{NumberRow, Section, SliderRow, segmented, value_row};
 
 /// Coarse spacing, refinement rule and threads.
 pub static MESH: Panel = Panel { name: "mesh", tab: Tab::Mesh, place: 4, show };

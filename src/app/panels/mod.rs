@@ -25,9 +25,9 @@ use eframe::egui::{self, Frame, Margin, ScrollArea, Ui};
 use super::command::Command;
 use super::features::{ROWS, report, stepping};
 use super::parts::{Part, mark};
-use super::theme::{metrics, tokens};
 use crate::app::features::stepping::Stepping;
 use crate::app::kit::{CatalogItem, FrameState, Panel, Tab};
+use meshbrush_ui::theme::{metrics, tokens};
 
 /// The sections of the docks that belong to no feature.
 static PANELS: [&Panel; 2] = [&budgets::BUDGETS, &mesh::MESH];

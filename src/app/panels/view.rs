@@ -7,9 +7,9 @@ use eframe::egui::{Response, ThemePreference, Ui};
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::FrameState;
 use crate::app::view::{CanvasAid, FieldOverlay};
-use crate::app::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 use meshbrush_render::colormap::Colormap;
 use meshbrush_render::scene::{Light, ViewDirection};
+use meshbrush_ui::widgets::{NumberRow, choice_rows, segmented, toggle_row};
 
 /// What is shown in place of the colours of levels.
 pub fn overlay_rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

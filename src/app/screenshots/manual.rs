@@ -8,9 +8,9 @@ use glam::dvec2;
 use super::{OffscreenWindow, boundary, look_at, make_folder, point_at, write_picture};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
-use crate::app::theme::metrics::PANEL_WIDTH;
 use crate::app::view::FieldOverlay;
 use meshbrush_render::render::Image;
+use meshbrush_ui::theme::metrics::PANEL_WIDTH;
 
 /// Size of the windows of which a picture shows the most part, in points.
 const WINDOW: Vec2 = vec2(980.0, 640.0);

@@ -122,7 +122,7 @@ fn the_facts_of_a_file_are_its_own_size_and_an_extent_without_idle_digits() {
     let mut window = window();
     new_document(&mut window);
     drop_and_wait(&mut window, &file);
-    let size = crate::app::widgets::format::file_size(netcdf.len() as u64);
+    let size = meshbrush_ui::widgets::format::file_size(netcdf.len() as u64);
     assert_eq!(value_of(&window, Role::Definition, "File size"), size);
     key(&mut window, Modifiers::NONE, Key::Escape);
     let grid =

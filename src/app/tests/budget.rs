@@ -32,7 +32,7 @@ fn shown_and_actual(window: &mut Window, world: DVec2) -> (String, i64) {
 fn as_shown(change: i64) -> String {
     match change {
         0 => "no change".into(),
-        _ => format!("{} triangles", crate::app::widgets::format::change(change)),
+        _ => format!("{} triangles", meshbrush_ui::widgets::format::change(change)),
     }
 }
 

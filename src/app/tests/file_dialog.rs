@@ -13,11 +13,11 @@ use super::{
     window, window_with,
 };
 use crate::app::command::{Command, FileCommand, ShellCommand};
-use crate::app::widgets::format;
 use meshbrush_core::document::Example;
 use meshbrush_io::io::project;
 use meshbrush_mesh::text::LengthUnit;
 use meshbrush_render::render::export::ExportFormat;
+use meshbrush_ui::widgets::format;
 
 /// Returns a folder with files and folders.
 fn folder(name: &str) -> PathBuf {

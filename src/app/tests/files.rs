@@ -45,7 +45,7 @@ fn an_export_counts_the_triangles_of_the_file() {
     let written =
         std::fs::read_to_string(&file).unwrap().lines().filter(|line| line.starts_with("f ")).count();
     assert_ne!(written, window.state().session().mesh().triangle_count(), "nodes are on the coast");
-    let count = crate::app::widgets::format::count(written as u64);
+    let count = meshbrush_ui::widgets::format::count(written as u64);
     assert!(message.starts_with(&format!("{count} triangles written to")), "{written}: {message}");
 }
 

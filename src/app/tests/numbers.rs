@@ -195,7 +195,7 @@ fn the_menu_of_a_number_shows_its_default_and_sets_it() {
     for at in places {
         set(&mut window, Setting::Spacing(0.1));
         let entry = open_number_menu(&mut window, at, "Reset to");
-        assert_eq!(entry, format!("Reset to {}", crate::app::widgets::format::significant(usual, 3)));
+        assert_eq!(entry, format!("Reset to {}", meshbrush_ui::widgets::format::significant(usual, 3)));
         assert_eq!(settings(&window).spacing, 0.1, "a secondary click changes nothing");
         window.get_by_role_and_label(Role::Button, &entry).click();
         window.run();

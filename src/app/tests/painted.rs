@@ -15,12 +15,12 @@ use super::{
 use crate::app::command::{Command, FileCommand, ViewCommand};
 use crate::app::features::paths::PathCommand;
 use crate::app::kit::Tab;
-use crate::app::theme;
-use crate::app::theme::{metrics, tokens_of};
 use crate::app::view::FieldOverlay;
-use crate::app::widgets::*;
 use meshbrush_core::document::{Background, Picture, Setting};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::theme;
+use meshbrush_ui::theme::{metrics, tokens_of};
+use meshbrush_ui::widgets::*;
 
 fn texts(window: &Window) -> Vec<(String, Rect)> {
     painted_texts(window.output())

@@ -10,8 +10,8 @@ use super::{
 };
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::Tab;
-use crate::app::widgets::format;
 use meshbrush_core::document::{Example, Setting, Settings};
+use meshbrush_ui::widgets::format;
 
 const KEEP: &str = "Keep the mesh";
 const APPLY: &str = "Apply anyway";

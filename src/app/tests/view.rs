@@ -136,7 +136,7 @@ fn a_hovered_level_is_shown_alone_and_hiding_the_panels_ends_that() {
     let mut window = window_of(TALL);
     let legend = |window: &Window, level: u32| {
         let count = window.state().session().level_counts()[level as usize];
-        let count = crate::app::widgets::format::count(count as u64);
+        let count = meshbrush_ui::widgets::format::count(count as u64);
         window.get_by_label(&format!("Level {level}: {count} triangles")).rect().center()
     };
     open_tab(&mut window, Tab::Mesh);

@@ -21,10 +21,10 @@ pub use pan::{PAN, move_view};
 pub use pen::{Pen, PenEffect};
 pub use settings::{AnySettings, ToolSettings, first_settings};
 
-use super::widgets::Hint;
 use crate::app::kit::{FrameState, Tool};
 use meshbrush_core::paint::{Brush, Mirror, PathPoint};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::widgets::Hint;
 use settings::SettingsOfTools;
 
 /// How often a tool is used before its hint goes away.

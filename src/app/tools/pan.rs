@@ -6,8 +6,8 @@ use glam::dvec2;
 
 use crate::app::command::{Command, SpaceCommand, ViewCommand};
 use crate::app::kit::{Gesture, Pointer, Press, ToolSpec};
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Moves the view.
 pub static PAN: ToolSpec = ToolSpec {

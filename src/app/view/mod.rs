@@ -15,13 +15,13 @@ use super::dock::Dock;
 use super::kit::Tab;
 use super::presentation::Presentation;
 use super::readout::Quantity;
-use super::widgets::{format, reveal};
 use meshbrush_core::document::Settings;
 use meshbrush_mesh::geometry::{Lattice, Rect};
 use meshbrush_mesh::mesh::{TriangleId, level_for_diameter};
 use meshbrush_render::colormap::{Colormap, Ground, LevelColors};
 use meshbrush_render::render::export::Look;
 use meshbrush_render::scene::{Camera, SpaceCamera, Style};
+use meshbrush_ui::widgets::{format, reveal};
 
 /// The least radius of the brush where the whole domain is in sight, as a share of its longer side.
 const LEAST_BRUSH_SHARE: f64 = 1e-4;

@@ -19,9 +19,9 @@ use crate::app::kit::EditRecorder;
 use crate::app::project::ProjectFile;
 use crate::app::recovery::{self, now};
 use crate::app::session::Session;
-use crate::app::widgets::Answer;
 use meshbrush_io::io::project::{self, Project, ProjectPacking};
 use meshbrush_mesh::mesh::Progress;
+use meshbrush_ui::widgets::Answer;
 
 #[wasm_bindgen(module = "/web/storage.js")]
 extern "C" {

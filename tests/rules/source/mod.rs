@@ -60,13 +60,14 @@ pub struct SourceFile {
 }
 
 /// The folders of source, those of the packages that others depend on first.
-pub const SOURCES: [&str; 7] = [
+pub const SOURCES: [&str; 8] = [
     "crates/mesh/src",
     "crates/core/src",
     "crates/study/src",
     "crates/io/src",
     "crates/render/src",
     "crates/cli/src",
+    "crates/ui/src",
     "src",
 ];
 

@@ -7,9 +7,9 @@ use super::{BoundaryCommand, BoundaryToolMode};
 use crate::app::command::Command;
 use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{FrameState, StripItem, name_field, set_once};
-use crate::app::widgets::{ActionButton, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::BoundaryPieces;
+use meshbrush_ui::widgets::{ActionButton, segmented};
 
 /// What a click does, and what can be done with the selected piece.
 pub static BOUNDARY_OPTIONS: [StripItem; 3] = [

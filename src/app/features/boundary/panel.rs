@@ -6,14 +6,14 @@ use super::{BoundaryCommand, OPEN_IN_POLYGONS};
 use crate::app::command::{Command, FileCommand, ShellCommand};
 use crate::app::features::boundary::BoundaryTool;
 use crate::app::kit::{FrameState, Panel, Tab, remark, set_once};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
-};
 use meshbrush_core::document::Setting;
 use meshbrush_core::domain::{BoundaryPieces, BoundaryType};
 use meshbrush_core::layers::DepthSurface;
 use meshbrush_io::io::settings::SavedOpen;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, TextRow, ValueRow, dropdown_row, format, value_row,
+};
 
 /// The pieces, and what is known of the selected one.
 pub static PIECES: Panel = Panel { name: "boundary", tab: Tab::Domain, place: 2, show };

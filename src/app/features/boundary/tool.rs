@@ -6,11 +6,11 @@ use glam::DVec2;
 use super::{BOUNDARY_OPTIONS, BoundaryCommand};
 use crate::app::command::Command;
 use crate::app::kit::{FrameState, OverMesh, Tab, ToolSpec, marks};
-use crate::app::theme::font;
 use crate::app::tools::{ToolSettings, first_settings};
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::domain::{BoundaryPiece, BoundaryPieces};
+use meshbrush_ui::theme::font;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Names and splits pieces of the boundary.
 pub static BOUNDARY: ToolSpec = ToolSpec {

@@ -8,7 +8,6 @@ use crate::app::background::{Aim, Background, Outcome, name_of};
 use crate::app::command::{Command, Opened, ShellCommand};
 use crate::app::kit::seen_shapes;
 use crate::app::session::Session;
-use crate::app::widgets::format;
 use meshbrush_core::document::{Document, OutlineError, Setting, Settings};
 use meshbrush_core::domain::{BoundaryMarks, BoundaryPieces, DepthContour, OutlineOnEarth};
 use meshbrush_core::earth::{Coordinates, ProjectionChoice};
@@ -19,6 +18,7 @@ use meshbrush_io::io::recipe::{self, OutlineSource};
 use meshbrush_io::io::{self, FileCoordinates, Meter};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 /// The plane in which polygons become a domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

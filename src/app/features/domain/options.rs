@@ -6,7 +6,7 @@ use super::{DomainCommand, DomainToolMode};
 use crate::app::command::Command;
 use crate::app::features::domain::DomainTool;
 use crate::app::kit::{FrameState, StripItem, radius_row};
-use crate::app::widgets::segmented;
+use meshbrush_ui::widgets::segmented;
 
 /// What cuts the domain, whether it adds, and the size of the brush.
 pub static DOMAIN_OPTIONS: [StripItem; 3] = [

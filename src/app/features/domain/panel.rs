@@ -5,15 +5,15 @@ use eframe::egui::{Id, Ui};
 use super::{ADD_OUTLINE, DomainCommand, OPEN_DOMAIN};
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::kit::{FormulaRow, FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
-    value_row,
-};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape};
 use meshbrush_mesh::geometry::Rect;
 use meshbrush_mesh::mesh::{Cleaning, KeptParts};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, SliderRow, ValueRow, dropdown_row, format, segmented, toggle_row,
+    value_row,
+};
 
 /// Share of the area from which parts stay, to start with.
 const USUAL_SHARE: f64 = 0.01;

@@ -10,11 +10,11 @@ use crate::app::kit::{
     press_brush, press_corner,
 };
 use crate::app::tools::{ToolSettings, Tools, first_settings};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::document::DrawnPart;
 use meshbrush_core::domain::{CutShape, corners};
 use meshbrush_mesh::geometry::Rect as WorldRect;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the domain.
 pub static DOMAIN: ToolSpec = ToolSpec {

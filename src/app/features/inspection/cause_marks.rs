@@ -6,10 +6,10 @@ use glam::DVec2;
 
 use crate::app::features::inspection::Inspector;
 use crate::app::kit::{FrameState, OverMesh, marks};
-use crate::app::theme::tokens;
 use meshbrush_core::explain::{Demand, NodeFacts};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle};
+use meshbrush_ui::theme::tokens;
 
 /// Width of the outline of a triangle of the chain, in points.
 const LINK_WIDTH: f32 = 1.0;

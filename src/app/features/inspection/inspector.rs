@@ -7,9 +7,9 @@ use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::features::inspection::InspectCommand;
 use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::theme::tokens;
-use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 use meshbrush_mesh::mesh::{Location, TriangleId};
+use meshbrush_ui::theme::tokens;
+use meshbrush_ui::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, segmented};
 
 /// The queried triangle, its neighbours, and a quantity in it.
 pub static INSPECTOR: Panel = Panel { name: "inspector", tab: Tab::Inspect, place: 0, show };

@@ -8,7 +8,7 @@ use crate::app::command::Command;
 use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
 use crate::app::features::pins::PinsCommand;
 use crate::app::kit::{FrameState, StripItem};
-use crate::app::widgets::ActionButton;
+use meshbrush_ui::widgets::ActionButton;
 
 /// Pins and copies the queried point, and steps in the bisection tree.
 pub static QUERY_OPTIONS: [StripItem; 8] = [

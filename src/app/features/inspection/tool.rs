@@ -7,8 +7,8 @@ use crate::app::command::Command;
 use crate::app::features::inspection::InspectCommand;
 use crate::app::features::pins::PinsCommand;
 use crate::app::kit::{SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, KeyOf, Text};
-use crate::app::widgets::Icon;
+use meshbrush_ui::widgets::Hint::{self, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Queries a point: its triangle, neighbours and values. Moves pins, which have their own commands.
 pub static QUERY: ToolSpec = ToolSpec {

@@ -6,7 +6,7 @@ use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::{InspectCommand, Inspector};
 use crate::app::kit::{FrameState, Panel, Tab, remark};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{Section, format, toggle_row, value_row};
+use meshbrush_ui::widgets::{Section, format, toggle_row, value_row};
 
 /// The walk to the queried point, and how long walks are in this mesh.
 pub static WALK: Panel = Panel { name: "walk", tab: Tab::Method, place: 1, show };

@@ -7,11 +7,13 @@ use super::TreeStep;
 use crate::app::command::{Command, ViewCommand};
 use crate::app::features::inspection::{ExploreCommand, InspectCommand, Inspector};
 use crate::app::kit::{FrameState, Panel, Tab, remark};
-use crate::app::theme::{font, tokens};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row};
 use meshbrush_core::explain::{Explanation, NodeFacts, Words};
 use meshbrush_mesh::mesh::{Mesh, TreeTriangle, bisection_edge_length};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{
+    Chip, Icon, Section, ValueRow, chips, empty_state, format, segmented, toggle_row,
+};
 
 /// The cause of the queried triangle, and its place in the tree.
 pub static WHY: Panel = Panel { name: "why", tab: Tab::Inspect, place: 3, show };

@@ -4,8 +4,8 @@ use eframe::egui::Ui;
 
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
-use crate::app::widgets::{Section, SliderRow, toggle_row};
 use meshbrush_core::document::{Setting, Settings};
+use meshbrush_ui::widgets::{Section, SliderRow, toggle_row};
 
 /// Whether h̄ may change abruptly, or how fast it may change.
 pub static GRADATION: Panel = Panel { name: "gradation", tab: Tab::Size, place: 1, show };

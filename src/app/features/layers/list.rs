@@ -8,9 +8,9 @@ use super::selected::combine_name;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::features::layers::LayerEditor;
 use crate::app::kit::FrameState;
-use crate::app::theme::tokens;
-use crate::app::widgets::{LayerRow, LayerRowAnswer};
 use meshbrush_core::layers::{Layer, LayerId};
+use meshbrush_ui::theme::tokens;
+use meshbrush_ui::widgets::{LayerRow, LayerRowAnswer};
 
 /// Rows that are in sight at least; more scroll.
 const LEAST_ROWS: f32 = 2.5;

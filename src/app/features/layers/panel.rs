@@ -5,8 +5,8 @@ use eframe::egui::{Frame, Margin, Popup, ScrollArea, Ui, UiBuilder, vec2};
 use super::{list, selected};
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{CatalogItem, FrameState, Menu, Panel, Tab, menu_item};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, Section, ToolButton};
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Icon, Section, ToolButton};
 
 /// The stack, from the top, and the parameters of the selected layer.
 pub static LAYERS: Panel = Panel { name: "layers", tab: Tab::Layers, place: 0, show };

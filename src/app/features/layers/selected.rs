@@ -7,8 +7,8 @@ use super::kinds::kind_of;
 use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, remark};
-use crate::app::widgets::{ActionButton, Section, ValueRow, segmented};
 use meshbrush_core::layers::{Combine, Layer, LayerKind};
+use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, segmented};
 
 /// The name of the group of choices.
 const COMBINE: &str = "How the layer combines";

@@ -7,9 +7,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, size_price_row};
 use crate::app::readout::{Quantity, value_at};
-use crate::app::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 use meshbrush_core::document::{Setting, Settings};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_ui::widgets::{CurveField, CurveValues, Section, SliderRow, TransferCurve};
 
 /// The smallest diameter, and the curve from risk to diameter.
 pub static TRANSFER: Panel = Panel { name: "transfer", tab: Tab::Size, place: 0, show };

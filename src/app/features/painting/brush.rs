@@ -7,10 +7,10 @@ use super::BRUSH_OPTIONS;
 use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{CLICK_SLACK, FrameState, Gesture, Pointer, Press, Tab, ToolSpec, marks};
 use crate::app::tools::{BrushMode, PaintKind, Tools};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::document::NoPaintLayer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium};
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Paints risk or target diameters.
 pub static BRUSH: ToolSpec = ToolSpec {

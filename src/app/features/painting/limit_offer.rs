@@ -10,14 +10,14 @@ use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{FrameState, NO_LIMIT, marks::point_from_px};
 use crate::app::session::Session;
 use crate::app::slices::SLICE;
-use crate::app::theme::{font, metrics, tokens};
-use crate::app::widgets::{ActionButton, ButtonKind, format};
 use meshbrush_core::document::{Price, TransferPrice, TransferPricer};
 use meshbrush_core::field::Transfer;
 use meshbrush_core::paint::{Brush, DiameterChange, Medium, Mirror};
 use meshbrush_mesh::geometry::Rect as WorldRect;
 use meshbrush_mesh::mesh::Progress;
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::{font, metrics, tokens};
+use meshbrush_ui::widgets::{ActionButton, ButtonKind, format};
 
 /// Width of the offer, in points.
 const WIDTH: f32 = 312.0;

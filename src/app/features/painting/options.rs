@@ -8,8 +8,8 @@ use super::ERASER;
 use crate::app::command::{BrushCommand, Command};
 use crate::app::kit::{FrameState, StripItem, radius_row};
 use crate::app::tools::{BrushMode, FIRST_HARDNESS, PaintKind, PenEffect};
-use crate::app::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
 use meshbrush_core::field::{RiskToDiameter, Transfer};
+use meshbrush_ui::widgets::{NumberRow, SliderRow, format, segmented, toggle_row, value_row};
 
 /// What the brush paints and how, its size, and how strokes are drawn.
 pub static BRUSH_OPTIONS: [StripItem; 10] = [

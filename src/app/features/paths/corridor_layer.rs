@@ -3,9 +3,9 @@
 use super::{NO_PATH, Paths};
 use crate::app::command::{Command, EditCommand, LayerCommand};
 use crate::app::kit::Ctx;
-use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::Settings;
 use meshbrush_core::layers::{DistanceTo, LayerId, LayerKind, ShapeList, Shapes};
+use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Paths {
     /// Adds a corridor along the paths as they are.

@@ -15,12 +15,12 @@ use super::{
 use crate::app::command::Command;
 use crate::app::kit::{Ctx, Feature, Row, nearest_within};
 use crate::app::notices::Offer;
-use crate::app::widgets::format;
-use crate::app::widgets::shown_keys::with_keys;
 use meshbrush_core::document::{KeepOut, PathCost, PathPlan, Setting};
 use meshbrush_core::field::CostFormula;
 use meshbrush_core::path::Weights;
 use meshbrush_render::render::path_export::PathFormat;
+use meshbrush_ui::widgets::format;
+use meshbrush_ui::widgets::shown_keys::with_keys;
 
 impl Feature for Paths {
     type Command = PathCommand;

@@ -9,8 +9,8 @@ use super::{corridor_marks, keep_out_marks};
 use crate::app::features::paths::Paths;
 use crate::app::kit::marks::{paint_line, paint_line_preview, paint_rimmed_line};
 use crate::app::kit::{FrameState, OverMesh};
-use crate::app::theme::font;
 use meshbrush_core::path::Solution;
+use meshbrush_ui::theme::font;
 
 /// Width of the path that is shown in the panel, in points.
 const SELECTED_WIDTH: f32 = 4.0;

@@ -9,9 +9,9 @@ use super::{AlternativesCommand, PathCommand};
 use crate::app::command::Command;
 use crate::app::features::paths::Paths;
 use crate::app::kit::{FrameState, StripItem, end_gesture_when_released};
-use crate::app::widgets::{ActionButton, SliderRow, toggle_row};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_ui::widgets::{ActionButton, SliderRow, toggle_row};
 
 /// The caution of the paths, and which other paths are shown.
 pub static PATH_OPTIONS: [StripItem; 4] = [

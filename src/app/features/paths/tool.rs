@@ -8,9 +8,9 @@ use super::{PATH_OPTIONS, PathCommand};
 use crate::app::command::Command;
 use crate::app::features::paths::Paths;
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, Tab, ToolSpec};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::document::PathPlan;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the places of paths.
 pub static PATH: ToolSpec = ToolSpec {

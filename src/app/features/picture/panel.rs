@@ -7,9 +7,9 @@ use super::OPEN_PICTURE;
 use crate::app::command::{Command, EditCommand, FileCommand, ViewCommand};
 use crate::app::kit::{FrameState, Panel, Tab, end_gesture_when_released, remark, set_once};
 use crate::app::view::CanvasAid;
-use crate::app::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 use meshbrush_core::document::{Background, Setting};
 use meshbrush_mesh::geometry::Rect;
+use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, SliderRow, toggle_row, value_row};
 
 /// The background picture: opacity and place.
 pub static BACKGROUND: Panel = Panel { name: "background", tab: Tab::Domain, place: 3, show };

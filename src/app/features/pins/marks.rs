@@ -5,12 +5,13 @@ use glam::DVec2;
 
 use super::table::nearest_pin;
 use crate::app::features::pins::Pins;
-use crate::app::kit::marks::{NUMBER_DISC, paint_number};
+use crate::app::kit::marks::paint_number;
 use crate::app::kit::{FrameState, GRIP_POINTS, OverMesh};
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
-use crate::app::theme::font;
-use crate::app::widgets::{format, paint_floating};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::font;
+use meshbrush_ui::widgets::{format, paint_floating};
 
 /// The most pins that are drawn: more would hide the mesh.
 const MOST_DRAWN: usize = 2_000;

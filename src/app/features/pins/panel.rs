@@ -8,8 +8,8 @@ use super::table::PinRow;
 use crate::app::command::{Command, FileCommand};
 use crate::app::features::pins::Pins;
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Section, format};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{Section, format};
 
 /// All pins with their triangles and values; how to pin a point while there are none.
 pub static PINS: Panel = Panel { name: "pins", tab: Tab::Inspect, place: 1, show };

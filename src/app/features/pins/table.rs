@@ -12,8 +12,8 @@ use crate::app::features::pins::PinsCommand;
 use crate::app::kit::nearest_within;
 use crate::app::readout::{Quantity, Readout, TriangleReadout};
 use crate::app::session::Session;
-use crate::app::widgets::format;
 use meshbrush_io::io::{self, Meter};
+use meshbrush_ui::widgets::format;
 
 /// The data that the values of all pins depend on.
 #[derive(Clone, Debug, PartialEq)]

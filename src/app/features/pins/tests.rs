@@ -96,7 +96,7 @@ fn the_table_follows_every_edit() {
             let triangle = readout(window, at).unwrap();
             let row = row(window, number + 1);
             assert_eq!(row.len(), 10, "{row:?}");
-            assert_eq!(row[2], crate::app::widgets::format::count(triangle.id.index() as u64));
+            assert_eq!(row[2], meshbrush_ui::widgets::format::count(triangle.id.index() as u64));
             assert_eq!(row[3], triangle.level.to_string());
             let zeta: f64 = row[4..7].iter().map(|zeta| zeta.parse::<f64>().unwrap()).sum();
             assert!((zeta - 1.0).abs() < 2e-3, "{row:?}");

@@ -6,12 +6,12 @@ use super::files::EXPORT_PLOT;
 use super::{PlotKind, Plots, PlotsCommand};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::widgets::{
-    ActionButton, NumberRow, Section, dropdown_row, format, plot_picker, plot_view, value_row,
-};
 use meshbrush_core::surface::CurvePoint;
 use meshbrush_study::plot::Plot;
 use meshbrush_study::report::Experiment;
+use meshbrush_ui::widgets::{
+    ActionButton, NumberRow, Section, dropdown_row, format, plot_picker, plot_view, value_row,
+};
 
 /// A chosen plot, and what it takes to measure those of time.
 pub static PLOTS: Panel = Panel { name: "plots", tab: Tab::Mesh, place: 3, show };

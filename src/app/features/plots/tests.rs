@@ -13,10 +13,10 @@ use crate::app::tests::{
     FREE, TALL, Window, canvas, choose, folder, key, open_section, send, settings, stroke, triangles,
     wait_for_notice, wait_until, window_of,
 };
-use crate::app::widgets::format;
 use meshbrush_core::build::RefinementCriterion;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_study::levels::Bisections;
+use meshbrush_ui::widgets::format;
 
 /// Returns the note below a plot.
 fn note(window: &Window, plot: &str) -> Option<String> {

@@ -6,7 +6,7 @@ use super::{RegionCommand, RegionShape, RegionTarget};
 use crate::app::command::Command;
 use crate::app::features::regions::RegionTool;
 use crate::app::kit::{FrameState, StripItem, name_field, radius_row};
-use crate::app::widgets::{dropdown_row, segmented};
+use meshbrush_ui::widgets::{dropdown_row, segmented};
 
 /// What is drawn on, with what, whether it adds, and the size of the brush.
 pub static REGION_OPTIONS: [StripItem; 6] = [

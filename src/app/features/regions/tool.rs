@@ -10,9 +10,9 @@ use crate::app::kit::{
     DrawingCommands, FrameState, Gesture, Pointer, Press, ToolSpec, press_brush, press_corner,
 };
 use crate::app::tools::{ToolSettings, Tools, first_settings};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::document::DrawnShape;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Draws regions by hand.
 pub static REGION: ToolSpec = ToolSpec {

@@ -3,8 +3,8 @@
 use crate::app::features::plots::Plots;
 use crate::app::features::stepping::{Stepping, Steps};
 use crate::app::kit::FrameState;
-use crate::app::widgets::format;
 use meshbrush_study::report::{Comparison, Experiment, ReportFigure};
+use meshbrush_ui::widgets::format;
 
 /// Returns the numbers of the report beside those on the screen.
 pub fn comparisons(figure: ReportFigure, state: &FrameState<'_>) -> Vec<Comparison> {

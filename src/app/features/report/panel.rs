@@ -7,9 +7,9 @@ use crate::app::command::Command;
 use crate::app::features::plots::{self, PlotKind, Plots};
 use crate::app::features::report::Report;
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, plot_view, tips};
 use meshbrush_study::report::{ABOUT_EXPONENT, Comparison, ReportFigure};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, plot_view, tips};
 
 /// The figure that is shown.
 pub static FIGURE: Panel = Panel { name: "figure", tab: Tab::Method, place: 0, show: section };

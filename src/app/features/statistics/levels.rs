@@ -5,8 +5,8 @@ use eframe::egui::{Color32, Ui};
 use crate::app::command::{Command, ViewCommand};
 use crate::app::kit::{FrameState, Panel, Tab};
 use crate::app::view::deepest_level;
-use crate::app::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 use meshbrush_render::colormap::LevelColors;
+use meshbrush_ui::widgets::{ActionButton, LevelLegend, LevelRow, Section, format};
 
 /// Height of the legend in points, for any number of levels: the sections below must not move while the
 /// pointer drags the coarse spacing or the smallest diameter.

@@ -7,9 +7,9 @@ use super::Measured;
 use crate::app::command::{Command, ShellCommand, ViewCommand};
 use crate::app::features::statistics::{Statistics, StatisticsCommand};
 use crate::app::kit::{FrameState, Panel, Tab};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Section, ValueRow, format, value_row};
 use meshbrush_mesh::mesh::MeshStatistics;
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Section, ValueRow, format, value_row};
 
 /// Rows of the figures of a mesh in one part.
 const USUAL_ROWS: f32 = 9.0;

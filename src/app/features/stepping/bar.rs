@@ -5,8 +5,8 @@ use eframe::egui::{Align, Layout, Rect, RichText, Sense, Slider, Ui, UiBuilder, 
 use super::steps::SPEEDS;
 use super::{StepCommand, Steps};
 use crate::app::command::Command;
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{Icon, ToolButton, format, segmented, tips};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{Icon, ToolButton, format, segmented, tips};
 
 /// Height of the bar, in points.
 pub const HEIGHT: f32 = 52.0;

@@ -9,10 +9,10 @@ use super::{StepCommand, code, panel_export, rows};
 use crate::app::command::Command;
 use crate::app::features::stepping::Stepping;
 use crate::app::kit::{FrameState, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 use meshbrush_mesh::mesh::bisection_edge_length;
 use meshbrush_study::steps::{NeighbourCase, Step, StepAction, StepPlayer, StepStage};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{ActionButton, Section, ValueRow, format, tips, toggle_row};
 
 /// Width of the panel, in points: a line of pseudo-code fits.
 pub const WIDTH: f32 = 488.0;

@@ -7,7 +7,7 @@ use super::files::EXPORT_STEPS;
 use super::{StepCommand, Steps};
 use crate::app::command::{Command, FileCommand};
 use crate::app::kit::remark;
-use crate::app::widgets::{ActionButton, NumberRow, Section, tips};
+use meshbrush_ui::widgets::{ActionButton, NumberRow, Section, tips};
 
 const NAME: &str = "Export steps as SVG…";
 

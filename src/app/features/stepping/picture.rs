@@ -9,12 +9,13 @@ use glam::DVec2;
 use super::Steps;
 use super::letters::{Letter, PlacedLetters};
 use crate::app::features::stepping::Stepping;
-use crate::app::kit::marks::{NUMBER_DISC, point_from_px};
+use crate::app::kit::marks::point_from_px;
 use crate::app::kit::{FrameState, marks};
-use crate::app::theme::{font, tokens};
 use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_render::colormap::{Ground, LevelColors};
 use meshbrush_render::scene::Camera;
+use meshbrush_ui::theme::NUMBER_DISC;
+use meshbrush_ui::theme::{font, tokens};
 
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Marked, NamedPlace, StepPart, StepPlayer, StepTriangle};

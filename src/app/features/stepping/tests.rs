@@ -17,7 +17,6 @@ use crate::app::tests::{
     CTRL_SHIFT, FREE, Window, canvas, click, entries, fingerprint, key, notice, on_screen, painted_shapes,
     painted_texts, send, set, settings, triangles, wait_until, window, window_of,
 };
-use crate::app::theme::tokens_of;
 use crate::app::tools::PAN;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_core::outline::DerivationAction;
@@ -25,6 +24,7 @@ use meshbrush_mesh::geometry::LatticePoint;
 use meshbrush_mesh::mesh::{NodeId, fingerprint_of};
 use meshbrush_study::report::ReportFigure;
 use meshbrush_study::steps::{Algorithm, StepAction, StepPlayer};
+use meshbrush_ui::theme::tokens_of;
 
 fn player(window: &Window) -> &StepPlayer {
     window.state().stepping().expect("the mode is on").player().expect("the steps are recorded")
@@ -84,7 +84,7 @@ fn arrows_go_from_step_to_step_and_the_panel_says_what_happens() {
         let step = *shown.step().unwrap();
         let count = shown.len();
         assert!(window.query_by_label(&step.sentence()).is_some());
-        let of = crate::app::widgets::format::count(count as u64);
+        let of = meshbrush_ui::widgets::format::count(count as u64);
         assert!(window.query_by_label(&format!("Step {position} of {of}")).is_some());
         let (algorithm, lines) = step.lines();
         let line = lines.start;

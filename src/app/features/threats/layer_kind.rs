@@ -7,8 +7,8 @@ use super::{OPEN_THREATS, SAVE_THREATS, THREATS, ThreatsCommand};
 use crate::app::command::{Command, EditCommand, FileCommand};
 use crate::app::features::threats::ThreatEditor;
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, button_rows};
-use crate::app::widgets::{Icon, NumberRow, ValueRow, format};
 use meshbrush_core::layers::{Layer, LayerKind, Threats};
+use meshbrush_ui::widgets::{Icon, NumberRow, ValueRow, format};
 
 /// Places with a risk around them.
 pub static THREATS_KIND: LayerKindRow = LayerKindRow {

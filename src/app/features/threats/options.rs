@@ -6,8 +6,8 @@ use super::threats_layer;
 use crate::app::command::{Command, EditCommand, ShellCommand};
 use crate::app::features::threats::ThreatEditor;
 use crate::app::kit::{FrameState, StripItem, end_gesture_when_released, set_kind};
-use crate::app::widgets::{SliderRow, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Threat, ThreatLaw, Threats};
+use meshbrush_ui::widgets::{SliderRow, segmented};
 
 /// The range, the peak and the law of the selected threat.
 pub static THREAT_OPTIONS: [StripItem; 3] = [

@@ -8,9 +8,9 @@ use super::{ThreatGrip, threats_layer};
 use crate::app::command::Command;
 use crate::app::features::threats::{ThreatEditor, ThreatsCommand};
 use crate::app::kit::{FrameState, OverMesh, SettingsDrag, ToolSpec, nearest_within};
-use crate::app::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
-use crate::app::widgets::Icon;
 use meshbrush_core::layers::Threat;
+use meshbrush_ui::widgets::Hint::{self, Key as HintKey, KeyOf, Text};
+use meshbrush_ui::widgets::Icon;
 
 /// Edits the threats of the selected layer.
 pub static THREATS: ToolSpec = ToolSpec {

@@ -86,7 +86,7 @@ fn the_inspector_counts_as_files_do() {
         follower.mesh().locate(dvec2(25.25, 38.1)).triangle().is_some_and(|raw| raw != id),
         "land comes first"
     );
-    let shown = |number: usize| crate::app::widgets::format::count(number as u64);
+    let shown = |number: usize| meshbrush_ui::widgets::format::count(number as u64);
     window.get_by_role_and_label(Role::Button, &format!("Triangle {}", shown(id.index())));
     for (node, subscript) in extract.cell(id).corners.into_iter().zip(["₁", "₂", "₃"]) {
         let row = value_of(&window, Role::Definition, &format!("v{subscript} · {}", shown(node)));

@@ -7,12 +7,12 @@ use crate::app::command::{Command, FileCommand};
 use crate::app::features::domain::DomainCommand;
 use crate::app::features::layers::{OPEN_DEPTH, way_to_metres};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, remark, set_kind_once};
-use crate::app::widgets::{
-    ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
-};
 use meshbrush_core::domain::DepthContour;
 use meshbrush_core::layers::{DepthRule, DepthSizes, Layer, LayerKind, PositiveDepth, wavelength};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::{
+    ActionButton, Icon, NumberRow, ValueRow, choice_rows, format, segmented, toggle_row,
+};
 
 /// Depths of water.
 pub static DEPTH: LayerKindRow = LayerKindRow {

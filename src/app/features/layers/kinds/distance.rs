@@ -6,10 +6,10 @@ use crate::app::command::{Command, FileCommand, LayerCommand};
 use crate::app::features::layers::{OPEN_SHAPES, REPLACE_SHAPES};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer, range_rows, remark, set_kind_once};
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 use meshbrush_core::document::Settings;
 use meshbrush_core::domain::{BoundaryType, PieceChoice};
 use meshbrush_core::layers::{DistanceTo, Layer, LayerKind};
+use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, toggle_row, toggle_row_with_help};
 
 /// The distance to shapes or to the outline of the domain.
 pub static DISTANCE: LayerKindRow = LayerKindRow {

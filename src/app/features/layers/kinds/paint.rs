@@ -5,9 +5,9 @@ use eframe::egui::Ui;
 use super::quantity_name;
 use crate::app::command::{Command, LayerCommand};
 use crate::app::kit::{Addition, FrameState, LayerKindRow, add_layer};
-use crate::app::widgets::{ActionButton, Icon, ValueRow};
 use meshbrush_core::layers::{Layer, LayerKind, Quantity};
 use meshbrush_mesh::text::Bytes;
+use meshbrush_ui::widgets::{ActionButton, Icon, ValueRow};
 
 /// Painted risk and painted diameters.
 pub static PAINT: LayerKindRow = LayerKindRow {

@@ -10,11 +10,11 @@ use crate::app::features::layers::{OPEN_DIAMETERS, OPEN_RISK, OPEN_VALUES};
 use crate::app::kit::{
     Addition, FrameState, LayerKindRow, end_gesture_when_released, set_kind, set_kind_once, size_price_row,
 };
-use crate::app::widgets::{Icon, ValueRow, format, segmented};
 use meshbrush_core::document::Setting;
 use meshbrush_core::field::Transfer;
 use meshbrush_core::layers::{Layer, LayerKind, RasterReading, RasterSource, ValueCurve};
 use meshbrush_core::raster::check_values;
+use meshbrush_ui::widgets::{Icon, ValueRow, format, segmented};
 
 /// A picture or a grid.
 pub static RASTER: LayerKindRow = LayerKindRow {

@@ -10,9 +10,9 @@ use crate::app::kit::{
     Addition, FormulaRow, FrameState, LayerKindRow, add_layer, end_gesture_when_released, remark, set_kind,
     set_kind_once,
 };
-use crate::app::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 use meshbrush_core::layers::{Layer, LayerKind, Surface, SurfaceGoal, SurfaceNorm, SurfaceSource};
 use meshbrush_mesh::text::round_below;
+use meshbrush_ui::widgets::{ActionButton, Icon, NumberRow, ValueRow, format, segmented};
 
 /// A raster or a formula as a surface.
 pub static SURFACE: LayerKindRow = LayerKindRow {

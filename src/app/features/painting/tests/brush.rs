@@ -12,9 +12,9 @@ use crate::app::tests::{
     painted, press, price_tag, release, send, settings, stroke, triangles, value_of, window, with_base,
 };
 use crate::app::tools::{BrushMode, PaintKind, PenEffect};
-use crate::app::widgets::format;
 use meshbrush_core::field::RiskToDiameter as _;
 use meshbrush_core::layers::LayerKind;
+use meshbrush_ui::widgets::format;
 
 fn risk_at(window: &Window, point: DVec2) -> f32 {
     painted(window, PAINTED_RISK, point)
@@ -173,7 +173,7 @@ fn shift_shows_the_price_of_the_line_before_it_is_painted() {
     let before = triangles(&window) as i64;
     click(&mut window, end, Modifiers::SHIFT);
     let change = triangles(&window) as i64 - before;
-    assert_eq!(tag, format!("+{} triangles", crate::app::widgets::format::count(change as u64)));
+    assert_eq!(tag, format!("+{} triangles", meshbrush_ui::widgets::format::count(change as u64)));
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn a_mirrored_stroke_is_one_gesture_and_its_price_is_that_of_all_images() {
     let tag = hover(&mut window, at).unwrap();
     stroke(&mut window, at, at);
     let change = triangles(&window) - before;
-    assert_eq!(tag, format!("+{} triangles", crate::app::widgets::format::count(change as u64)));
+    assert_eq!(tag, format!("+{} triangles", meshbrush_ui::widgets::format::count(change as u64)));
     for image in [dvec2(0.8, 0.3), dvec2(0.2, 0.7), dvec2(0.8, 0.7)] {
         assert_eq!(risk_at(&window, image), risk_at(&window, at));
     }

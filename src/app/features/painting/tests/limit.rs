@@ -11,7 +11,7 @@ use crate::app::tests::{
     settings, stroke, triangles, type_into, value_of, window,
 };
 use crate::app::tools::PaintKind;
-use crate::app::widgets::format;
+use meshbrush_ui::widgets::format;
 
 const LOWER: &str = "Lower the smallest diameter";
 const LOWER_BOTH: &str = "Lower it and the risk curve";

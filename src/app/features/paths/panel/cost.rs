@@ -5,9 +5,9 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{CostKind, PathCommand};
 use crate::app::kit::{FormulaRow, FrameState, end_gesture_when_released};
-use crate::app::widgets::{NumberRow, segmented};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::Weights;
+use meshbrush_ui::widgets::{NumberRow, segmented};
 
 /// The largest weight.
 pub const MOST_WEIGHT: f64 = 1e6;

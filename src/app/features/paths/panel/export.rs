@@ -5,7 +5,7 @@ use eframe::egui::Ui;
 use crate::app::command::{Command, FileCommand};
 use crate::app::features::paths::{EXPORT_PATH, PathCommand, Paths};
 use crate::app::kit::{FrameState, button_rows};
-use crate::app::widgets::NumberRow;
+use meshbrush_ui::widgets::NumberRow;
 
 /// The tolerance of the points, and the button.
 pub fn rows(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

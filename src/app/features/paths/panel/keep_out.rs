@@ -6,8 +6,8 @@ use crate::app::command::{Command, FileCommand};
 use crate::app::features::paths::{KeepOutCommand, OPEN_KEEP_OUT, PathCommand};
 use crate::app::features::regions::{RegionCommand, RegionTarget};
 use crate::app::kit::{FrameState, area_text, button_rows, end_gesture_when_released};
-use crate::app::theme::metrics;
-use crate::app::widgets::{Icon, NumberRow, ToolButton, ValueRow};
+use meshbrush_ui::theme::metrics;
+use meshbrush_ui::widgets::{Icon, NumberRow, ToolButton, ValueRow};
 
 /// How far paths stay from the outline and from the regions.
 pub fn clearance_row(ui: &mut Ui, state: &FrameState<'_>, commands: &mut Vec<Command>) {

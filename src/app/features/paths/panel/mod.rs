@@ -10,14 +10,14 @@ use eframe::egui::{RichText, Ui};
 use crate::app::command::{Command, EditCommand};
 use crate::app::features::paths::{FoundPath, PathCommand, Paths, ShownPath};
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::theme::{font, tokens};
-use crate::app::widgets::{
-    Icon, NumberRow, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view,
-};
 use meshbrush_core::document::PathPlan;
 use meshbrush_core::earth::{Speed, hours_and_minutes};
 use meshbrush_mesh::text::{LengthUnit, percent_above};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::theme::{font, tokens};
+use meshbrush_ui::widgets::{
+    Icon, NumberRow, Section, TextRow, ValueRow, dropdown_row, empty_state, format, plot_view,
+};
 
 pub use cost::MOST_WEIGHT;
 pub use others::OTHER_PATHS;

@@ -8,12 +8,12 @@ use crate::app::features::paths::{
     AlternativesCommand, FRONT_PATHS, FoundPath, FrontCommand, MOST_ALTERNATIVES, PathCommand, Paths,
 };
 use crate::app::kit::{FrameState, Panel, Tab, button_rows, remark};
-use crate::app::widgets::{
-    ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
-};
 use meshbrush_core::document::PathCost;
 use meshbrush_core::path::{FrontPoint, Solution};
 use meshbrush_study::plot::{Axis, Mark, Plot, Scale, Series};
+use meshbrush_ui::widgets::{
+    ActionButton, Section, SliderRow, ValueRow, format, plot_picker, toggle_row, value_row,
+};
 
 /// The panel of other paths, shown as long as there is a path.
 pub static OTHER_PATHS: Panel = Panel { name: "other paths", tab: Tab::Paths, place: 1, show };

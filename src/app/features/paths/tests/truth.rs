@@ -13,12 +13,12 @@ use crate::app::tests::tips::unexplained;
 use crate::app::tests::{
     click, click_button, entries, move_to, notice, press, release, send, set, settings, type_into, wait_until,
 };
-use crate::app::widgets::format;
 use meshbrush_core::document::{PathCost, Setting};
 use meshbrush_core::domain::{BoundaryTreatment, Domain, DomainShape, Region};
 use meshbrush_core::path::{Solution, Weights};
 use meshbrush_mesh::geometry::{Rect, nearest_on_segment};
 use meshbrush_mesh::text::LengthUnit;
+use meshbrush_ui::widgets::format;
 
 fn says(window: &Window, text: &str) -> bool {
     window.query_by_label_contains(text).is_some()

@@ -11,9 +11,9 @@ use crate::app::tests::{
     FREE, TALL, Window, fingerprint, notice, open_section, press, release, send, set, stroke, triangles,
     value_of, wait_for_jobs, wait_until, window_of,
 };
-use crate::app::widgets::format;
 use meshbrush_core::document::{Example, Setting};
 use meshbrush_mesh::mesh::Mesh;
+use meshbrush_ui::widgets::format;
 
 /// Returns the shortest and the longest edge, by looking at each triangle.
 fn edge_range(mesh: &Mesh) -> [f64; 2] {
